@@ -240,7 +240,8 @@ def test_the_marker_may_be_written_in_any_plain_way(bench: Bench, written: str) 
     [
         ("[develop]", "[devlop]", "wrong", None, "there is 'devlop'"),
         ("[install]\ninstall_scripts=$base/lib/my_robot_controller\n", "", "wrong", None, "[ins"),
-        ("script_dir=", "script_dirs=", "wrong", 1, "there is 'script_dirs'"),
+        ("script_dir=", "script_dirs=", "wrong", 2, "there is 'script_dirs'"),
+        ("install_scripts=", "install_script = ", "wrong", 4, "there is 'install_script'"),
         ("install_scripts=$base/lib/my", "install_scripts=$base/lib/your", "wrong", 4, "your"),
         ("install_scripts=$base/lib", "install_scripts=base/lib", "wrong", 4, "base/lib"),
         ("[develop]", "develop", "syntax", 1, "before the first"),

@@ -544,6 +544,13 @@ KINDS = (
                 "Each line of data_files is a folder and a list of files. Write: {wanted}, then "
                 "build again."
             ),
+            "option": msg(
+                "Delete {name} below [{section}] in setup.cfg: setuptools does not know it there. "
+                "Then build again."
+            ),
+            "option_close": msg(
+                "Write {wanted} instead of {name} below [{section}] in setup.cfg, then build again."
+            ),
         },
         fixed_by=(setup_py.fault,),
         examples=(

@@ -260,7 +260,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "statement": "from setuptools import find_packages",
     },
     "build.setup_error": {"wanted": "packages=find_packages()", "close": "package_name"},
-    "build.failed": {"name": "launch/my_node.launch.py", "wanted": "('share', ['package.xml'])"},
+    "build.failed": {
+        "name": "launch/my_node.launch.py",
+        "wanted": "('share', ['package.xml'])",
+        "section": "install",
+    },
     "package.marker_missing": {"close": "resources", "there": "my_package/resource"},
     "node.for_ros_1": {"name": "loginfo", "written": "self.get_logger().info(…)"},
     "node.own_module_missing": {

@@ -785,6 +785,7 @@ KINDS = (
                 "and below [install] install_scripts={wanted}. Then build again."
             ),
             "key": msg("Write below [{section}]: {key}={wanted}, then build again."),
+            "misspelt": msg("Write {key} instead of {close} in this line, then build again."),
             "heading": msg("Write [{section}] instead of [{close}], then build again."),
             "section": msg(
                 "Add two lines: [{section}] and below it {key}={wanted}. Then build again."
@@ -809,6 +810,13 @@ KINDS = (
                 ),
                 fails="package.setup_cfg",
                 blocks=UNINSTALLED,
+            ),
+            example(
+                "setup_cfg_key_misspelt",
+                Replace(CFG, "install_scripts", "install_script"),
+                fails="package.setup_cfg",
+                also={"build.colcon": "build.failed"},
+                note="setuptools refuses the key, so the build fails too",
             ),
             example(
                 "setup_cfg_other_package",

@@ -99,7 +99,7 @@ def diagnose(failed: Failed, evidence: Evidence) -> Diagnosis:
 
 def _following(diagnosis: Diagnosis, evidence: Evidence) -> Diagnosis:
     """Leave reason and fix to an earlier check, if its mistake is the cause of this one."""
-    cause = followed(diagnosis.mistakes[0].id, evidence)
+    cause = followed(diagnosis.mistakes[0].id, diagnosis.where, evidence)
     if cause:
         diagnosis.consequence_of, diagnosis.rationale = cause, ""
         diagnosis.fix = say("This follows from {check}. Fix {check} first.", check=cause)

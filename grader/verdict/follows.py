@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from grader.report.model import CheckResult
+from grader.report.model import CheckResult, Where
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
@@ -48,11 +48,13 @@ def _without(result: CheckResult, part: str) -> CheckResult:
     return result.model_copy(update={"advice": kept})
 
 
-def followed(mistake: str, evidence: Evidence) -> str:
+def followed(mistake: str, where: Where | None, evidence: Evidence) -> str:
     """Return the earlier visible check whose mistake is the cause of this one; "" if none is."""
+    refused = mistake == "build.failed" and where is not None and where.line is not None
     for check, result in evidence.results.items():
         known = result.mistakes[0].id if result.mistakes else ""
         visible = result.status == "failed" and result.visibility == "visible"
-        if visible and mistake in FOLLOWS.get(known, ()):
+        same = refused and known == "package.setup_cfg_wrong" and result.where == where
+        if visible and (same or mistake in FOLLOWS.get(known, ())):
             return check
     return ""

@@ -27,6 +27,7 @@ BY_NAME = {package.name: package for package in BROKEN}
         ("cmake_package_with_node", "package.setup_cfg", "package.manifest"),
         ("cmake_package", "entry_point.mapping", "package.manifest"),
         ("node_empty", "source.shebang", "source.node_file"),
+        ("setup_cfg_key_misspelt", "build.colcon", "package.setup_cfg"),
     ],
 )
 def test_the_check_with_the_cause_is_named(
@@ -37,6 +38,18 @@ def test_the_check_with_the_cause_is_named(
     assert result.fix == f"This follows from {cause}. Fix {cause} first."
     assert result.patch == ""
     assert result.rationale == ""  # (that of the cause says it)
+
+
+def test_the_build_that_a_key_of_setup_cfg_stops_has_its_line(tmp_path: Path) -> None:
+    report = mark(write(BY_NAME["setup_cfg_key_misspelt"], tmp_path))
+    (cause, build) = (report.check(c) for c in ("package.setup_cfg", "build.colcon"))
+    assert cause.fix == (
+        "Write install_scripts instead of install_script in this line, then build again."
+    )
+    assert cause.where == build.where
+    lines = (tmp_path / "setup_cfg_key_misspelt" / "setup.cfg").read_text().splitlines()
+    assert cause.where is not None
+    assert lines[(cause.where.line or 0) - 1].startswith("install_script=")
 
 
 def test_two_mistakes_of_their_own_have_two_fixes(tmp_path: Path) -> None:

@@ -8,13 +8,16 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
+from grader.base.nearest import nearest
 from grader.base.shown import shown
+from grader.mistakes.fixes.setup_cfg import KEYS
 from grader.mistakes.slips import description, words_of
 from grader.package.intake.choose import IGNORE
 from grader.package.source.module import parse_module
 from grader.package.source.names import dotted
 from grader.package.source.pasted import labels_in
 from grader.package.source.python import PythonFault
+from grader.package.source.setup_cfg import SetupCfgFault, read_setup_cfg
 from grader.package.source.setup_faults import UNREAD, SetupFault, setup_fault
 from grader.package.source.setup_packages import packages_of
 from grader.package.source.setup_py import called_value, entry_outside, missing_imports
@@ -37,6 +40,9 @@ NOT_CALLABLE = re.compile(r"TypeError: '(?:tuple|list|str)' object is not callab
 NO_COPY = re.compile(r"error: can't copy '[^'\n]{1,300}': doesn't exist")
 FLAT = "discovered in a flat-layout"  # setuptools, if setup() has no packages
 NO_FOLDER = re.compile(r"package directory '([^'\n]{1,200})' does not exist")
+NO_OPTION = re.compile(
+    r"error in setup\.cfg: command '([\w-]{1,40})' has no such option '([\w-]{1,60})'"
+)
 NEVER_CALLED = "was never called"
 ANSWER = 'File "<unknown>", line '  # colcon evaluates setup.py's output, which has no file name
 
@@ -179,6 +185,9 @@ def _broken(evidence: Evidence) -> Failed:
             where=Where(file=f"{stop.package}/{CMAKE}", line=stop.line),
             params={"line": stop.line},
         )
+    option = NO_OPTION.search(build.log)
+    if option is not None:
+        return _unknown_option(evidence, expected, option)
     ended = say("colcon ended with status {status}", status=str(build.status))
     copy = NO_COPY.search(build.log)
     fault = _fault(evidence, copy[0]) if copy is not None else None
@@ -197,6 +206,27 @@ def _broken(evidence: Evidence) -> Failed:
         expected=expected,
         actual=_summary(build.log) or ended,
         params={"status": -1 if build.status is None else build.status},
+    )
+
+
+def _unknown_option(evidence: Evidence, expected: str, found: re.Match[str]) -> Failed:
+    """Return that setuptools refuses a key of setup.cfg."""
+    section, name = found.groups()
+    file = evidence.submission.file("setup.cfg")
+    try:
+        settings = read_setup_cfg(file.data if file else b"").sections.get(section, {})
+    except SetupCfgFault:
+        settings = {}
+    written = next((key for key in settings if key.replace("-", "_") == name), "")
+    close = nearest(name, KEYS.values(), cutoff=0.75)
+    return Failed(
+        "build.failed",
+        expected=expected,
+        actual=found[0],
+        where=Where(file="setup.cfg", line=settings[written].line if written else None),
+        variant="option_close" if close else "option",
+        params={"error": found[0]},
+        words={"name": written or name, "section": section, "wanted": close},
     )
 
 

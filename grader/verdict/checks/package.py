@@ -281,6 +281,10 @@ def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) 
         actual = with_difference(said, setting.value, wanted)
     elif section in cfg.sections:
         variant, close = "key", nearest(key, settings)
+        if close:  # (the misspelt key)
+            line = settings[close].line
+            right = settings[close].value.rstrip("/") == wanted
+            variant = "misspelt" if right else "key"
         said = say("[{section}] has no {key}", section=section, key=key) + there_is(close)
         actual = with_difference(said, close, key)
     else:
