@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -23,6 +24,10 @@ VALUES_KEY = say("* as wanted, x not as wanted, - wanted; below, | is a due inst
 INSTANTS_KEY = say("* a message; below, | is a due instant")
 PATH_KEY = say("* driven from S to E, . wanted")
 CLOCKS = {"virtual": say("virtual clock"), "wall": say("wall clock"), None: ""}
+COMMAND = re.compile(r"(?<![\w./-])(?:mv|chmod) \S")
+"""A command in the text of a fix."""
+RENAMES = ("diff --git ", "similarity index ", "rename ", "old mode ", "new mode ")
+"""What the lines of a diff begin with that changes only names and modes."""
 
 
 def report_page(
@@ -229,17 +234,32 @@ def _details(
 
 
 def _next(check: CheckResult, *, own_code: bool) -> str:
-    name = one_line(check.id, most=60)
+    name, edited = one_line(check.id, most=60), not _is_done_by_command(check)
     if check.where is None:
-        if own_code:
+        if own_code and edited:
             return say("Fix {check}, save, and run check again.", check=name)
-        return say("Fix {check}, save, and grade again.", check=name)
+        if own_code:
+            return say("Fix {check}, then run check again.", check=name)
+        if edited:
+            return say("Fix {check}, save, and grade again.", check=name)
+        return say("Fix {check}, then grade again.", check=name)
     place: str = one_line(check.where.file, most=100)
     if check.where.line is not None:
         place = say("{file}, line {line}", file=place, line=check.where.line)
-    if own_code:
+    if own_code and edited:
         return say("Fix {check} (in {place}), save, and run check again.", check=name, place=place)
-    return say("Fix {check} (in {place}), save, and grade again.", check=name, place=place)
+    if own_code:
+        return say("Fix {check} ({place}), then run check again.", check=name, place=place)
+    if edited:
+        return say("Fix {check} (in {place}), save, and grade again.", check=name, place=place)
+    return say("Fix {check} ({place}), then grade again.", check=name, place=place)
+
+
+def _is_done_by_command(check: CheckResult) -> bool:
+    """Whether the fix edits no file, so there is nothing to save: it renames, moves or sets a mode."""
+    if check.patch.strip():
+        return all(line.startswith(RENAMES) for line in check.patch.splitlines() if line)
+    return bool(COMMAND.search(check.fix))
 
 
 def _foot(

@@ -202,6 +202,27 @@ def test_next_is_the_failure_that_stops_the_most() -> None:
     assert "next Fix run.output, save" in page
 
 
+RENAMED = "diff --git a/a.txt b/a\nsimilarity index 100%\nrename from a.txt\nrename to a\n"
+MODE = "diff --git a/n.py b/n.py\nold mode 100644\nnew mode 100755\n"
+EDITED = f"{RENAMED}--- a/a.txt\n+++ b/a\n@@ -1 +1 @@\n-x\n+y\n"
+
+
+@pytest.mark.parametrize(
+    ("fields", "said"),
+    [
+        ({"patch": RENAMED}, "(n.py), then grade again."),
+        ({"patch": MODE, "fix": "Run: chmod +x n.py"}, "(n.py), then grade again."),
+        ({"fix": "Rename it. In the package's folder, run: mv a b"}, "(n.py), then grade again."),
+        ({"patch": EDITED}, "(in n.py), save, and grade again."),
+        ({"fix": "Write my_mv instead"}, "(in n.py), save, and grade again."),
+    ],
+)
+def test_next_asks_to_save_only_after_an_edit(fields: dict[str, str], said: str) -> None:
+    where = {"file": "n.py", "line": None}
+    found = check("source.node_file", "failed", where=where, **fields)
+    assert f"next Fix source.node_file {said}" in words(render_report(report(found)))
+
+
 def test_a_student_is_told_to_check_again_and_not_to_grade() -> None:
     end = words(render_report(failing_report(), own_code=True))
     assert "next Fix entry_point.mapping (in setup.py, line 23), save, and run check again." in end
