@@ -198,6 +198,17 @@ def test_a_missing_marker_is_reported(bench: Bench) -> None:
     assert "is a folder" in bench.fails(package.marker).actual
 
 
+@pytest.mark.parametrize("there", [f"{MARKER}.txt", f"resources/{NAME}"])
+def test_the_place_of_a_marker_of_another_name_is_the_file_that_is_there(
+    bench: Bench, there: str
+) -> None:
+    (bench.root / there).parent.mkdir(exist_ok=True)
+    (bench.root / MARKER).rename(bench.root / there)
+    failed = bench.fails(package.marker)
+    assert failed.where is not None
+    assert failed.where.file == there
+
+
 def test_a_marker_that_setup_py_does_not_install_is_reported(bench: Bench) -> None:
     bench.change("setup.py", "            ['resource/' + package_name]),", "            []),")
     failed = bench.fails(package.marker)
@@ -306,6 +317,8 @@ def test_a_file_in_the_inner_folder_is_to_be_moved_out(
     failed = bench.fails(check)
     assert mistake(failed) == wanted
     assert f"mv {NAME}/{command} ." in failed.fix
+    assert failed.where is not None
+    assert (bench.root / failed.where.file).is_file()
     assert not bench.evidence().submission.hints
 
 

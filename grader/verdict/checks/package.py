@@ -116,22 +116,19 @@ def _no_marker(evidence: Evidence, path: str) -> Failed:
     package = evidence.assignment.package
     others = [name for name in names_in(evidence, "resource") if name != package]
     variant, actual = "", say("there is no file {path}", path=path)
+    there = path
     lone = [n for n in others if "." not in n] if len(others) == 1 else []
     close = nearest(package, others) or "".join(lone)
     if evidence.submission.file(path) is not None:
         variant, actual = "folder", say("{path} is a folder", path=path)
     elif inner := _inner_resource(evidence, path):
-        variant, close = "inner", inner
-        actual = say(
-            "there is no {path}, but {there}", path=path, there=f"{shown(inner)}/{package}"
-        )
+        variant, close, there = "inner", inner, f"{shown(inner)}/{package}"
+        actual = say("there is no {path}, but {there}", path=path, there=there)
     elif folder := _folder_of_marker(evidence, path):
-        variant, close = "moved", folder
-        actual = say(
-            "there is no {path}, but {there}", path=path, there=f"{shown(folder)}/{package}"
-        )
+        variant, close, there = "moved", folder, f"{shown(folder)}/{package}"
+        actual = say("there is no {path}, but {there}", path=path, there=there)
     elif close:
-        variant = "rename"
+        variant, there = "rename", f"resource/{shown(close)}"
         said = say("there is no {path}, but resource/{close}", path=path, close=shown(close))
         actual = with_difference(said, close, package)
     return Failed(
@@ -141,7 +138,7 @@ def _no_marker(evidence: Evidence, path: str) -> Failed:
         variant=variant,
         params={"folder": close} if variant in ("moved", "inner") else {},
         words={"package": package, "close": shown(close), "there": shlex.quote(shown(close))},
-        where=Where(file=path),
+        where=Where(file=there),
     )
 
 
