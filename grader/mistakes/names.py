@@ -32,6 +32,8 @@ ATTRIBUTE = (
     r"attribute '(?P<name>\w{1,120})'"
 )
 
+MISSPELT = 0.85  # how like two names are of which one is the other with a typing mistake
+
 OF_ROS = ("spin", "spin_once", *NODE_METHODS)
 """Calls of ROS: an error that comes from inside of them is not about their own brackets."""
 
@@ -116,14 +118,20 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         found = raised.finding("name_unknown", name=name, written=period)
         return replace(found, variant="period")
     if (own := _class_for(raised, name)) is not None:
-        return raised.finding("name_unknown", name=name, close=own)
+        return _instead(raised.finding("name_unknown", name=name, close=own))
     close = nearest(name, _known(raised, name) - {name}, 0.7)
     if isinstance(statement, ast.ClassDef) and close:
-        return raised.finding("name_unknown", name=name, close=close, written=close)
+        return _instead(raised.finding("name_unknown", name=name, close=close, written=close))
     variables = raised.source.node_variables
     if name in spun_names(raised.source) and len(variables) == 1 and name not in variables:
-        return raised.finding("name_unknown", name=name, close=min(variables))
-    return raised.finding("name_unknown", name=name, close=close)
+        return _instead(raised.finding("name_unknown", name=name, close=min(variables)))
+    found = raised.finding("name_unknown", name=name, close=close)
+    return _instead(found) if close and nearest(name, [close], cutoff=MISSPELT) else found
+
+
+def _instead(found: RecognisedMistake) -> RecognisedMistake:
+    """Ask for the other name alone: it is certain that nothing else was meant."""
+    return replace(found, variant="instead")
 
 
 def _class_for(raised: Raised, name: str) -> str | None:
@@ -422,6 +430,7 @@ KINDS = (
                 "nothing defines."
             ),
             "period": msg("Write the period in seconds instead of {name}: {written}"),
+            "instead": msg("Write {close} instead of {name}."),
         },
         seen=r"NameError: name '(?P<name>\w{1,120})' is not defined",
         raised={NAME_ERROR: _undefined},

@@ -226,6 +226,7 @@ def test_an_exception_is_classified_and_the_right_name_suggested(
          "Compare the name with the module's documentation."),
         ("NameError: name 'Hallo' is not defined",
          "Write Hello instead of Hallo, or define Hallo first."),
+        ("NameError: name 'Helllo' is not defined", "Write Hello instead of Helllo."),
         ("NameError: name 'qqqqq' is not defined", "Write the name exactly as it is defined"),
     ],
 )  # fmt: skip
