@@ -130,3 +130,14 @@ def test_a_missing_rclpy_is_told_once(package: Path) -> None:
     results = evaluate_static(take_in_for(ASSIGNMENT, package), ASSIGNMENT)
     assert [found.id for found in judged(package).mistakes] == ["package.depend_missing"]
     assert [advice for result in results for advice in result.advice] == []
+
+
+@pytest.mark.parametrize("place", ["my_robot_controller/circle.py", "scripts/draw_circle.py"])
+def test_a_node_elsewhere_is_read_where_it_is(package: Path, place: str) -> None:
+    (package / place).parent.mkdir(exist_ok=True)
+    (package / NODE).rename(package / place)
+    assert judged(package).status == "passed"
+    change(package / "package.xml", DEPEND, "")
+    assert place in judged(package).actual
+    shutil.copy(package / place, package / "my_robot_controller/again.py")
+    assert judged(package).blocked_by == "source.node_file"

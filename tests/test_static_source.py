@@ -8,8 +8,12 @@ from pathlib import Path
 
 import pytest
 
+from grader.package.submission import take_in
+from grader.report.model import Where
 from grader.verdict.checks import source
+from grader.verdict.checks.faults import node_file
 from grader.verdict.fix import fix_files
+from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked
 from tests.marking import ASSIGNMENT
 
@@ -87,8 +91,10 @@ def test_an_empty_node_has_its_code_in_the_file_beside_it(bench: Bench, other: s
     failed = bench.fails(source.node_file)
     assert mistake(failed) == "source.empty_node_file"
     assert f"mv {shlex.quote(f'{NAME}/{other}')} {NODE}" in failed.fix
-    with pytest.raises(Blocked):
-        source.shebang.function(bench.evidence())
+    first = bench.fails(source.shebang)
+    assert first.where == Where(file=f"{NAME}/{other}", line=1)
+    bench.write(f"{NAME}/{other}", f"#!/usr/bin/env python3\n{code}")
+    bench.passes(source.shebang)
     bench.write(f"{NAME}/second.py", code)
     assert "Ctrl+S" in bench.fails(source.node_file).fix
 
@@ -125,9 +131,109 @@ def test_a_node_in_the_wrong_folder_is_named(bench: Bench, to: str, wanted: str)
     assert mistake(failed) == f"source.{wanted}"
     assert to.rpartition("/")[2] in failed.actual
     for check in (source.exec_bit, source.shebang):
+        if wanted != "no_node_file":
+            assert f"{to}: " in bench.passes(check).actual
+            continue
         with pytest.raises(Blocked) as caught:
             check.function(bench.evidence())
         assert caught.value.by == "source.node_file"
+
+
+RIGHT = (
+    "#!/usr/bin/env python3\nfrom rclpy.node import Node\n\n\nclass Hello(Node):\n"
+    "    def __init__(self):\n        super().__init__('my_first_node')\n\n\n"
+    "def main(args=None):\n    pass\n"
+)
+
+
+def moved(bench: Bench, to: str, code: str = RIGHT, module: str = "") -> None:
+    """Put the node in another file, which the entry point names too if `module` is given."""
+    (bench.root / NODE).unlink(missing_ok=True)
+    bench.write(to, code)
+    if module:
+        bench.change("setup.py", f"{NAME}.my_first_node:main", f"{NAME}.{module}:main")
+
+
+@pytest.mark.parametrize(
+    ("to", "module"),
+    [
+        (f"{NAME}/hello.py", "hello"),
+        (f"{NAME}/hello.py", ""),
+        (f"{NAME}/My_first_node.py", ""),
+        (f"{NAME}/my_first_node (1).py", ""),
+        (f"{NAME}/nodes/hello.py", "nodes.hello"),
+        (f"{NAME}/nodes/my_first_node.py", ""),
+        ("scripts/hello.py", ""),
+        ("my_first_node.py", ""),
+        (f"{NAME}/__init__.py", ""),
+    ],
+)
+def test_a_node_elsewhere_is_judged_and_fixed_where_it_is(
+    bench: Bench, to: str, module: str
+) -> None:
+    moved(bench, to, RIGHT.partition("\n")[2], module)
+    bench.write(f"{NAME}/helpers.py", "def main():\n    pass\n")
+    bit, first = bench.fails(source.exec_bit), bench.fails(source.shebang)
+    assert (mistake(bit), mistake(first)) == ("source.not_executable", "source.no_shebang")
+    assert (bit.where, first.where) == (Where(file=to), Where(file=to, line=1))
+    for path in (to, NODE):
+        assert f"chmod +x {shlex.quote(path)}" in bit.fix
+    told = bench.fails(source.node_file)
+    assert f"mv {shlex.quote(to)} {NODE}" in told.fix
+    assert told.where == Where(file=to)
+    (bench.root / to).chmod(0o755)
+    assert bench.passes(source.exec_bit).actual == f"{to}: mode 0755"
+    (bench.root / to).chmod(0o644)
+
+    submission = take_in(bench.root, package=NAME, node_file=ASSIGNMENT.node_file)
+    alone = fix_files(submission, ASSIGNMENT, only="source.exec_bit").new
+    assert alone.by_path[to].mode & 0o111 == 0o111
+    plan = fix_files(submission, ASSIGNMENT)
+    assert not plan.left
+    assert plan.new.data(NODE) == RIGHT.encode()
+    assert plan.new.by_path[NODE].mode & 0o111 == 0o111
+
+
+@pytest.mark.parametrize("places", [("node_a.py", "node_b.py"), ("a/my_first_node.py", "b.py")])
+def test_of_several_files_with_the_node_none_is_judged(
+    bench: Bench, places: tuple[str, str]
+) -> None:
+    for place in places:
+        moved(bench, f"{NAME}/{place}")
+    failed = bench.fails(source.node_file)
+    assert mistake(failed) == "source.no_node_file"
+    for place in places:
+        assert f"{NAME}/{place}" in failed.actual
+        assert f"{NAME}/{place}" in failed.rationale
+    for check in (source.exec_bit, source.shebang):
+        with pytest.raises(Blocked) as caught:
+            check.function(bench.evidence())
+        assert caught.value.by == "source.node_file"
+
+
+def test_the_entry_point_tells_which_of_several_files_is_the_node(bench: Bench) -> None:
+    moved(bench, f"{NAME}/old.py")
+    moved(bench, f"{NAME}/start.py", f"#!/usr/bin/python\nfrom {NAME}.new import main\n", "start")
+    moved(bench, f"{NAME}/new.py")
+    assert bench.fails(source.shebang).where == Where(file=f"{NAME}/start.py", line=1)
+    assert mistake(bench.fails(source.node_file)) == "source.misnamed_node_file"
+    assert node_file(bench.evidence()) == Where(file=f"{NAME}/start.py")
+    read = source_of_node(bench.evidence())
+    assert read is not None
+    assert read.paths == [f"{NAME}/new.py", f"{NAME}/start.py"]
+
+
+def test_an_entry_of_another_node_does_not_tell_it(bench: Bench) -> None:
+    other = RIGHT.replace("'my_first_node'", "'talker'")
+    moved(bench, f"{NAME}/talker.py", other, "talker")
+    bench.fails(source.exec_bit)
+    bench.change(
+        "setup.py",
+        f"'test_node = {NAME}.talker:main',",
+        f"'test_node = {NAME}.talker:main', 'talk = {NAME}.talker:main',",
+    )
+    with pytest.raises(Blocked):
+        source.exec_bit.function(bench.evidence())
 
 
 def test_a_node_outside_the_package_is_found(tmp_path: Path) -> None:

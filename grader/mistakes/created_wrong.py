@@ -73,7 +73,7 @@ KINDS = (
                 Move(NODE, f"{WITHIN}/{NODE}"),
                 fails="source.node_file",
                 also={"entry_point.mapping": "setup.no_entry"},
-                blocks=(*NO_FILE, *UNINSTALLED),
+                blocks=UNINSTALLED,
             ),
             example(
                 "entry_in_inner_package",
@@ -87,7 +87,7 @@ KINDS = (
                 Move(NODE, f"{WITHIN}/{NODE}"),
                 Replace(SETUP, "'console_scripts': [\n", f"'console_scripts': [\n{ENTRY_LINE}"),
                 fails="source.node_file",
-                blocks=(*NO_FILE, "run.starts"),
+                blocks=("run.starts",),
             ),
         ),
     ),

@@ -252,6 +252,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "package.no_manifest": {"close": "Package.xml", "there": "my_package/package.xml"},
     "setup.missing": {"there": "my_package/setup.py"},
+    "source.no_node_file": {"files": "my_package/node.py, my_package/old_node.py"},
     "source.empty_node_file": {"there": "my_package/node.py"},
     "package.broken_xml": {"wanted": "2", "tag": "license"},
     "package.manifest_rules": {"first": "6", "wanted": "email", "found": "mail"},

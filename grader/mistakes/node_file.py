@@ -13,13 +13,14 @@ from grader.mistakes.example import (
     LOG,
     NO_FILE,
     NODE,
+    PACKAGE,
     SETUP,
     UNINSTALLED,
     UNSTARTED,
     example,
 )
 from grader.mistakes.fixes import first_line, layout, syntax
-from grader.mistakes.kind import Kind, Parts
+from grader.mistakes.kind import Kind, Variants
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
 from grader.mistakes.slips import (
     DOCUMENTS,
@@ -40,6 +41,7 @@ PLACE = msg(
     "Python imports the node as the module <package>.<file>, so the file must be in the inner "
     "folder, which has the package's name and contains __init__.py."
 )
+MOVE = msg("Move it into the inner folder. In the package's folder, run: mv {there} {wanted}")
 OWN_COPIES = msg(
     "A build copies your files into build and install. Only the files in src are yours: each build "
     "overwrites the copies."
@@ -83,7 +85,7 @@ def _label(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
 
 
 def _first_line(
-    slug: str, title: str, fix: str, why: str = SHEBANG, **parts: Unpack[Parts]
+    slug: str, title: str, fix: str, why: str = SHEBANG, **parts: Unpack[Variants]
 ) -> Kind:
     return Kind(
         id=f"source.{slug}",
@@ -103,8 +105,14 @@ KINDS = (
         title=msg("The node's file is missing"),
         why=PLACE,
         fix=msg("Create the file {path} and write the node in it."),
+        whys={
+            "several": msg(
+                "Each of these files has a node: {files}. Which of them is to be marked is not certain."
+            )
+        },
         fixes={
             "built": BUILT,
+            "several": msg("Keep the one that is to be marked, and give it the path {path} (mv)."),
             "notebook": msg("Write the code of the notebook's cells into a new file {path}."),
         },
         link=links.FIRST_NODE,
@@ -160,15 +168,20 @@ KINDS = (
         fix=msg("Move it into the inner folder: its path in the package must be {wanted}."),
         fixes={
             "init": msg(
-                "Move the code from {init} into a new file {wanted}, and leave __init__.py empty."
+                "Give this file the node's name, and make an empty __init__.py. In the package's "
+                "folder, run: mv {init} {wanted} && touch {init}"
             ),
             "init_empty": msg(
                 "Move the code from {init} into {wanted}, and leave __init__.py empty."
             ),
-            "inside": msg(
-                "Move it into the inner folder. In the package's folder, run: mv {there} {wanted}"
-            ),
+            "inside": MOVE,
+            "entry": MOVE,
             "folder": msg("Rename the folder {folder} to {inner}, to the letter: case matters."),
+        },
+        whys={
+            "entry": msg(
+                "The exercise asks for the node in {wanted}. The entry point must name that file."
+            )
         },
         link=links.PACKAGE,
         fixed_by=(
@@ -182,7 +195,7 @@ KINDS = (
                 Delete(INIT),
                 Move(NODE, INIT),
                 fails="source.node_file",
-                blocks=(*NO_FILE, *UNSTARTED),
+                blocks=UNSTARTED,
             ),
             example(
                 "node_in_init_and_empty_file",
@@ -191,31 +204,31 @@ KINDS = (
                 Write(NODE, b""),
                 Chmod(NODE, 0o755),
                 fails="source.node_file",
-                blocks=("source.shebang", *UNSTARTED),
+                blocks=UNSTARTED,
             ),
             example(
                 "inner_folder_with_capitals",
                 Move(INNER, "My_Robot_Controller"),
                 fails="source.node_file",
-                blocks=(*NO_FILE, *UNSTARTED),
+                blocks=UNSTARTED,
             ),
             example(
                 "node_in_package_root",
                 Move(NODE, "my_first_node.py"),
                 fails="source.node_file",
-                blocks=(*NO_FILE, *UNSTARTED),
+                blocks=UNSTARTED,
             ),
             example(
                 "node_in_scripts",
                 Move(NODE, "scripts/my_first_node.py"),
                 fails="source.node_file",
-                blocks=(*NO_FILE, *UNSTARTED),
+                blocks=UNSTARTED,
             ),
             example(
                 "inner_folder_misnamed",
                 Move(INNER, "my_robot_controler"),
                 fails="source.node_file",
-                blocks=(*NO_FILE, *UNSTARTED),
+                blocks=UNSTARTED,
             ),
         ),
     ),
@@ -224,8 +237,7 @@ KINDS = (
         stage="file",
         title=msg("The node's file has a different name"),
         why=msg(
-            "The entry point and the exercise name this file. Every letter counts, and case "
-            "matters."
+            "The exercise asks for a file of this name. Every letter counts, and case matters."
         ),
         fix=msg("Rename it. In the package's folder, run: mv {there} {path}"),
         link=links.FIRST_NODE,
@@ -235,7 +247,27 @@ KINDS = (
                 "node_misnamed",
                 Move(NODE, "my_robot_controller/my_frist_node.py"),
                 fails="source.node_file",
-                blocks=(*NO_FILE, *UNSTARTED),
+                blocks=UNSTARTED,
+            ),
+            example(
+                "node_misnamed_in_entry_too",
+                Move(NODE, f"{INNER}/first_node.py"),
+                Replace(SETUP, f"{PACKAGE}.my_first_node:main", f"{PACKAGE}.first_node:main"),
+                fails="source.node_file",
+                also={"entry_point.mapping": "setup.other_module"},
+                note="the node runs: it is read and judged under its own name",
+            ),
+            example(
+                "node_misnamed_without_exec_bit",
+                Move(NODE, f"{INNER}/hello.py"),
+                Chmod(f"{INNER}/hello.py", 0o644),
+                Crlf(f"{INNER}/hello.py"),
+                fails="source.node_file",
+                also={
+                    "source.exec_bit": "source.not_executable",
+                    "source.shebang": "source.crlf",
+                },
+                blocks=UNSTARTED,
             ),
         ),
     ),
@@ -427,7 +459,7 @@ KINDS = (
                     "}\n",
                 ),
                 fails="source.node_file",
-                blocks=("source.shebang", *UNSTARTED),
+                blocks=UNSTARTED,
             ),
             example(
                 "python_prompt",
@@ -681,6 +713,12 @@ KINDS = (
         title=msg("The node's file is not executable"),
         why=EXEC,
         fix=msg("Run: chmod +x {path}"),
+        fixes={
+            "elsewhere": msg(
+                "In the package's folder, run: chmod +x {there} (or, if you have already moved or "
+                "renamed the file: chmod +x {path})"
+            )
+        },
         link=links.FIRST_NODE,
         seen=r"(?:^|[\s:])\./(?P<path>[\w./-]{0,200}\.py): Permission denied",
         fixed_by=(layout.exec_bit,),
@@ -702,6 +740,12 @@ KINDS = (
             "Hand in a git repository or a tar archive: both record the exec bit. In git: "
             "git update-index --chmod=+x {path}"
         ),
+        fixes={
+            "elsewhere": msg(
+                "Give the file its right name and place first. Then hand in a git repository or a "
+                "tar archive: both record the exec bit. In git: git update-index --chmod=+x {path}"
+            )
+        },
         link=links.FIRST_NODE,
     ),
     _first_line(
@@ -717,6 +761,13 @@ KINDS = (
             "Change CRLF to LF (in VS Code: at the bottom right), or run: sed -i 's/\\r$//' {path}"
         ),
         CRLF,
+        fixes={
+            "elsewhere": msg(
+                "Change CRLF to LF (in VS Code: at the bottom right). Or run, in the package's "
+                "folder: sed -i 's/\\r$//' {there} (or, if you have already moved or renamed the "
+                "file: sed -i 's/\\r$//' {path})"
+            )
+        },
         seen=r"python3(?:\\r|\r|\^M)['\u2019]?: No such file or directory",
         fixed_by=(first_line.line_ends,),
         examples=(

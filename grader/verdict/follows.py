@@ -20,6 +20,9 @@ FOLLOWS = {
 }
 """By the mistake that is the cause: those that disappear with it, or are to be fixed after it."""
 
+IN_ONE_FILE = {"source.empty_node_file"}
+"""The causes that have consequences only in the file that they are about."""
+
 REPEATED = {
     "entry_point.mapping": ("", ("node.main_missing", "node.main_misspelt")),
     "source.node_file": ("/__init__.py", ("source.no_init_file", "package.created_as_cmake")),
@@ -55,6 +58,8 @@ def followed(mistake: str, where: Where | None, evidence: Evidence) -> str:
         known = result.mistakes[0].id if result.mistakes else ""
         visible = result.status == "failed" and result.visibility == "visible"
         same = refused and known == "package.setup_cfg_wrong" and result.where == where
-        if visible and (same or mistake in FOLLOWS.get(known, ())):
+        file = result.where.file if result.where is not None else ""
+        other = known in IN_ONE_FILE and where is not None and where.file != file
+        if visible and not other and (same or mistake in FOLLOWS.get(known, ())):
             return check
     return ""

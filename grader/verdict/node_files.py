@@ -6,7 +6,8 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from grader.package.source.node import NodeSource, read_node
-from grader.verdict.checks.parsed import data_of, node_path
+from grader.verdict.checks.actual_node import actual_path
+from grader.verdict.checks.parsed import data_of
 
 if TYPE_CHECKING:
     from grader.report.model import Where
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
 def source_of_node(evidence: Evidence) -> NodeSource | None:
     """Return the source of the node, which can be in several files; None if Python cannot read it."""
-    return _read(evidence, node_path(evidence))
+    return _read(evidence, actual_path(evidence))
 
 
 def source_around(evidence: Evidence, where: Where | None) -> NodeSource | None:

@@ -54,6 +54,13 @@ class Case:
         return f"{self.assignment.folder}/{self.assignment.node_file}"
 
     @property
+    def judged_path(self) -> str:
+        """The path of the node's file; the finding's place if the required file has no content."""
+        found = self.files.data(self.node_path)
+        other = self.files.file(self.finding.file)
+        return self.finding.file if other and not (found or b"").strip() else self.node_path
+
+    @property
     def entry(self) -> str:
         """The entry of console_scripts that the assignment requires."""
         return f"{self.assignment.executable} = {self.assignment.target}"

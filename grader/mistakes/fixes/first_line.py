@@ -16,21 +16,21 @@ LATE = 20
 
 def byte_order_mark(case: Case) -> Files | None:
     """Remove the byte order mark."""
-    found = case.files.data(case.node_path)
+    found = case.files.data(case.judged_path)
     if found is None or not found.startswith(BOM) or not can_parse(found):
         return None
-    return case.with_data(case.node_path, found[len(BOM) :])
+    return case.with_data(case.judged_path, found[len(BOM) :])
 
 
 def line_ends(case: Case) -> Files | None:
     """Convert the line endings from CRLF to LF."""
-    found = case.files.data(case.node_path)
+    found = case.files.data(case.judged_path)
     if found is None or len(found) > MOST_BYTES or b"\0" in found:
         return None
     if not found.partition(b"\n")[0].endswith(b"\r"):
         return None
     new = found.replace(b"\r\n", b"\n")
-    return case.with_data(case.node_path, new) if _same_code(found, new) else None
+    return case.with_data(case.judged_path, new) if _same_code(found, new) else None
 
 
 def _same_code(old: bytes, new: bytes) -> bool:
@@ -40,7 +40,7 @@ def _same_code(old: bytes, new: bytes) -> bool:
 
 def shebang(case: Case) -> Files | None:
     """Put the shebang on line 1: moved up, fixed, or added."""
-    found = case.files.data(case.node_path)
+    found = case.files.data(case.judged_path)
     found = without_labels(found) if found is not None else None
     text = read_source(found)
     if found is None or text is None or text.mark or not found.strip():
@@ -59,4 +59,4 @@ def shebang(case: Case) -> Files | None:
         late = [n for n in range(2, LATE) if text.line(n).startswith("#!")]
         splices += [text.without(late[0])] if late else []
     new = found if first == SHEBANG else text.spliced(splices)
-    return case.with_data(case.node_path, new) if new and can_parse(new) else None
+    return case.with_data(case.judged_path, new) if new and can_parse(new) else None

@@ -44,11 +44,13 @@ def inner_folder(case: Case) -> Files | None:
 
 
 def node_file(case: Case) -> Files | None:
-    """Move the node's file to its place, if the package has one file of that name elsewhere."""
+    """Move the node's file to its place; of several files with its name, none is certain."""
     if case.finding.mistake != "source.misplaced_node_file" or case.node_path in case.files.by_path:
         return None
-    path = _only_one_named(case.files, case.assignment.node_file)
-    if path is None or case.package in _files(case):
+    name, path = case.assignment.node_file, str(case.finding.params.get("path", ""))
+    if path.rpartition("/")[2] == name:
+        path = _only_one_named(case.files, name) or ""
+    if case.files.file(path) is None or case.package in _files(case):
         return None
     return case.files.with_move(path, case.node_path)
 
@@ -111,7 +113,7 @@ def init_file(case: Case) -> Files | None:
 
 def exec_bit(case: Case) -> Files | None:
     """Set the exec bit of the node's file for the owner and everyone who may read it."""
-    file = case.files.file(case.node_path)
+    file = case.files.file(case.judged_path)
     if file is None or file.mode & 0o100:
         return None
-    return case.files.with_mode(case.node_path, file.mode | (file.mode & 0o444) >> 2 | 0o100)
+    return case.files.with_mode(case.judged_path, file.mode | (file.mode & 0o444) >> 2 | 0o100)

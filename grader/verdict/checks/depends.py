@@ -9,11 +9,12 @@ from grader.base.nearest import nearest, with_difference
 from grader.course.assignment import TURTLESIM
 from grader.course.interfaces import ros_interfaces
 from grader.package.source.manifest import RUNTIME, ManifestError, read_manifest
-from grader.package.source.python import PythonFault, parse_python
+from grader.package.source.python import PythonFault, can_parse, parse_python
 from grader.package.source.ros_imports import CLIENT, RosImport, ros_imports
 from grader.report.model import Where
+from grader.verdict.checks.actual_node import actual_path, other_path
 from grader.verdict.checks.declare import INTAKE, check
-from grader.verdict.checks.parsed import data_of
+from grader.verdict.checks.parsed import data_of, file_of, node_path
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -30,9 +31,10 @@ FILE = "package.xml"
 )
 def depends(evidence: Evidence) -> Passed:
     """package.xml names the packages that the code imports."""
-    for cause in ("package.manifest", "source.node_file"):
-        if evidence.has_failed(cause):
-            raise Blocked(by=cause)
+    if evidence.has_failed("package.manifest"):
+        raise Blocked(by="package.manifest")
+    if evidence.has_failed("source.node_file") and not _is_elsewhere(evidence):
+        raise Blocked(by="source.node_file")
     try:
         manifest = read_manifest(data_of(evidence, FILE) or b"")
     except ManifestError:
@@ -62,15 +64,23 @@ def depends(evidence: Evidence) -> Passed:
     return Passed(actual=", ".join(imported))
 
 
+def _is_elsewhere(evidence: Evidence) -> bool:
+    """Whether the node's file only has another name or place, and Python can read it."""
+    there = data_of(evidence, other_path(evidence))
+    missing = file_of(evidence, node_path(evidence)) is None
+    return missing and there is not None and can_parse(there)
+
+
 def _imported(evidence: Evidence) -> dict[str, Where]:
     """Return the packages that the package's modules import from, and the first place of each.
 
     A misspelt import is left out: the run tells it, and a line for it would be wrong.
     """
     folder, found = evidence.assignment.folder, dict[str, Where]()
+    node = actual_path(evidence)
     for file in evidence.submission.files:
         inside = file.path.startswith(f"{folder}/") and file.path.endswith(".py")
-        if not inside or file.kind != "file" or file.unreadable:
+        if not (inside or file.path == node) or file.kind != "file" or file.unreadable:
             continue
         try:
             tree = parse_python(file.data).tree

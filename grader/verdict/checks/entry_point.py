@@ -13,14 +13,13 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import say
 from grader.base.nearest import nearest, there_is, with_difference
 from grader.base.shown import shown
-from grader.package.source.entry_points import EntryPoints, from_setup_cfg, from_setup_py
 from grader.package.source.python import PythonFault, parse_python
-from grader.package.source.setup_cfg import SetupCfgFault, read_setup_cfg
-from grader.package.source.values import Table
 from grader.report.model import Where
 from grader.verdict.checks import entry_faults
 from grader.verdict.checks.inner_package import entry_in_inner_package
 from grader.verdict.checks.parsed import (
+    CONSOLE,
+    entry_points_of,
     file_of,
     in_inner_folder,
     node_path,
@@ -30,10 +29,7 @@ from grader.verdict.checks.parsed import (
 from grader.verdict.outcome import Failed, Passed
 
 if TYPE_CHECKING:
-    from grader.package.source.setup_py import SetupPy
     from grader.verdict.evidence import Evidence
-
-GROUP = "console_scripts"
 
 
 def mapping_from_source(evidence: Evidence) -> Passed | None:
@@ -48,11 +44,11 @@ def mapping_from_source(evidence: Evidence) -> Passed | None:
     setup = setup_py_of(evidence)
     if setup is None or not setup.is_static:
         return None
-    points = _points(evidence, setup)
+    points = entry_points_of(evidence, setup)
     if points is None:
         return None
     assignment = evidence.assignment
-    entries = points.group(GROUP)
+    entries = points.group(CONSOLE)
     for entry in entries:
         if not entry.valid:
             raise entry_faults.broken(evidence, entry)
@@ -70,30 +66,6 @@ def mapping_from_source(evidence: Evidence) -> Passed | None:
     text = shown(f"{entry.name} = {entry.target}")
     said = say("{file}, line {line}: {entry}", file=entry.file, line=entry.line, entry=text)
     return Passed(actual=said, advice=_advice(evidence))
-
-
-def _points(evidence: Evidence, setup: SetupPy) -> EntryPoints | None:
-    """Return the effective entry points: setup.py's, or setup.cfg's if setup.py has none.
-
-    setuptools uses setup.cfg only for arguments that setup() was not given. None if they are
-    unknown, because pyproject.toml may have them.
-    """
-    value = setup.argument("entry_points")
-    empty = isinstance(value, Table) and not value.pairs
-    if value is not None and not empty:
-        return from_setup_py(setup)
-    cfg = file_of(evidence, "setup.cfg")
-    if cfg is not None:
-        try:
-            found = from_setup_cfg(read_setup_cfg(cfg.data))
-        except SetupCfgFault:
-            found = EntryPoints()
-        if found.groups:
-            return found
-    project = file_of(evidence, "pyproject.toml")
-    if project is not None and b"[project" in project.data:
-        return None
-    return from_setup_py(setup)
 
 
 def _no_setup_py(reason: str, inner: str) -> Failed:

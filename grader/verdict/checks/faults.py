@@ -6,11 +6,12 @@ import re
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import Value, say
+from grader.base.shown import shown
 from grader.mistakes.placeholders import placeholder_values
 from grader.report.model import Where
 from grader.run.run import Program
+from grader.verdict.checks.actual_node import actual_path
 from grader.verdict.checks.build import limit_name, python_error
-from grader.verdict.checks.parsed import node_path
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Failed
 
@@ -29,7 +30,7 @@ FRAME = re.compile(r'File "[^"\n]*/([^"/\n]+/[^"/\n]+\.py)", line (\d+)')
 
 def node_file(evidence: Evidence) -> Where:
     """Return the node's file as the place of a fault without a line."""
-    return Where(file=node_path(evidence))
+    return Where(file=shown(actual_path(evidence)))
 
 
 def line_of(evidence: Evidence, record: LogRecord | None) -> Where:

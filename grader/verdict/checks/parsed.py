@@ -6,12 +6,17 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import Message
 from grader.base.shown import shown
+from grader.package.source.entry_points import EntryPoints, from_setup_cfg, from_setup_py
 from grader.package.source.python import PythonFault
+from grader.package.source.setup_cfg import SetupCfgFault, read_setup_cfg
 from grader.package.source.setup_py import SetupPy, read_setup_py
+from grader.package.source.values import Table
 
 if TYPE_CHECKING:
     from grader.package.intake.model import SourceFile
     from grader.verdict.evidence import Evidence
+
+CONSOLE = "console_scripts"
 
 
 def file_of(evidence: Evidence, path: str) -> SourceFile | None:
@@ -44,6 +49,30 @@ def setup_py_of(evidence: Evidence) -> SetupPy | None:
         return read_setup_py(found)
     except PythonFault:
         return None
+
+
+def entry_points_of(evidence: Evidence, setup: SetupPy) -> EntryPoints | None:
+    """Return the effective entry points: setup.py's, or setup.cfg's if setup.py has none.
+
+    setuptools uses setup.cfg only for arguments that setup() was not given. None if they are
+    unknown, because pyproject.toml may have them.
+    """
+    value = setup.argument("entry_points")
+    empty = isinstance(value, Table) and not value.pairs
+    if value is not None and not empty:
+        return from_setup_py(setup)
+    cfg = file_of(evidence, "setup.cfg")
+    if cfg is not None:
+        try:
+            found = from_setup_cfg(read_setup_cfg(cfg.data))
+        except SetupCfgFault:
+            found = EntryPoints()
+        if found.groups:
+            return found
+    project = file_of(evidence, "pyproject.toml")
+    if project is not None and b"[project" in project.data:
+        return None
+    return from_setup_py(setup)
 
 
 def in_inner_folder(evidence: Evidence, name: str) -> str:

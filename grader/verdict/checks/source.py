@@ -5,7 +5,6 @@ from __future__ import annotations
 import codecs
 import re
 import shlex
-from functools import partial
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
@@ -16,16 +15,23 @@ from grader.mistakes.slips import KINDS, description, words_of
 from grader.package.edit.text import read_source
 from grader.package.source.broken_python import Slip
 from grader.package.source.newer_python import SINCE, first_difference, with_older_quotes
-from grader.package.source.node import read_module
-from grader.package.source.node_class import derives_from_node
 from grader.package.source.other_encoding import kind_of_encoding
 from grader.package.source.pasted import WHOLE_LINES, Pasted, pasted_in
 from grader.package.source.python import SHEBANG, PythonFault, parse_python
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
+from grader.verdict.checks.actual_node import (
+    actual_path,
+    has_node,
+    is_the_node,
+    near_name,
+    of_entry,
+    other_path,
+    possible_paths,
+)
 from grader.verdict.checks.declare import INTAKE, check
 from grader.verdict.checks.inner_package import node_in_inner_package
-from grader.verdict.checks.parsed import data_of, file_of, names_in, node_path, printable_reason
+from grader.verdict.checks.parsed import file_of, names_in, node_path, printable_reason
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -133,14 +139,14 @@ def _other_version(evidence: Evidence, path: str) -> str:
     for name in names_in(evidence, inner):
         there = f"{inner}/{name}"
         known = name == "__init__.py" or there == path or name.removesuffix(".py").encode() in code
-        if name.endswith(".py") and not known and _has_node(evidence, there):
+        if name.endswith(".py") and not known and has_node(evidence, there):
             return shown(there)
     return ""
 
 
 def _empty(evidence: Evidence, path: str) -> Failed:
     init = f"{evidence.assignment.folder}/__init__.py"
-    if _has_node(evidence, init):
+    if has_node(evidence, init):
         actual = say("the file is empty: your node is in {path}", path=init)
         return _in_init(path, init, actual, "init_empty")
     other = _lone_node(evidence, path)
@@ -171,7 +177,7 @@ def _lone_node(evidence: Evidence, path: str) -> str:
     inner = evidence.assignment.folder
     names = [n for n in names_in(evidence, inner) if n.endswith(".py") and n != "__init__.py"]
     paths = [f"{inner}/{name}" for name in names]
-    found = [there for there in paths if there != path and _is_the_node(evidence, there)]
+    found = [there for there in paths if there != path and is_the_node(evidence, there)]
     return found[0] if len(found) == 1 else ""
 
 
@@ -206,60 +212,42 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
             actual=say("it is a link to a place outside of the package"),
             where=Where(file=path),
         )
+    init, found = f"{inner}/__init__.py", other_path(evidence)
+    if found == init:
+        return _in_init(path, init, say("your node is in {path}", path=init), "init")
+    possible = [] if found else possible_paths(evidence)
+    if len(possible) > 1:
+        return _several(path, possible, expected)
     inside = [f.path for f in submission.files if f.path.rpartition("/")[2] == name]
-    inside = [p for p in inside if file_of(evidence, p)]
+    inside = [found] if found else [p for p in inside if file_of(evidence, p)]
     elsewhere = inside or list(submission.node_files)
     created_inside = node_in_inner_package(evidence, inside[0]) if inside else None
     if created_inside is not None:
         return created_inside
-    if elsewhere:
-        place = shown(elsewhere[0])
-        actual_place = say("it is in {path}", path=place)
-        movable = bool(inside) and submission.file(inner) is not None
-        if not inside:
-            actual_place = say("it is in {path}, outside of the package", path=place)
-        return Failed(
-            "source.misplaced_node_file",
-            expected=expected,
-            actual=actual_place,
-            where=Where(file=shown(inside[0])) if inside else None,
-            variant="folder" if _is_inner(evidence, place) else "inside" if movable else "",
-            params={"path": place},
-            words={
-                "wanted": path,
-                "folder": place.partition("/")[0],
-                "inner": inner,
-                "there": shlex.quote(place),
-            },
-        )
-    init = f"{inner}/__init__.py"
-    if _has_node(evidence, init):
-        return _in_init(path, init, say("your node is in {path}", path=init), "init")
-    stem = name.removesuffix(".py")
-    beside = [n for n in names_in(evidence, inner) if n != "__init__.py"]
-    close = next((n for n in beside if n.partition(".")[0].lower() == stem.lower()), "")
-    close = close or nearest(name, beside, cutoff=0.75)
-    nodes = [n for n in beside if n.endswith(".py") and _is_the_node(evidence, f"{inner}/{n}")]
-    close = close or (nodes[0] if len(nodes) == 1 else "")
+    if elsewhere and not (inside and inside[0].rpartition("/")[0] == inner):
+        return _misplaced(evidence, elsewhere[0], is_inside=bool(inside))
+    close = found or near_name(evidence)
     if close.endswith(".ipynb"):
         return Failed(
             "source.no_node_file",
             expected=expected,
-            actual=say("there is {path}", path=f"{inner}/{shown(close)}"),
-            where=Where(file=f"{inner}/{shown(close)}"),
+            actual=say("there is {path}", path=shown(close)),
+            where=Where(file=shown(close)),
             variant="notebook",
             words={"path": path, "copy": ""},
         )
     if close:
-        there = f"{inner}/{shown(close)}"
+        there = say("there is {path}", path=shown(close))
+        other = close.rpartition("/")[2]
         return Failed(
             "source.misnamed_node_file",
             expected=expected,
-            actual=with_difference(say("there is {path}", path=there), close, name),
-            where=Where(file=there),
-            params={"name": shown(close)},
-            words={"there": shlex.quote(there), "path": path},
+            actual=with_difference(there, other, name),
+            where=Where(file=shown(close)),
+            params={"name": shown(other)},
+            words={"there": shlex.quote(shown(close)), "path": path},
         )
+    beside = [n for n in names_in(evidence, inner) if n != "__init__.py"]
     files = ", ".join(shown(n) for n in beside[:4]) or say("no file of yours yet")
     actual = say("{inner}/ contains {files}", inner=inner, files=files)
     if not submission.file(inner):
@@ -277,20 +265,49 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
     )
 
 
-def _has_node(evidence: Evidence, path: str) -> bool:
-    """Whether a file has a class that derives from a node, or the entry point's function."""
-    module = read_module(partial(data_of, evidence), path)
-    if module is None:
-        return False
-    function = evidence.assignment.function
-    return function in module.functions or any(map(derives_from_node, module.classes))
+def _misplaced(evidence: Evidence, place: str, *, is_inside: bool) -> Failed:
+    """Return the fault of a node's file in another folder; `is_inside` of the package."""
+    path, inner = node_path(evidence), evidence.assignment.folder
+    actual, place = say("it is in {path}", path=shown(place)), shown(place)
+    movable = is_inside and evidence.submission.file(inner) is not None
+    if not is_inside:
+        actual = say("it is in {path}, outside of the package", path=place)
+    return Failed(
+        "source.misplaced_node_file",
+        expected=say("a file {path} in the package", path=path),
+        actual=actual,
+        where=Where(file=place) if is_inside else None,
+        variant="folder"
+        if _is_inner(evidence, place)
+        else _way(evidence, place)
+        if movable
+        else "",
+        params={"path": place},
+        words={
+            "wanted": path,
+            "folder": place.partition("/")[0],
+            "inner": inner,
+            "there": shlex.quote(place),
+        },
+    )
 
 
-def _is_the_node(evidence: Evidence, path: str) -> bool:
-    """Whether a file has a node with the name that the assignment requires."""
-    file = file_of(evidence, path)
-    named = file is not None and evidence.assignment.node_name.encode() in file.data
-    return named and _has_node(evidence, path)
+def _way(evidence: Evidence, place: str) -> str:
+    """Return the variant of a file that can be moved: Python finds it if the entry leads to it."""
+    return "entry" if of_entry(evidence) == place else "inside"
+
+
+def _several(path: str, paths: list[str], expected: str) -> Failed:
+    """Return the fault of a missing file, if more than one other file can be the node's."""
+    files = ", ".join(shown(found) for found in paths[:4])
+    return Failed(
+        "source.no_node_file",
+        expected=expected,
+        actual=say("there is no such file, but: {files}", files=files),
+        where=Where(file=path),
+        variant="several",
+        words={"path": path, "copy": "", "files": files},
+    )
 
 
 def _not_python(path: str, fault: PythonFault, found: bytes) -> Failed:
@@ -323,51 +340,73 @@ def _slip(path: str, text: str, kind: str, slip: Slip) -> Failed:
     )
 
 
-def _node(evidence: Evidence) -> SourceFile:
-    """Return the node's file; Blocked if there is none (a syntax error in it does not matter)."""
-    file = file_of(evidence, node_path(evidence))
+def _node(evidence: Evidence) -> tuple[str, SourceFile]:
+    """Return the node's file where it is; Blocked if there is none (a syntax error does not matter)."""
+    path = actual_path(evidence)
+    file = file_of(evidence, path)
     if file is None:
         raise Blocked(by="source.node_file")
-    return file
+    return path, file
+
+
+def _named(evidence: Evidence, path: str) -> tuple[str, dict[str, str]]:
+    """Return variant and words for the command that changes the node's file at a path."""
+    wanted = node_path(evidence)
+    words = {"file": shown(path.rpartition("/")[2]), "path": wanted, "there": ""}
+    if path == wanted:
+        return "", words
+    return "elsewhere", {**words, "there": shlex.quote(shown(path))}
 
 
 @check("source.exec_bit", stage=INTAKE, depends=["package.found"])
 def exec_bit(evidence: Evidence) -> Passed:
     """The node's file is executable."""
-    path, name = node_path(evidence), evidence.assignment.node_file
-    file = _node(evidence)
+    path, file = _node(evidence)
     mode = f"{file.mode & 0o777:04o}"
+    variant, words = _named(evidence, path)
     if evidence.submission.modes == "unknown":
         note = say("unknown: the submission came without exec bits")
         if evidence.assignment.modes == "accept-unknown":
             advice = say(
-                "Check it yourself: ls -l {path} shows an x if the file is executable.", path=path
+                "Check it yourself: ls -l {path} shows an x if the file is executable.",
+                path=words["there"] or path,
             )
             return Passed(actual=note, advice=[advice])
         raise Failed(
             "source.exec_bit_unknown",
-            expected=say("{path} with its exec bit recorded", path=path),
+            expected=say("{path} with its exec bit recorded", path=shown(path)),
             actual=note,
-            where=Where(file=path),
-            words={"file": name, "path": path},
+            where=Where(file=shown(path)),
+            variant=variant,
+            words=words,
         )
+    said = say("mode {mode}", mode=mode)
     if file.mode & 0o100:
-        return Passed(actual=say("mode {mode}", mode=mode))
+        return Passed(actual=_of(evidence, path, said))
     raise Failed(
         "source.not_executable",
-        expected=say("{path} with the exec bit, such as mode 0755", path=path),
-        actual=say("mode {mode}", mode=mode),
-        where=Where(file=path),
+        expected=say("{path} with the exec bit, such as mode 0755", path=shown(path)),
+        actual=said,
+        where=Where(file=shown(path)),
+        variant=variant,
         params={"mode": mode},
-        words={"file": name, "path": path},
+        words=words,
     )
+
+
+def _of(evidence: Evidence, path: str, text: str) -> str:
+    """Return what was found in the node's file, with its path if that is not the required one."""
+    return text if path == node_path(evidence) else joined(shown(path), text, by=": ")
 
 
 @check("source.shebang", stage=INTAKE, depends=["package.found"])
 def shebang(evidence: Evidence) -> Passed:
     """The node's file begins with a line that names Python 3."""
-    file = _node(evidence)
-    if file.unreadable or file.data.startswith(UTF_16) or _is_empty_beside_node(evidence, file):
+    path, file = _node(evidence)
+    if not file.data.strip():
+        path = _beside_empty(evidence, path)
+        file = file_of(evidence, path) or file
+    if file.unreadable or file.data.startswith(UTF_16):
         raise Blocked(by="source.node_file")
     first = file.data[:1000].partition(b"\n")[0]
     match = PYTHON3.fullmatch(first)
@@ -375,10 +414,10 @@ def shebang(evidence: Evidence) -> Passed:
         rest = match["rest"] or b""
         through_env = b"/env" in first and b"-S" not in first
         if not (rest.strip() and through_env):
-            return Passed(actual=shown(first.decode("utf-8", "replace")))
+            return Passed(actual=_of(evidence, path, shown(first.decode("utf-8", "replace"))))
     if _is_document(file.data):
         raise Blocked(by="source.node_file")
-    raise _no_shebang(evidence, file.data, first)
+    raise _no_shebang(evidence, path, file.data, first)
 
 
 def _is_document(found: bytes) -> bool:
@@ -387,21 +426,22 @@ def _is_document(found: bytes) -> bool:
     return slip is not None and slip.cause == "document" and slip.variant != "conflict"
 
 
-def _is_empty_beside_node(evidence: Evidence, file: SourceFile) -> bool:
-    """Whether the node, and with it its first line, is in another file of the inner folder."""
+def _beside_empty(evidence: Evidence, path: str) -> str:
+    """Return the file of the inner folder that has the node, and its first line; else `path`."""
     init = f"{evidence.assignment.folder}/__init__.py"
-    other = _lone_node(evidence, node_path(evidence))
-    return not file.data.strip() and (_has_node(evidence, init) or other != "")
+    if has_node(evidence, init):
+        return init
+    return _lone_node(evidence, path) or path
 
 
-def _no_shebang(evidence: Evidence, data: bytes, first: bytes) -> Failed:
+def _no_shebang(evidence: Evidence, path: str, data: bytes, first: bytes) -> Failed:
     text = shown(first.decode("utf-8", "replace").strip()) or say("an empty line")
     later = [n for n, line in enumerate(data.splitlines()[:20], 1) if line[:2] == b"#!" and n > 1]
     line: int | None = 1
     actual: str
     pasted = _above_shebang(data, later[0] if later else 2)
     if pasted is not None:
-        return _pasted_first(evidence, pasted)
+        return _pasted_first(path, pasted)
     if first[:3] == b"\xef\xbb\xbf":
         mistake = "source.byte_order_mark"
         actual = say("a byte order mark (three invisible bytes) is in front of line 1")
@@ -421,12 +461,14 @@ def _no_shebang(evidence: Evidence, data: bytes, first: bytes) -> Failed:
         mistake, actual = "source.no_shebang", say("line 1 is: {text}", text=text)
         if not data.strip():
             actual = say("the file is empty")
+    variant, words = _named(evidence, path)
     return Failed(
         mistake,
         expected=say("line 1: {shebang}", shebang=SHEBANG),
         actual=actual,
-        where=Where(file=node_path(evidence), line=line),
-        words={"file": evidence.assignment.node_file, "path": node_path(evidence)},
+        where=Where(file=shown(path), line=line),
+        variant=variant if mistake == "source.crlf" else "",
+        words=words,
     )
 
 
@@ -441,12 +483,12 @@ def _above_shebang(data: bytes, line: int) -> Pasted | None:
     return None if others else lines[1]
 
 
-def _pasted_first(evidence: Evidence, pasted: Pasted) -> Failed:
+def _pasted_first(path: str, pasted: Pasted) -> Failed:
     return Failed(
         "source.pasted",
         expected=say("line 1: {shebang}", shebang=SHEBANG),
         actual=joined(say("line 1 is not code"), description(pasted), by=", "),
-        where=Where(file=node_path(evidence), line=1),
+        where=Where(file=shown(path), line=1),
         variant=pasted.variant,
         params={"what": pasted.variant},
         words=words_of(pasted),

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
 from grader.package.source.python import PythonFault, parse_python
+from grader.verdict.checks.actual_node import actual_path
 from grader.verdict.checks.declare import RUN, check
 from grader.verdict.checks.faults import (
     FRAME,
@@ -19,7 +20,6 @@ from grader.verdict.checks.faults import (
     traceback_of,
     words,
 )
-from grader.verdict.checks.parsed import node_path
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Outcome, Passed
 
@@ -101,7 +101,7 @@ def _ended(evidence: Evidence) -> Outcome:
 
 def _newer_line(evidence: Evidence) -> int:
     """Return the line of the node's file that needs a newer Python than this one; 0 if none."""
-    file = evidence.submission.file(node_path(evidence))
+    file = evidence.submission.file(actual_path(evidence))
     if file is None or file.kind != "file":
         return 0
     try:
