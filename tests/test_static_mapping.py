@@ -181,6 +181,40 @@ def test_a_misspelt_group_is_reported(bench: Bench, group: str) -> None:
     assert group in failed.actual
 
 
+@pytest.mark.parametrize(
+    ("group", "why", "fix"),
+    [
+        (
+            "console_script",
+            "It accepts this group without a message",
+            "instead of 'console_script'",
+        ),
+        (
+            "Console_Scripts",
+            "It accepts this group without a message",
+            "Write 'console_scripts' inst",
+        ),
+        ("console-scripts", "with: Invalid group name", "Write 'console_scripts' instead of"),
+        ("console scripts", "with: Invalid group name", "Write 'console_scripts' instead of"),
+        ("gui-scripts", "with: Invalid group name", "and delete the group 'gui-scripts'"),
+        ("console_scripts ", "The space belongs to the name", "Write 'console_scripts' instead of"),
+        ("gui_scripts", "Other groups have other uses", "Move 'test_node = "),
+    ],
+)
+def test_what_setuptools_does_with_a_group_is_said_of_that_name(
+    bench: Bench, group: str, why: str, fix: str
+) -> None:
+    bench.change("setup.py", "'console_scripts'", f"'{group}'")
+    failed = bench.misses()
+    assert (mistake(failed), line(failed)) == ("setup.group_misspelt", 16)
+    assert why in failed.rationale
+    assert fix in failed.fix
+    assert failed.fix.endswith("then build again.")
+    plan = fix_files(take_in(bench.root, package=NAME, node_file="my_first_node.py"), ASSIGNMENT)
+    fixed = (plan.new.data("setup.py") or b"").decode()
+    assert "        'console_scripts': [" in fixed
+
+
 def test_a_missing_setup_py_is_reported(bench: Bench) -> None:
     (bench.root / "setup.py").unlink()
     assert mistake(bench.misses()) == "setup.missing"

@@ -180,6 +180,10 @@ KINDS = (
                 "The import and the call do not fit together. Write {wanted} instead of {found}, "
                 "then build again."
             ),
+            "group_name": msg(
+                "The name of a group of entry_points may have only letters, digits, _ and dots. Move "
+                "the entries of '{name}' to console_scripts and delete this group, then build again."
+            ),
             "file_alone": msg(
                 "The files of a line of data_files are a list. Write: {wanted}, then build again."
             ),
@@ -228,6 +232,15 @@ KINDS = (
                 Replace(SETUP, "'console_scripts'", "console_scripts"),
                 fails="build.colcon",
                 blocks=("entry_point.mapping",),
+            ),
+            example(
+                "second_group_with_a_dash",
+                Replace(
+                    SETUP,
+                    "    entry_points={\n",
+                    "    entry_points={\n        'launch-files': ['hello = my_robot_controller:hello'],\n",
+                ),
+                fails="build.colcon",
             ),
             example(
                 "setup_argument_repeated",

@@ -46,6 +46,10 @@ FOLDERS = msg(
     "packages= lists folders that contain an __init__.py, and not files. The build stops at a name "
     "for which there is no such folder."
 )
+REFUSED = msg(
+    "The name of a group may have only letters, digits, _ and dots. setuptools refuses this name, "
+    "and the build stops with: Invalid group name."
+)
 WRITE = msg("Write '{wanted}', then build again.")
 OTHERS = {"other": msg("Fix or delete this entry: '{entry}'")}
 
@@ -276,18 +280,29 @@ KINDS = (
         stage="entry point",
         title=msg("the group is not called console_scripts"),
         why=msg(
-            "setuptools makes executables only from the group console_scripts. It accepts any "
-            "other group without a message, and ros2 run answers: No executable found."
+            "setuptools makes executables only from the group console_scripts. It accepts this "
+            "group without a message, and ros2 run answers: No executable found."
         ),
-        fix=msg("Write 'console_scripts', with an s at the end."),
+        fix=msg("Write 'console_scripts' instead of '{group}', then build again."),
         whys={
+            **dict.fromkeys(("invalid", "invalid_other"), REFUSED),
+            "space": msg(
+                "The space belongs to the name of the group. Python looks for the executable's "
+                "entry in console_scripts, without a space, and finds none there."
+            ),
             "other": msg(
                 "The exercise asks for an entry in the group console_scripts. From this group, "
                 "setuptools makes the executables that ros2 run starts. Other groups have other "
                 "uses."
-            )
+            ),
         },
-        fixes={"other": msg("Move '{wanted}' to the group console_scripts.")},
+        fixes={
+            "other": msg("Move '{wanted}' to the group console_scripts, then build again."),
+            "invalid_other": msg(
+                "Move '{wanted}' to the group console_scripts and delete the group '{group}', then "
+                "build again."
+            ),
+        },
         link=links.ENTRY_POINTS,
         fixed_by=(entries.group, entries.regrouped),
         examples=(
@@ -309,6 +324,20 @@ KINDS = (
                 Replace(SETUP, "'console_scripts'", "'gui_scripts'"),
                 fails="entry_point.mapping",
                 note="runs anyway: on Linux setuptools makes the same script for it",
+            ),
+            example(
+                "console_scripts_with_a_dash",
+                Replace(SETUP, "'console_scripts'", "'console-scripts'"),
+                fails="entry_point.mapping",
+                blocks=("build.colcon", *UNINSTALLED),
+                note="setuptools refuses the name, and the build stops",
+            ),
+            example(
+                "space_after_console_scripts",
+                Replace(SETUP, "'console_scripts'", "'console_scripts '"),
+                fails="entry_point.mapping",
+                blocks=UNSTARTED,
+                note="the executable is installed, and does not find its entry",
             ),
         ),
     ),

@@ -251,6 +251,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "entry": "my_node = my_package.my_node:main",
     },
     "package.no_manifest": {"close": "Package.xml", "there": "my_package/package.xml"},
+    "setup.group_misspelt": {"group": "console_script"},
     "setup.missing": {"there": "my_package/setup.py"},
     "source.no_node_file": {"files": "my_package/node.py, my_package/old_node.py"},
     "source.empty_node_file": {"there": "my_package/node.py"},

@@ -188,10 +188,14 @@ def grouped(case: Case) -> Files | None:
 
 
 def regrouped(case: Case) -> Files | None:
-    """Rename the group gui_scripts, if there is no console_scripts."""
+    """Rename the group that has the entry and nothing else, if there is no console_scripts."""
     points, text = _points(case), _source(case, case.finding.file)
     wrong = str(case.finding.params.get("group", ""))
-    if points is None or text is None or wrong != "gui_scripts" or points.group(GROUP):
+    if points is None or text is None or points.group(GROUP):
+        return None
+    if wrong != "gui_scripts" and [e.name for e in points.group(wrong)] != [
+        case.assignment.executable
+    ]:
         return None
     line = text.line(case.finding.line or 0)
     if GROUP in points.groups or line.count(wrong) != 1:

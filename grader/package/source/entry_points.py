@@ -13,6 +13,8 @@ from grader.package.source.values import Listing, Table, Text, Value
 # The form in which importlib.metadata.EntryPoint (Python 3.10 to 3.13) accepts an entry's value.
 TARGET = re.compile(r"[\w.]+\s{0,9}(:\s{0,9}[\w.]+\s{0,9})?(\[[^\]]*\]\s{0,9})?")
 
+GROUP_NAME = re.compile(r"\w+(\.\w+)*")
+
 
 @dataclass(frozen=True)
 class Entry:
@@ -58,6 +60,11 @@ class EntryPoints:
     def _open(self, group: str, line: int) -> list[Entry]:
         self.lines[group] = line
         return self.groups.setdefault(group, [])
+
+
+def is_refused(group: str) -> bool:
+    """Return whether setuptools stops at the name of a group; it ignores spaces around the name."""
+    return bool(group.strip()) and not GROUP_NAME.fullmatch(group.strip())
 
 
 def from_setup_py(setup: SetupPy) -> EntryPoints:

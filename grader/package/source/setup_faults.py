@@ -272,6 +272,15 @@ def _positional(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
     return reader.fault("positional", value, *splices, wanted=f"name={code}")
 
 
+def _group_name(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """A group of entry points whose name setuptools refuses."""
+    points = reader.argument("entry_points")
+    for key in points.keys if isinstance(points, ast.Dict) else ():
+        if isinstance(key, ast.Constant) and str(key.value).strip() == match["name"]:
+            return reader.fault("group_name", key, name=match["name"])
+    return None
+
+
 def _glob(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
     """`import glob` with glob(…), or `from glob import glob` with glob.glob(…)."""
     del match
@@ -342,6 +351,7 @@ LOOKS: tuple[tuple[str, Callable[[_Reader, re.Match[str]], SetupFault | None]], 
     (r"ImportError: cannot import name '(?P<name>\w{1,80})' from 'setuptools'", _not_in_setuptools),
     (r"ModuleNotFoundError: No module named '(?P<name>[\w.]{1,80})'", _no_module),
     (r"TypeError: setup\(\) takes 0 positional arguments", _positional),
+    (r"ValueError: \('Invalid group name', '(?P<name>[^'\n]{1,200})'\)", _group_name),
     (r"TypeError: 'module' object is not callable", _glob),
     (r"AttributeError: 'function' object has no attribute 'glob'", _glob),
     (r"AssertionError$", _file_alone),

@@ -44,6 +44,7 @@ NO_OPTION = re.compile(
     r"error in setup\.cfg: command '([\w-]{1,40})' has no such option '([\w-]{1,60})'"
 )
 NEVER_CALLED = "was never called"
+BAD_GROUP = "ValueError: ('Invalid group name', "
 ANSWER = 'File "<unknown>", line '  # colcon evaluates setup.py's output, which has no file name
 
 
@@ -78,6 +79,9 @@ def colcon_builds(evidence: Evidence) -> Passed:
         raise Blocked(by="entry_point.mapping")
     if evidence.has_mistake("package.setup_cfg", "package.setup_cfg_syntax"):
         raise Blocked(by="package.setup_cfg")
+    of_group = evidence.has_mistake("entry_point.mapping", "setup.group_misspelt")
+    if of_group and BAD_GROUP in build.log:
+        raise Blocked(by="entry_point.mapping")
     if evidence.has_failed("entry_point.mapping") and NEVER_CALLED in build.log:
         raise Blocked(by="entry_point.mapping")
     raise _broken(evidence)

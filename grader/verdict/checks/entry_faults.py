@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import Message, say
 from grader.base.nearest import meant, nearest, there_is, with_difference
 from grader.base.shown import shown
-from grader.package.source.entry_points import Entry, EntryPoints, Misplaced, misplaced
+from grader.package.source.entry_points import Entry, EntryPoints, Misplaced, is_refused, misplaced
 from grader.package.source.python import PythonFault, parse_python
 from grader.package.source.values import Text
 from grader.report.model import Where
@@ -150,12 +150,17 @@ def _other_group(evidence: Evidence, points: EntryPoints, group: str) -> Failed:
     line = points.lines.get(group)
     said = say("the group is called '{group}'", group=shown(group))
     near = nearest("console_scripts", [group], cutoff=0.75)
+    variant = "" if near else "other"
+    if group.strip() == "console_scripts":
+        variant = "space"
+    elif is_refused(group):
+        variant = "invalid" if near else "invalid_other"
     return Failed(
         "setup.group_misspelt",
         expected=say("'{entry}' in the group 'console_scripts'", entry=wanted_entry(evidence)),
         actual=with_difference(said, group, "console_scripts"),
         where=Where(file=others[0].file if others else "setup.py", line=line),
-        variant="" if near else "other",
+        variant=variant,
         params={"group": shown(group)},
         words={"wanted": wanted_entry(evidence)},
     )
