@@ -29,6 +29,19 @@ INIT_OF_NODE = msg(
 SUPER = msg("Write super().__init__('{node_name}') as the first line of __init__.")
 
 
+def _with_of_init(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """`with rclpy.init():`; spin raises the same error after a shutdown."""
+    del match
+    for node in raised.module.nodes:
+        if not isinstance(node, ast.With) or raised.line not in (None, node.lineno):
+            continue
+        for item in node.items:
+            call = item.context_expr
+            if isinstance(call, ast.Call) and last_part(dotted(call.func)) == "init":
+                return raised.finding("context_manager", at=call)
+    return None
+
+
 def _class_is_spun(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     del match
     for call, name in raised.source.calls:
@@ -201,7 +214,7 @@ KINDS = (
         links.RCLPY,
         seen=r"'NoneType' object does not support the context manager protocol"
         r"|AttributeError: __enter__",
-        raised={"context manager protocol|AttributeError: __enter__": always("context_manager")},
+        raised={"context manager protocol|AttributeError: __enter__": _with_of_init},
         examples=(
             example(
                 "context_manager_of_kilted",

@@ -203,7 +203,12 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.node_not_kept": {"name": "node", "made": "MyNode"},
     "node.used_before_set": {"name": "node"},
     "node.counter_global": {"name": "counter", "word": "global"},
-    "node.cleanup_early": {"name": "rclpy.shutdown()", "line": "31"},
+    "node.cleanup_early": {
+        "name": "rclpy.shutdown()",
+        "line": "31",
+        "written": "24",
+        "statement": "rclpy.spin(node)",
+    },
     "node.quotes_missing": {"name": "my_node"},
     "node.self_missing": {"name": "create_timer"},
     "node.rate_sleep": {
@@ -251,6 +256,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "entry": "my_node = my_package.my_node:main",
     },
     "package.no_manifest": {"close": "Package.xml", "there": "my_package/package.xml"},
+    "node.spin_not_called": {"wanted": "rclpy.spin(node)"},
     "setup.group_misspelt": {"group": "console_script"},
     "setup.missing": {"there": "my_package/setup.py"},
     "source.no_node_file": {"files": "my_package/node.py, my_package/old_node.py"},

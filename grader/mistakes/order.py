@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from dataclasses import replace
 
-from grader.base.i18n.message import msg
+from grader.base.i18n.message import Value, msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, example
 from grader.mistakes.fixes import node_order
@@ -20,7 +21,7 @@ from grader.mistakes.recognised import (
 )
 from grader.package.edit.tree import Replace
 from grader.package.source.early_use import EarlyUse, early_use
-from grader.package.source.names import calls_in, last_part, own_name
+from grader.package.source.names import calls_in, dotted, last_part, own_name
 from grader.package.source.node import NodeSource
 from grader.package.source.place import function_at
 
@@ -79,12 +80,11 @@ def _cleanup(source: NodeSource) -> tuple[str, int] | None:
 
 
 def _cleaned_up_first(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    del match
     source = raised.source
     early = node_order.early_cleanup(source)
     found = _cleanup(source)
     if early is None or found is None or source.main is None:
-        return None
+        return _init_ends_it(raised, match)
     name, line = found
     last = source.main.end_lineno or line
     in_main = raised.line is None or line <= raised.line <= last
@@ -97,16 +97,64 @@ def _cleans_up_first(suspect: Suspect) -> RecognisedMistake | None:
     early = node_order.early_cleanup(suspect.source)
     found = _cleanup(suspect.source)
     if early is None or found is None:
-        return None
+        return _init_ends(suspect)
     return _with_later(suspect.source, suspect.finding("cleanup_early", early[0], name=found[0]))
 
 
 def _with_later(source: NodeSource, found: RecognisedMistake) -> RecognisedMistake:
-    """Say that the line can be deleted if a line after spin does the same."""
-    later = node_order.cleaned_up_later(source)
-    if later is None:
-        return found
-    return replace(found, variant="again", words={**found.words, "line": str(later.lineno)})
+    """Say what is to be done with the line: it depends on its block and on the lines after spin."""
+    inside, first = node_order.spin_into_try(source), node_order.spin_first(source)
+    later, others = node_order.cleaned_up_later(source), node_order.other_cleanups(source)
+    alone = node_order.is_alone(source)
+    words: dict[str, Value] = {}
+    variant = "alone" if alone else ""
+    if inside is not None:
+        around, spin = inside
+        last = around.body[-1]
+        variant = "into_try"
+        words = {
+            "line": str(spin.lineno),
+            "statement": source.module_of(spin).text.code(spin),
+            "written": str(last.end_lineno or last.lineno),
+        }
+    elif first is not None:
+        variant = "spin_first"
+        code = source.module_of(first[1]).text.code(first[1])
+        words = {"line": str(first[1].lineno), "statement": code}
+    elif later is not None:
+        variant = "again_alone" if alone else "again"
+        words = {"line": str(later.lineno)}
+    elif others and not alone:
+        variant = "several"
+        words = {"line": ", ".join(str(s.lineno) for s in others[:3])}
+    return replace(found, variant=variant, words={**found.words, **words})
+
+
+def _in_init(source: NodeSource) -> tuple[ast.Expr, str] | None:
+    """Return the line of __init__ that always runs and shuts rclpy down or destroys the node."""
+    init = source.method("__init__")
+    for statement in init.body if init is not None else []:
+        call = statement.value if isinstance(statement, ast.Expr) else None
+        name = dotted(call.func) if isinstance(call, ast.Call) else ""
+        ends = name in ("rclpy.shutdown", "rclpy.try_shutdown", "self.destroy_node")
+        if isinstance(statement, ast.Expr) and ends:
+            return statement, f"{name}()"
+    return None
+
+
+def _init_ends_it(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    found = _in_init(raised.source)
+    if found is None or not (raised.line is None or raised.line > found[0].lineno):
+        return None
+    return replace(raised.finding("cleanup_early", at=found[0], name=found[1]), variant="in_init")
+
+
+def _init_ends(suspect: Suspect) -> RecognisedMistake | None:
+    found = _in_init(suspect.source)
+    if found is None:
+        return None
+    return replace(suspect.finding("cleanup_early", found[0], name=found[1]), variant="in_init")
 
 
 def spun_names(source: NodeSource) -> set[str]:
@@ -213,14 +261,43 @@ KINDS = (
     _node(
         "cleanup_early",
         "shutdown",
-        msg("The clean-up comes before rclpy.spin"),
+        msg("The clean-up comes before spin"),
         msg(
-            "After {name} the node can no longer do anything, not even in rclpy.spin. Clean-up is "
+            "After {name} the node can no longer do anything, not even spin. Clean-up is "
             "the last thing that a program does."
         ),
-        msg("Move {name} to the end of {function}, below rclpy.spin."),
+        msg("Move {name} to the end of {function}, below the line that spins."),
         links.RCLPY,
-        fixes={"again": msg("Delete this line: line {line} cleans up after rclpy.spin.")},
+        whys={
+            "into_try": msg(
+                "The block of finally runs as soon as the try ends: before line {line}. After {name} "
+                "the node can no longer do anything, not even spin."
+            ),
+        },
+        fixes={
+            "again": msg("Delete this line: line {line} cleans up after rclpy.spin."),
+            "again_alone": msg(
+                "Write pass instead of this line: line {line} cleans up after rclpy.spin."
+            ),
+            "alone": msg(
+                "Write pass instead of this line, and write {name} at the end of {function}, below "
+                "the line that spins."
+            ),
+            "into_try": msg(
+                "Move line {line} ({statement}) into the try, below line {written}. Indent it like "
+                "line {written}. The finally then cleans up after it."
+            ),
+            "spin_first": msg(
+                "Move line {line} ({statement}) above this line: the clean-up comes after it."
+            ),
+            "several": msg(
+                "Move this line and the other lines that clean up ({line}) to the end of {function}, "
+                "below the line that spins."
+            ),
+            "in_init": msg(
+                "Delete this line. Clean up at the end of {function}, below the line that spins."
+            ),
+        },
         raised={r"\w": _cleaned_up_first},
         behind={
             "run.never_spins": _cleans_up_first,
@@ -228,7 +305,7 @@ KINDS = (
             "run.no_node": _cleans_up_first,
             "run.no_lines": _cleans_up_first,
         },
-        fixed_by=(node_order.cleanup_last,),
+        fixed_by=(node_order.cleanup_last, node_order.not_in_init),
         examples=(
             example(
                 "shutdown_before_spin",
@@ -251,6 +328,34 @@ KINDS = (
                     NODE,
                     "    node = MyFirstNode()\n",
                     "    rclpy.shutdown()\n    node = MyFirstNode()\n",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "finally_before_spin",
+                Replace(
+                    NODE,
+                    MAIN,
+                    (
+                        "    rclpy.init(args=args)\n"
+                        "    node = None\n"
+                        "    try:\n"
+                        "        node = MyFirstNode()\n"
+                        "    finally:\n"
+                        "        rclpy.shutdown()\n"
+                        "    rclpy.spin(node)\n"
+                    ),
+                ),
+                fails="run.starts",
+                note="the spin belongs in the try: without the line the finally would be empty",
+            ),
+            example(
+                "shutdown_in_init",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)\n",
+                    "        self.create_timer(1.0, self.timer_callback)\n"
+                    "        rclpy.shutdown()\n",
                 ),
                 fails="run.starts",
             ),

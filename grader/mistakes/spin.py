@@ -10,12 +10,14 @@ from grader.mistakes import links
 from grader.mistakes.example import NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_life
 from grader.mistakes.kind import Family
+from grader.mistakes.placeholders import placeholder_values
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Edit, Replace, Write
 from grader.package.source.endless import idle_loop
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.place import statement_at
 
+SPUN = ("spin", "rclpy.spin", "rclpy.spin_once")
 EXITS = ("exit", "quit", "sys.exit", "os._exit")
 SPIN = msg("rclpy.spin(node) waits and calls the callbacks when they are due, until Ctrl+C.")
 
@@ -41,9 +43,23 @@ def _not_called(suspect: Suspect) -> RecognisedMistake | None:
         return None
     for node in suspect.source.all_nodes:
         named = node.value if isinstance(node, ast.Expr) else None
-        if isinstance(named, ast.Attribute) and named.attr == "spin":
-            return suspect.finding("spin_not_called", named)
+        if not isinstance(named, ast.Attribute | ast.Name):
+            continue
+        name, node_name = (
+            dotted(named),
+            placeholder_values(suspect.assignment, suspect.source)["node"],
+        )
+        if name in SPUN or (last_part(name) in ("spin", "spin_once") and "." in name):
+            once = name if _in_loop(suspect, named) else name.removesuffix("_once")
+            own = name.rpartition(".")[0] in executors(suspect)
+            wanted = f"{once}()" if own else f"{once}({node_name})"
+            return suspect.finding("spin_not_called", named, name=name, wanted=wanted)
     return None
+
+
+def _in_loop(suspect: Suspect, node: ast.AST) -> bool:
+    around = suspect.source.module_of(node).around(node)
+    return any(isinstance(n, ast.While | ast.For) for n in around)
 
 
 def executors(suspect: Suspect) -> set[str]:
@@ -302,16 +318,31 @@ KINDS = (
     _node(
         "spin_not_called",
         "spin",
-        msg("The () after rclpy.spin is missing"),
+        msg("The line that is to spin the node is not a call: the () is missing"),
         msg("A function's name alone does nothing; only calling it does."),
-        msg("Write rclpy.spin({node})."),
+        msg("Write {wanted}."),
         links.EXECUTORS,
         behind={"run.exits_at_once": _not_called, "run.never_spins": _not_called},
-        fixed_by=(node_life.spin,),
+        fixed_by=(node_life.called_spin, node_life.spin),
         examples=(
             example(
                 "spin_not_called",
                 Replace(NODE, "rclpy.spin(node)", "rclpy.spin"),
+                fails="run.starts",
+            ),
+            example(
+                "executor_spin_not_called",
+                Replace(
+                    NODE,
+                    "rclpy.spin(node)",
+                    "executor = SingleThreadedExecutor()\n        executor.add_node(node)\n"
+                    "        executor.spin",
+                ),
+                Replace(
+                    NODE,
+                    "from rclpy.node",
+                    "from rclpy.executors import SingleThreadedExecutor\nfrom rclpy.node",
+                ),
                 fails="run.starts",
             ),
         ),

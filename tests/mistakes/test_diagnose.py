@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 RIGHT = (SOLUTION / NODE).read_text(encoding="utf-8")
 SPIN = "rclpy.spin(node)"
+MAIN = RIGHT[RIGHT.index("    node = MyFirstNode()") : RIGHT.index("\n\nif __name__")]
 TRACEBACK = """\
 Traceback (most recent call last):
   File "/ws/install/my_robot_controller/lib/my_robot_controller/test_node", line 33, in <module>
@@ -278,6 +279,61 @@ def test_a_harmless_mistake_is_advice(bench: Bench) -> None:
             "node.cleanup_early",
             "Delete this line: line 33 cleans up after rclpy.spin.",
         ),
+        (  # (the only line of its block)
+            "run.no_node",
+            MAIN,
+            "    node = MyFirstNode()\n    try:\n        print(1)\n    finally:\n"
+            "        rclpy.shutdown()\n    rclpy.spin(node)\n",
+            "node.cleanup_early",
+            "Move line 30 (rclpy.spin(node)) into the try, below line 27.",
+        ),
+        (
+            "run.no_node",
+            MAIN,
+            "    node = MyFirstNode()\n    try:\n        print(1)\n    finally:\n"
+            "        rclpy.shutdown()\n    executor = rclpy.get_global_executor()\n"
+            "    executor.add_node(node)\n    executor.spin()\n",
+            "node.cleanup_early",
+            "Write pass instead of this line, and write rclpy.shutdown() at the end of main",
+        ),
+        (
+            "run.no_node",
+            MAIN,
+            "    node = MyFirstNode()\n    node.destroy_node()\n    rclpy.shutdown()\n"
+            "    rclpy.spin(node)\n",
+            "node.cleanup_early",
+            "Move line 28 (rclpy.spin(node)) above this line",
+        ),
+        (
+            "run.no_node",
+            MAIN,
+            "    node = MyFirstNode()\n    node.destroy_node()\n    rclpy.shutdown()\n"
+            "    try:\n        rclpy.spin(node)\n    except KeyboardInterrupt:\n        pass\n",
+            "node.cleanup_early",
+            "Move this line and the other lines that clean up (27)",
+        ),
+        (
+            "run.exits_at_once",
+            SPIN,
+            "executor = rclpy.executors.SingleThreadedExecutor()\n"
+            "        executor.add_node(node)\n        executor.spin",
+            "node.spin_not_called",
+            "Write executor.spin().",
+        ),
+        (
+            "run.exits_at_once",
+            SPIN,
+            "rclpy.spin_once",
+            "node.spin_not_called",
+            "Write rclpy.spin(node).",
+        ),
+        (
+            "run.never_spins",
+            SPIN,
+            "while rclpy.ok():\n            rclpy.spin_once",
+            "node.spin_not_called",
+            "Write rclpy.spin_once(node).",
+        ),
     ],
 )
 def test_a_cause_is_named_only_if_it_is_certain(
@@ -286,5 +342,6 @@ def test_a_cause_is_named_only_if_it_is_certain(
     assert old in RIGHT
     found = diagnose(failed(symptom), evidence(bench, RIGHT.replace(old, new, 1)))
     names = {"node.sum_not_kept", "node.main_prints", "node.waits_first", "node.cleanup_early"}
+    names.add("node.spin_not_called")
     assert {m.id for m in found.mistakes} & names == ({mistake} if mistake else set())
     assert fix in str(found.fix)

@@ -238,6 +238,20 @@ def called_init(case: Case) -> Files | None:
     return case.changed(module, module.text.swap(named[0], new))
 
 
+def called_spin(case: Case) -> Files | None:
+    """Call a spin that is only named."""
+    module, params = case.module, case.finding.params
+    name, wanted = str(params.get("name", "")), str(params.get("wanted", ""))
+    found = [n for n in module.nodes if isinstance(n, ast.Expr)] if module is not None else []
+    named = [n for n in found if dotted(n.value) == name and n.lineno == case.finding.line]
+    if module is None or case.node is None or len(named) != 1:
+        return None
+    node = wanted.partition("(")[2].removesuffix(")")
+    if node and node not in case.node.node_variables:
+        return None
+    return case.changed(module, module.text.swap(named[0], wanted))
+
+
 def own_init(case: Case) -> Files | None:
     """Call __init__ of the base class through super()."""
     node = case.node

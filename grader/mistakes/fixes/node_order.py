@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise
 
+from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
@@ -137,6 +138,55 @@ def cleaned_up_later(source: NodeSource) -> ast.stmt | None:
     return next((s for s in body[body.index(found[1]) :] if _calls(s, kind)), None)
 
 
+def spin_into_try(source: NodeSource) -> tuple[ast.Try, ast.Expr] | None:
+    """Return the try whose finally cleans up before spin, and the spin if its place is in the try.
+
+    That is sure if nothing is between the two, and the end of the try is reached.
+    """
+    found = early_cleanup(source)
+    around = source.module_of(found[0]).parents.get(found[0]) if found is not None else None
+    if found is None or not isinstance(around, ast.Try) or found[0] not in around.finalbody:
+        return None
+    module, spin = source.module_of(found[0]), found[1]
+    block = block_of(module, spin)
+    if not isinstance(spin, ast.Expr) or around not in block or around.orelse:
+        return None
+    ends = isinstance(around.body[-1], ast.Return | ast.Raise | ast.Break | ast.Continue)
+    follows = block.index(spin) == block.index(around) + 1
+    return (around, spin) if follows and not ends and _is_own_line(module, spin) else None
+
+
+def spin_first(source: NodeSource) -> tuple[ast.Expr, ast.Expr] | None:
+    """Return the first of several clean-ups that are directly above spin, and the spin."""
+    found = early_cleanup(source)
+    early, spin = found if found is not None else (None, None)
+    if early is None or not isinstance(spin, ast.Expr):
+        return None
+    module = source.module_of(early)
+    block = block_of(module, early)
+    if spin not in block or not _is_own_line(module, spin):
+        return None
+    between = block[block.index(early) : block.index(spin)]
+    several = len(between) > 1 and all(_calls(s, CLEANUP) for s in between)
+    return (early, spin) if several and cleaned_up_later(source) is None else None
+
+
+def is_alone(source: NodeSource) -> bool:
+    """Whether the early clean-up is all that its block has."""
+    found = early_cleanup(source)
+    return found is not None and len(block_of(source.module_of(found[0]), found[0])) == 1
+
+
+def other_cleanups(source: NodeSource) -> list[ast.stmt]:
+    """Return the other statements that clean up before spin."""
+    found = early_cleanup(source)
+    if found is None or source.main is None:
+        return []
+    body = list(_always_run(source.main.body))
+    between = body[body.index(found[0]) + 1 : body.index(found[1])]
+    return [s for s in between if isinstance(s, ast.Expr) and _calls(s, CLEANUP)]
+
+
 def cleanup_last(case: Case) -> Files | None:
     """Move the early clean-up behind the statement that spins; remove it if it is there already."""
     node = case.node
@@ -145,18 +195,35 @@ def cleanup_last(case: Case) -> Files | None:
         return None
     early, spin = found
     module, body = node.module_of(early), node.main.body
+    text, inside, first = module.text, spin_into_try(node), spin_first(node)
     if not _is_own_line(module, early) or not isinstance(early.value, ast.Call):
         return None
-    if len(block_of(module, early)) == 1:
+    if inside is not None:
+        last: ast.stmt = inside[0].body[-1]
+        row = indent_of(text.line(last.lineno)) + text.code(spin)
+        below = text.before((last.end_lineno or last.lineno) + 1, row)
+        return case.changed(module, below, text.without(spin.lineno))
+    if first is not None:
+        row = text.line(spin.lineno)
+        return case.changed(module, text.before(early.lineno, row), text.without(spin.lineno))
+    if other_cleanups(node):
         return None
-    name, text = dotted(early.value.func), module.text
+    name = dotted(early.value.func)
+    removed = text.swap(early, "pass") if is_alone(node) else text.without(early.lineno)
     if cleaned_up_later(node) is not None:
-        return case.changed(module, text.without(early.lineno))
+        return case.changed(module, removed)
     around = next(s for s in body if _has(s, spin))
     last = around if name.endswith("destroy_node") else body[-1]
     row = indent_of(text.line(last.lineno)) + text.code(early)
-    below = (last.end_lineno or last.lineno) + 1
-    return case.changed(module, text.without(early.lineno), text.before(below, row))
+    below = text.before((last.end_lineno or last.lineno) + 1, row)
+    return case.changed(module, removed, below)
+
+
+def not_in_init(case: Case) -> Files | None:
+    """Delete the clean-up at the end of __init__."""
+    init = case.node.method("__init__") if case.node is not None else None
+    at = [s for s in init.body if s.lineno == case.finding.line] if init is not None else []
+    return lines.deleted(case) if len(at) == 1 else None
 
 
 def kept(case: Case) -> Files | None:
