@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from grader.mistakes.catalogue import CATALOGUE
 from grader.verdict.checks import package, source
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.checks.declare import INTAKE, Check
@@ -332,3 +333,26 @@ def test_the_files_of_a_package_inside_are_not_to_be_moved_out(bench: Bench) -> 
     for path in ("package.xml", "setup.py"):
         bench.write(f"{NAME}/{path}", (bench.root / path).read_bytes())
     assert "mv " not in bench.fails(package.setup_cfg).fix
+
+
+def test_a_wrong_build_type_alone_is_one_line_to_change(bench: Bench) -> None:
+    bench.change("package.xml", "ament_python", "ament_cmake")
+    failed = bench.fails(package.manifest)
+    assert failed.fix == "Write ament_python in this line instead, then build again."
+    (bench.root / "setup.cfg").unlink()
+    assert "create a new package" in bench.fails(package.manifest).fix
+
+
+@pytest.mark.parametrize(
+    ("kind", "variant"),
+    [
+        ("source.no_init_file", "misnamed"),
+        ("source.misnamed_node_file", ""),
+        ("package.marker_missing", "rename"),
+        ("package.name_mismatch", "setup"),
+        ("setup.misplaced_entry", ""),
+    ],
+)
+def test_what_only_a_build_installs_is_to_be_built_again(kind: str, variant: str) -> None:
+    mistake = CATALOGUE[kind]
+    assert "build again" in mistake.fixes.get(variant, mistake.fix)

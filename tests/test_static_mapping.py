@@ -170,7 +170,7 @@ def test_a_misspelt_argument_is_compared_with_entry_points(bench: Bench) -> None
     failed = bench.misses()
     assert (mistake(failed), line(failed)) == ("setup.no_entry", 15)
     assert "there is 'entry_point'" in failed.actual
-    assert failed.fix == "Write entry_points instead of entry_point."
+    assert failed.fix == "Write entry_points instead of entry_point, then build again."
 
 
 @pytest.mark.parametrize("group", ["console_script", "consol_scripts", "consolescripts", "scripts"])

@@ -124,14 +124,14 @@ KINDS = (
         },
         fixes={
             "comma": msg(
-                "Write a comma at the end of line {line}: without it, Python calls what that line "
-                "contains."
+                "Write a comma at the end of line {line}, then build again. Without it, "
+                "Python calls what that line contains."
             ),
             "unreadable": msg(
                 "Fix that line of setup.py, then build again. Often a comma, a "
                 "quote or a bracket is missing in the line above."
             ),
-            "no_import": msg("Add at the top of setup.py: {statement}"),
+            "no_import": msg("Add at the top of setup.py, then build again: {statement}"),
             "outside": msg(
                 "Move this entry up, above the ] in line {line}: entries are between the [ and the "
                 "] of 'console_scripts'."
@@ -159,7 +159,7 @@ KINDS = (
                 "brackets around it, then build again."
             ),
             "misspelt": msg("Write {close} instead of {name}, then build again."),
-            "variable": msg("Write above setup(: {statement}"),
+            "variable": msg("Write above setup(, then build again: {statement}"),
             "late": msg(
                 "Python reads the file from top to bottom. Move line {line}, which sets {name}, above "
                 "setup(, then build again."

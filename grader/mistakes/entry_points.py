@@ -131,7 +131,7 @@ KINDS = (
         stage="entry point",
         title=msg("two entries become one, because the comma between them is missing"),
         why=JOINS,
-        fix=msg("Add a comma after '{before}'."),
+        fix=msg("Add a comma after '{before}', then build again."),
         link=links.ENTRY_POINTS,
         fixed_by=(entries.comma,),
         examples=(
@@ -229,7 +229,7 @@ KINDS = (
             "build turns it into the executable that ros2 run starts. A name can refer to one "
             "function only."
         ),
-        fix=msg("Keep only one line: '{wanted}',"),
+        fix=msg("Keep only one line, then build again: '{wanted}',"),
         fixed_by=(entries.single,),
         link=links.ENTRY_POINTS,
     ),
@@ -393,10 +393,11 @@ KINDS = (
                 "stops at any other text."
             )
         },
-        fix=msg("Move '{wanted}' to the list console_scripts in entry_points."),
+        fix=msg("Move '{wanted}' to the list console_scripts in entry_points, then build again."),
         fixes={
             "group": msg(
-                "Put it into entry_points: entry_points={{'console_scripts': ['{wanted}']}},"
+                "Put it into entry_points, then build again: "
+                "entry_points={{'console_scripts': ['{wanted}']}},"
             )
         },
         link=links.DEVELOPING,
@@ -443,9 +444,12 @@ KINDS = (
         msg("there is no entry for the executable"),
         msg("Add this line to console_scripts, then build again: '{wanted}',"),
         {
-            "renamed": msg("Write entry_points instead of {argument}."),
+            "renamed": msg("Write entry_points instead of {argument}, then build again."),
             "comment": msg("Remove the # before '{wanted}', then build again."),
-            "nothing": msg("Add to setup(): entry_points={{'console_scripts': ['{wanted}']}},"),
+            "nothing": msg(
+                "Add to setup(), then build again: entry_points={{'console_scripts': "
+                "['{wanted}']}},"
+            ),
         },
         fixed_by=(
             entries.keyword,

@@ -41,7 +41,9 @@ PLACE = msg(
     "Python imports the node as the module <package>.<file>, so the file must be in the inner "
     "folder, which has the package's name and contains __init__.py."
 )
-MOVE = msg("Move it into the inner folder. In the package's folder, run: mv {there} {wanted}")
+MOVE = msg(
+    "Move it into the inner folder, then build again. In the package's folder, run: mv {there} {wanted}"
+)
 OWN_COPIES = msg(
     "A build copies your files into build and install. Only the files in src are yours: each build "
     "overwrites the copies."
@@ -239,7 +241,7 @@ KINDS = (
         why=msg(
             "The exercise asks for a file of this name. Every letter counts, and case matters."
         ),
-        fix=msg("Rename it. In the package's folder, run: mv {there} {path}"),
+        fix=msg("Rename it, then build again. In the package's folder, run: mv {there} {path}"),
         link=links.FIRST_NODE,
         fixed_by=(layout.node_name,),
         examples=(
@@ -287,8 +289,13 @@ KINDS = (
             "find_packages() in setup.py recognises a Python package by its __init__.py. "
             "Without it, nothing in the folder is installed."
         ),
-        fix=msg("Create the empty file: touch {path}"),
-        fixes={"misnamed": msg("Rename it to __init__.py: mv {there} {path}")},
+        fix=msg("Create the empty file, then build again: touch {path}"),
+        fixes={
+            "misnamed": msg(
+                "Its name must be exactly __init__.py, with two underscores on both sides. "
+                "Rename it, then build again: mv {there} {path}"
+            )
+        },
         link=links.PACKAGE,
         fixed_by=(layout.init_file,),
         examples=(

@@ -306,7 +306,7 @@ KINDS = (
                 "Move <{found}> below </{tag}>: each of the two has a line of its own, and <{tag}> "
                 "contains only text."
             ),
-            "name": msg("Write <name>{package}</name> in package.xml."),
+            "name": msg("Write <name>{package}</name> in package.xml, then build again."),
             "empty": msg("Write something between <{tag}> and </{tag}>."),
             "second_empty": msg("Delete this empty <{tag}>."),
             "root": msg(
@@ -410,9 +410,11 @@ KINDS = (
                 "for the name in package.xml: the two must be the same."
             )
         },
-        fix=msg("Write <name>{package}</name> in package.xml."),
+        fix=msg("Write <name>{package}</name> in package.xml, then build again."),
         fixes={
-            "setup": msg("Set name (or package_name) in setup.py to '{package}'."),
+            "setup": msg(
+                "Set name (or package_name) in setup.py to '{package}', then build again."
+            ),
             "throughout": msg(
                 "Use the name {package} in package.xml, setup.py, setup.cfg and for "
                 "the file in resource/. Your package was marked under its own name."
@@ -445,7 +447,6 @@ KINDS = (
                     "package_name = 'robot_controller'",
                 ),
                 fails="package.manifest",
-                also={"package.marker": "package.marker_missing"},
                 blocks=UNBUILT,
             ),
             example(
@@ -529,13 +530,17 @@ KINDS = (
             "package for a C++ one and looks for a CMakeLists.txt."
         ),
         whys={"outside": DEGRADES},
-        fix=msg("Write in package.xml: <export><build_type>ament_python</build_type></export>"),
+        fix=msg(
+            "Write in package.xml, then build again: "
+            "<export><build_type>ament_python</build_type></export>"
+        ),
         fixes={
             "outside": msg(
                 "Write <export> before this tag and </export> after it: "
                 "<export><build_type>ament_python</build_type></export>"
             ),
             "renamed": msg("Write <{tag}> instead of <{close}>, and the same in its end tag."),
+            "line": msg("Write ament_python in this line instead, then build again."),
             "cmake": msg(
                 "If only this line is wrong, write ament_python. Otherwise create a "
                 "new package with ros2 pkg create --build-type ament_python and copy "
@@ -593,8 +598,8 @@ KINDS = (
             ),
         },
         fix=msg(
-            "Create the empty file. In the package's folder, run: mkdir -p resource && touch "
-            "resource/{package}"
+            "Create the empty file, then build again. In the package's folder, run: "
+            "mkdir -p resource && touch resource/{package}"
         ),
         fixes={
             "folder": msg(
@@ -602,14 +607,15 @@ KINDS = (
                 "folder, run: rm -r resource/{package} && touch resource/{package}"
             ),
             "rename": msg(
-                "Rename resource/{close} to resource/{package}: the two names must be the same."
+                "Rename resource/{close} to resource/{package}: the two names must be the "
+                "same. Then build again."
             ),
             "other": msg(
-                "Make that line install 'resource/{package}': set package_name in "
-                "setup.py to '{package}'."
+                "Make that line install 'resource/{package}': set package_name in setup.py "
+                "to '{package}'. Then build again."
             ),
-            "path": msg("Write ['resource/' + package_name] in that line."),
-            "moved": msg("Rename the folder {close} to resource."),
+            "path": msg("Write ['resource/' + package_name] in that line, then build again."),
+            "moved": msg("Rename the folder {close} to resource, then build again."),
             "inner": msg(
                 "Move it out of the inner folder. In the package's folder, run: mv {there} ."
             ),
@@ -671,8 +677,8 @@ KINDS = (
         ),
         fixes={
             "other": msg(
-                "Make that line install 'resource/{package}': set package_name in "
-                "setup.py to '{package}'."
+                "Make that line install 'resource/{package}': set package_name in setup.py "
+                "to '{package}'. Then build again."
             )
         },
         link=links.DEVELOPING,

@@ -326,14 +326,14 @@ def _check_build_type(evidence: Evidence, manifest: Manifest) -> None:
     if elements[0].text != "ament_python":
         _check_created(evidence, elements[0])
         said = f"<build_type>{shown(elements[0].text)}</build_type>"
-        raise _build_type(elements[0], with_difference(said, elements[0].text, "ament_python"))
+        differs = with_difference(said, elements[0].text, "ament_python")
+        raise _build_type(elements[0], differs, "" if _not_there(evidence) else "line")
 
 
 def _check_created(evidence: Evidence, element: Element) -> None:
     """Raise Failed if the whole package was created for C++, and not only this line is wrong."""
     assignment = evidence.assignment
-    files = ("setup.py", "setup.cfg", f"resource/{assignment.package}")
-    missing = [path for path in files if evidence.submission.file(path) is None]
+    missing = _not_there(evidence)
     has_cmake = evidence.submission.file("CMakeLists.txt") is not None
     if not missing or not has_cmake or "cmake" not in element.text:
         return
@@ -353,6 +353,12 @@ def _check_created(evidence: Evidence, element: Element) -> None:
             "entry": f"{assignment.executable} = {assignment.target}",
         },
     )
+
+
+def _not_there(evidence: Evidence) -> list[str]:
+    """Return the files of a Python package that are missing."""
+    files = ("setup.py", "setup.cfg", f"resource/{evidence.assignment.package}")
+    return [path for path in files if evidence.submission.file(path) is None]
 
 
 def _build_type(element: Element | None, actual: str, variant: str = "") -> Failed:

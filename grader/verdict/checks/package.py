@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 from posixpath import normpath
 from typing import TYPE_CHECKING
@@ -25,6 +26,7 @@ from grader.verdict.checks.parsed import (
 from grader.verdict.outcome import Failed, Passed
 
 if TYPE_CHECKING:
+    from grader.package.source.setup_py import SetupPy
     from grader.verdict.evidence import Evidence
 
 
@@ -83,7 +85,7 @@ def manifest(evidence: Evidence) -> Passed:
     return check_manifest(evidence)
 
 
-@check("package.marker", stage=INTAKE, depends=["package.found"])
+@check("package.marker", stage=INTAKE, depends=["package.found"], after=["package.manifest"])
 def marker(evidence: Evidence) -> Passed:
     """The marker file by which ROS finds the package exists and is installed."""
     package = evidence.assignment.package
@@ -101,6 +103,8 @@ def marker(evidence: Evidence) -> Passed:
     if (named and not lost) or not all_known:
         where = say("{path}, installed in {folder}", path=path, folder=INDEX)
         return Passed(actual=where if all_known else path)
+    if installed and _comes_from_name(evidence, setup, (lost or installed)[0]):
+        return Passed(actual=path)
     if installed:
         raise _other_marker(evidence, (lost or installed)[0])
     line = data_files.line if data_files is not None else setup.line
@@ -110,6 +114,19 @@ def marker(evidence: Evidence) -> Passed:
         actual=say("data_files in setup.py has no line for it"),
         where=Where(file="setup.py", line=line),
     )
+
+
+def _comes_from_name(evidence: Evidence, setup: SetupPy, item: Text) -> bool:
+    """Whether a marker has another name only because of the wrong name that setup.py sets.
+
+    That name is in one place of the file, and package.manifest has reported it.
+    """
+    name, file = setup.name, file_of(evidence, "setup.py")
+    if name is None or file is None or item.value != f"resource/{name.value}":
+        return False
+    whole = rb"(?<!\w)%s(?!\w)" % re.escape(name.value.encode())
+    once = len(re.findall(whole, file.data)) == 1
+    return once and evidence.has_mistake("package.manifest", "package.name_mismatch")
 
 
 def _no_marker(evidence: Evidence, path: str) -> Failed:
