@@ -24,18 +24,20 @@ SIMPLER = {
 TO_SIMPLER = str.maketrans(SIMPLER)
 
 
-def visible(text: str) -> str:
+def visible(text: str, *, tabs: bool = False) -> str:
     """Return `text` with everything but printable characters, newlines and spaces escaped.
 
     Printable is as in `str.isprintable`: no control (C0, C1), format (bidi overrides, zero
-    width), surrogate or unassigned character, no separator but the space.
+    width), surrogate or unassigned character, no separator but the space. Tabs become spaces,
+    unless `tabs` keeps them: in a diff they are what is changed.
     """
     text = text.replace("\r\n", "\n")
-    if "\t" in text:
+    if "\t" in text and not tabs:
         text = text.expandtabs(TAB)
     if text.isprintable():
         return text
-    return "".join(c if c.isprintable() or c == "\n" else _escaped(c) for c in text)
+    kept = "\n\t" if tabs else "\n"
+    return "".join(c if c.isprintable() or c in kept else _escaped(c) for c in text)
 
 
 def _escaped(character: str) -> str:
@@ -47,10 +49,12 @@ def one_line(text: str, *, most: int = 300) -> str:
     return visible(shorten(text, most=most)).replace("\n", "\\n")
 
 
-def first_lines(text: str, *, lines: int, most: int = 500, translate: Translate = str) -> list[str]:
+def first_lines(
+    text: str, *, lines: int, most: int = 500, translate: Translate = str, tabs: bool = False
+) -> list[str]:
     """Return at most `lines` lines of at most `most` characters; the middle is left out.
 
-    `translate` translates the words that take the place of what is left out.
+    `translate` translates the words that take the place of what is left out. `tabs` keeps tabs.
     """
     found = _split(text)
     if len(found) > lines:
@@ -58,7 +62,7 @@ def first_lines(text: str, *, lines: int, most: int = 500, translate: Translate 
         tail = lines - head
         left_out = translate(_lines_left_out(len(found) - lines))
         found = [*found[:head], left_out, *(found[-tail:] if tail else [])]
-    return [visible(shorten(line, most=most, translate=translate)) for line in found]
+    return [visible(shorten(line, most=most, translate=translate), tabs=tabs) for line in found]
 
 
 def last_lines(

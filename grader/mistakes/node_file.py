@@ -758,7 +758,10 @@ KINDS = (
     _first_line(
         "byte_order_mark",
         msg("There is a byte order mark before line 1"),
-        msg("Save the file as UTF-8, not as 'UTF-8 with BOM' (in VS Code: at the bottom right)."),
+        msg(
+            "Save the file as UTF-8, not as 'UTF-8 with BOM' (in VS Code: at the bottom right). Or "
+            "run: sed -i '1s/^\\xEF\\xBB\\xBF//' {path}"
+        ),
         fixed_by=(first_line.byte_order_mark,),
     ),
     _first_line(

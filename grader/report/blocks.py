@@ -92,7 +92,8 @@ def block(page: Page, check: CheckResult, *, lines: int, on: str = "") -> None:
     _field(page, say("fix"), check.fix, lines, style="bold")
     if check.patch.strip() and not check.consequence_of:  # (that check shows the same change)
         patch = shown_patch(check.patch, page.translate)
-        page.code(say("change"), first_lines(patch, lines=4 * lines, translate=page.translate))
+        rows = first_lines(patch, lines=4 * lines, translate=page.translate, tabs=True)
+        page.code(say("change"), rows)
     for advice in check.advice:
         _field(page, say("also"), advice, lines)
     if check.consequence_of:

@@ -15,7 +15,7 @@ from rich.table import Table
 from rich.text import Text
 
 from grader.base.carets import pieces, shortened
-from grader.base.gated_console import GatedConsole
+from grader.base.gated_console import Code, GatedConsole
 from grader.report.wrap import breaks, longest_word
 
 NARROW = 60  # columns; on a narrower page, columns are stacked
@@ -47,6 +47,7 @@ class Page:
         self._out = io.StringIO()
         self.translate = translate
         self._styled = styled
+        self._whole: set[str] = set()  # lines whose spaces at the end stay
         self._width = max(20, min(width, WIDEST))
         self._console = GatedConsole(
             self._out,
@@ -73,7 +74,8 @@ class Page:
         text = self._out.getvalue()
         if self._styled:
             return text
-        return "".join(f"{line.rstrip()}\n" for line in text.splitlines())
+        rows = (line if line in self._whole else line.rstrip() for line in text.splitlines())
+        return "".join(f"{row}\n" for row in rows)
 
     def gap(self) -> None:
         """Write an empty line."""
@@ -103,7 +105,10 @@ class Page:
         first, rest = self._lead(label, lines)
         for number, line in enumerate(lines):
             lead = first if number == 0 else rest
-            self._verbatim(Text.assemble((lead, "bold"), (line, _diff_style(line))))
+            code = Code((lead, "bold"), (line, _diff_style(line)))
+            self._console.print(code, soft_wrap=True)
+            if line[1:].strip() and line != line.rstrip():
+                self._whole.add(lead + line)
 
     def _lead(self, label: str, lines: Sequence[str]) -> tuple[str, str]:
         """Return the prefixes of the first line and of the others."""

@@ -19,7 +19,7 @@ from tests.marking_catalogue import MarkingCatalogue
 from tests.report.samples import check, render_report, report
 
 OUR_STYLES = re.compile(r"\x1b\[[0-9;]*m")
-SURVIVING = ("\n",)
+SURVIVING = ("\n", "\t")  # (a diff keeps its tabs)
 HOSTILE = {
     "clear screen": "\x1b[2J\x1b[H",
     "title": "\x1b]0;owned\x07",

@@ -339,3 +339,19 @@ def test_a_heading_over_short_names_stays_on_one_line() -> None:
         ["ann", "3"],
         ["bo", "12"],
     ]
+
+
+@pytest.mark.parametrize("styled", [False, True])
+def test_a_diff_keeps_what_a_tool_compares(*, styled: bool) -> None:
+    rows = (
+        "--- a/node.py",
+        "+++ b/node.py",
+        "@@ -1,2 +1,2 @@",
+        " x = 1  ",
+        "-\ty = 2",
+        "+    y = 2",
+    )
+    failed = check("source.node_file", "failed", patch="\n".join(rows) + "\n")
+    page = render_report(report(failed), styled=styled)
+    for row in rows:
+        assert row in page
