@@ -243,6 +243,12 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.period_not_number": {"name": "1.0,", "written": "1.0"},
     "node.threading_timer": {"line": "13"},
+    "node.thread_timer": {
+        "name": "callback",
+        "written": "self.create_timer(1.0, self.callback)",
+        "line": "12",
+        "lines": "2, 14-18, 23",
+    },
     "package.created_inside": {
         "inner": "my_package/my_package",
         "extra": "my_package/my_package",

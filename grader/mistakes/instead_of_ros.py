@@ -8,8 +8,8 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import LOG, NODE, SILENT, example
-from grader.mistakes.fixes import lines, node_logging
+from grader.mistakes.example import LOG, NODE, SILENT, STEP_LINE, example
+from grader.mistakes.fixes import lines, node_logging, node_threads
 from grader.mistakes.fixes.node_timer import value_of
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
@@ -19,13 +19,22 @@ from grader.package.source.imported import full_name, imports
 from grader.package.source.names import dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.python_logging import is_of_logging, python_logs
+from grader.package.source.thread_timers import row_ranges, thread_timer
 
+TIMER = "        self.create_timer(1.0, self.timer_callback)\n"
+INLINE = """\
+        timer = threading.Timer(1.0, self.timer_callback)
+        timer.daemon = True
+        timer.start()
+"""
 ROS_NODE = ("rclpy.node", "rclpy.lifecycle", "rclpy.lifecycle.node")
 
 
 def _threading_timer(suspect: Suspect) -> RecognisedMistake | None:
     for call in suspect.source.calls_of("Timer"):
         if full_name(suspect.source.module_of(call), call.func) == "threading.Timer":
+            if thread_timer(suspect.source) is not None:
+                return None
             found = suspect.finding("threading_timer", call)
             lines = _lines_of_timer(suspect, call)
             if not lines:
@@ -33,6 +42,20 @@ def _threading_timer(suspect: Suspect) -> RecognisedMistake | None:
             words = {**found.words, "line": ", ".join(map(str, lines))}
             return replace(found, variant="used", words=words)
     return None
+
+
+def _thread_timer(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a timer of Python that is started again and again beside rclpy.spin."""
+    found = thread_timer(suspect.source) if suspect.source.calls_of("spin") else None
+    if found is None:
+        return None
+    made = f"{found.kept} = " if found.kept else ""
+    written = f"{made}self.create_timer({suspect.output.period!r}, self.{found.method})"
+    mistake = suspect.finding("thread_timer", found.call, name=found.method, written=written)
+    at = found.first.lineno if found.first is not None else 0
+    words = {**mistake.words, "line": at, "lines": row_ranges(found.rows)}
+    variant = "" if found.is_certain else "uncertain"
+    return replace(mistake, words=words, variant=variant if at or variant else "added")
 
 
 def _lines_of_timer(suspect: Suspect, call: ast.Call) -> list[int]:
@@ -149,6 +172,57 @@ KINDS = (
                 ),
                 fails="run.output",
                 blocks=("run.period",),
+            ),
+        ),
+    ),
+    _node(
+        "thread_timer",
+        "timer",
+        msg("threading.Timer is Python's timer, not the node's"),
+        msg(
+            "This line starts a timer of Python, in a thread beside rclpy.spin. ROS time does not "
+            "drive it: in a simulation or a replay it runs at the wrong speed, and it does not "
+            "stop when time stops. The node's own timer repeats by itself."
+        ),
+        msg(
+            "In __init__, write {written} instead of line {line}. Then delete what belongs to the "
+            "old timer (line {lines}). The node's timer calls {name} again and again."
+        ),
+        fixes={
+            "added": msg(
+                "Write {written} as the last line of __init__. Then delete what belongs to the "
+                "old timer (line {lines}). The node's timer calls {name} again and again."
+            ),
+            "uncertain": msg(
+                "Write {written} in __init__, once. Then delete everything that creates, sets up "
+                "or starts a threading.Timer, in __init__ and in the methods: the node's timer "
+                "calls {name} again and again."
+            ),
+        },
+        behind=dict.fromkeys(
+            (
+                *("run.never_spins", "run.by_hand", "run.wrong_period", "run.stops"),
+                "run.ignores_interrupt",
+            ),
+            _thread_timer,
+        ),
+        fixed_by=(node_threads.timer_of_node,),
+        examples=(
+            example(
+                "thread_timer",
+                Replace(NODE, "import rclpy\nfrom", "import threading\nimport rclpy\nfrom"),
+                Replace(NODE, TIMER, INLINE),
+                Replace(NODE, STEP_LINE, STEP_LINE + INLINE),
+                fails="run.spins",
+            ),
+            example(
+                "thread_timer_in_method",
+                Replace(NODE, "import rclpy\nfrom", "import threading\nimport rclpy\nfrom"),
+                Replace(
+                    NODE, TIMER, "        self.schedule()\n\n    def schedule(self):\n" + INLINE
+                ),
+                Replace(NODE, STEP_LINE, f"{STEP_LINE}        self.schedule()\n"),
+                fails="run.spins",
             ),
         ),
     ),

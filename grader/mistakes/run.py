@@ -605,32 +605,6 @@ KINDS = (
             "callback, and call rclpy.spin(node) in {function}."
         ),
         link=links.EXECUTORS,
-        examples=(
-            example(
-                "thread_timer",
-                Replace(NODE, "import rclpy\nfrom", "import threading\nimport rclpy\nfrom"),
-                Replace(
-                    NODE,
-                    "self.create_timer(1.0, self.timer_callback)",
-                    (
-                        "timer = threading.Timer(1.0, self.timer_callback)\n"
-                        "        timer.daemon = True\n"
-                        "        timer.start()"
-                    ),
-                ),
-                Replace(
-                    NODE,
-                    "self.counter_ += 1",
-                    (
-                        "self.counter_ += 1\n"
-                        "        timer = threading.Timer(1.0, self.timer_callback)\n"
-                        "        timer.daemon = True\n"
-                        "        timer.start()"
-                    ),
-                ),
-                fails="run.spins",
-            ),
-        ),
     ),
     _run(
         "other_clock",

@@ -8,12 +8,13 @@ from dataclasses import replace
 from grader.mistakes.fixes import lines, node_loops
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
-from grader.package.edit.text import Splice
+from grader.package.edit.text import Splice, indent_of
 from grader.package.source.endless import endless_loop
 from grader.package.source.imported import imports
 from grader.package.source.module import Module
 from grader.package.source.names import dotted
 from grader.package.source.place import function_at
+from grader.package.source.thread_timers import thread_timer
 from grader.package.source.threads import OwnThread, own_threads, variables_of
 
 
@@ -59,6 +60,34 @@ def _without_loop(case: Case, name: str) -> Files | None:
     for unused in ("threading", "time"):
         files = _without_import(replace(case, files=files), unused)
     return files
+
+
+def timer_of_node(case: Case) -> Files | None:
+    """Create a timer of the node instead of Python's, and delete what belongs to the old one."""
+    node = case.node
+    found = thread_timer(node) if node is not None else None
+    init = node.method("__init__") if node is not None else None
+    if node is None or found is None or init is None or not found.is_certain:
+        return None
+    module, text = node.module, node.module.text
+    made = f"{found.kept} = " if found.kept else ""
+    new = f"{made}self.create_timer({case.assignment.output.period!r}, self.{found.method})"
+    rows = set(found.rows)
+    # the empty line above a method goes with it
+    rows |= {n - 1 for n in rows if n - 1 not in rows and _begins_method(module, n)}
+    splices = [text.without(row) for row in rows]
+    if found.first is not None:
+        return case.changed(module, text.swap(found.first, new), *splices)
+    last = init.body[-1]
+    row = indent_of(text.line(last.lineno)) + new
+    if last.lineno == init.lineno or isinstance(last, ast.Return):
+        return None
+    return case.changed(module, text.before((last.end_lineno or last.lineno) + 1, row), *splices)
+
+
+def _begins_method(module: Module, line: int) -> bool:
+    above = module.text.line(line - 1).strip()
+    return not above and module.line(line).startswith("def ")
 
 
 def daemon(case: Case) -> Files | None:
