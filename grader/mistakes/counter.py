@@ -6,7 +6,7 @@ import ast
 import re
 from dataclasses import dataclass, replace
 
-from grader.base.i18n.message import msg
+from grader.base.i18n.message import Value, joined, msg, say
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, LOG_LINE, NODE, STEP_LINE, example
 from grader.mistakes.fixes import lines, node_count, node_log, node_words
@@ -20,6 +20,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import logged_counter, outer_word, parts_of_callback, targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, last_part
+from grader.package.source.number_forms import number_forms
 from grader.package.source.place import function_at, place_of, statement_at
 from grader.report.model import Where
 
@@ -27,6 +28,16 @@ COUNTER = msg(
     "An attribute (self.…) keeps its value from one callback to the next; a name without self. is "
     "gone when the function ends."
 )
+
+
+FLOAT_STEP = msg("An integer and a number with a decimal point make one with a point.")
+FLOAT_START = msg("{form} is a number with a decimal point, so each sum with it is one too.")
+OTHER_FORM = msg(
+    "{form} sets the form in which the number is written. Without it, Python writes the plain "
+    "integer."
+)
+ONE_PIECE = msg("Write {written} instead of {name}.")
+MORE_PIECES = msg("Write {written} instead of {name}. Write also: {others}.")
 
 
 @dataclass(frozen=True)
@@ -282,18 +293,41 @@ def _tuple(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _number_format(suspect: Suspect) -> RecognisedMistake | None:
-    head, tail = suspect.output.text.split("{n}")
-    number = rf"{re.escape(head)}(?:[+-]?\d+\.\d+|0\d+|\d+e\d+){re.escape(tail)}"
-    if not re.fullmatch(number, suspect.text):
+    head, tail = map(re.escape, suspect.output.text.split("{n}"))
+    number = r"[+-]?\d+\.\d+|\+\d+|0\d+|\d(?:\.\d+)?e[+-]?\d+|0[xbo][0-9a-f]+"
+    if re.fullmatch(rf"{head}(?: +\d+|\d+ +){tail}", suspect.text):
+        return _other_form(suspect)
+    if not re.fullmatch(rf"{head} *(?:{number}) *{tail}", suspect.text):
         return None
-    counter = counter_in(suspect)
+    found = _other_form(suspect)
+    counter = counter_in(suspect) if found is None else None
     for node in counter.added if counter is not None else ():
         if counter is not None and not _is_integer(suspect, node.value):
             new = f"{counter.name} += {suspect.output.step}"
             code = suspect.source.module_of(node).text.code(node)
-            found = suspect.finding("number_format", node, name=code, written=new)
-            return replace(found, variant="step")
-    return suspect.finding("number_format", _place_of_text(suspect))
+            step = suspect.finding("number_format", node, name=code, written=new)
+            return replace(step, variant="step")
+    return found or suspect.finding("number_format", _place_of_text(suspect))
+
+
+def _other_form(suspect: Suspect) -> RecognisedMistake | None:
+    """Name the piece of code that gives the number its form, and the next one if there is one."""
+    output = suspect.output
+    found = number_forms(suspect.source, output.start, output.step)
+    if not found:
+        return None
+    piece, place = found[0], Where(file=found[0].module.path, line=found[0].line)
+    mistake = suspect.finding("number_format", place, name=piece.name, written=piece.written)
+    words: dict[str, Value] = {**mistake.words, "form": piece.form}
+    if len(found) == 1:
+        return replace(mistake, words=words, variant=piece.part)
+    others = [
+        say("{new} instead of {old} (line {line})", new=o.written, old=o.name, line=o.line)
+        for o in found[1:]
+    ]
+    floats = piece.part == "form" and any(other.part != "form" for other in found)
+    words = {**words, "others": joined(*others, by=", ")}
+    return replace(mistake, words=words, variant="floats" if floats else f"{piece.part}_and_more")
 
 
 def _is_integer(suspect: Suspect, value: ast.expr) -> bool:
@@ -734,10 +768,29 @@ KINDS = (
             "zeros."
         ),
         msg("Begin with {counter} = {start} (not {start}.0), and log str({counter})."),
-        whys={"step": msg("An integer and a number with a decimal point make one with a point.")},
-        fixes={"step": msg("Write {written} instead of {name}: the counter counts the lines.")},
+        whys={
+            "step": FLOAT_STEP,
+            "step_and_more": FLOAT_STEP,
+            "start": FLOAT_START,
+            "start_and_more": FLOAT_START,
+            "form": OTHER_FORM,
+            "form_and_more": OTHER_FORM,
+            "floats": msg(
+                "{form} sets the form in which the number is written, and the number itself has a "
+                "decimal point."
+            ),
+        },
+        fixes={
+            "step": msg("Write {written} instead of {name}: the counter counts the lines."),
+            "start": ONE_PIECE,
+            "form": ONE_PIECE,
+            "step_and_more": MORE_PIECES,
+            "start_and_more": MORE_PIECES,
+            "form_and_more": MORE_PIECES,
+            "floats": MORE_PIECES,
+        },
         behind={"run.wrong_text": _number_format},
-        fixed_by=(lines.written, node_log.plain_number),
+        fixed_by=(node_log.plain_form, lines.written, node_log.plain_number),
         examples=(
             example(
                 "number_as_float",
@@ -759,6 +812,20 @@ KINDS = (
                 ),
                 fails="run.output",
                 note="Hello time: 00",
+            ),
+            example(
+                "number_filled_with_zeros",
+                Replace(NODE, "str(self.counter_)", "str(self.counter_).zfill(3)"),
+                fails="run.output",
+            ),
+            example(
+                "number_with_a_point_in_percent",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "'Hello time: %.1f' % self.counter_",
+                ),
+                fails="run.output",
             ),
         ),
     ),

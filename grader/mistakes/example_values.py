@@ -243,9 +243,15 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.period_not_number": {"name": "1.0,", "written": "1.0"},
     "node.threading_timer": {"line": "13"},
+    "node.number_format": {
+        "name": "{self.counter:03d}",
+        "written": "{self.counter}",
+        "form": ":03d",
+        "others": "self.counter = 0 instead of self.counter = 0.0 (line 12)",
+    },
     "node.thread_timer": {
         "name": "callback",
-        "written": "self.create_timer(1.0, self.callback)",
+        "written": "self.create_timer(2.0, self.callback)",
         "line": "12",
         "lines": "2, 14-18, 23",
     },

@@ -13,6 +13,7 @@ from grader.package.source.counter import starts_of, texts_of
 from grader.package.source.module import Module
 from grader.package.source.names import called_name, dotted, own_name
 from grader.package.source.node import NodeSource
+from grader.package.source.number_forms import number_forms
 from grader.package.source.place import statement_at
 
 PLACE = re.compile(r"\{((?:[A-Za-z_]\w*\.)?[A-Za-z_]\w*)\}")
@@ -265,6 +266,15 @@ def number(case: Case) -> Files | None:
     q = module.text.code(call.args[0])[0]
     new = f"{q}{before}{q} + str({counters[0]})"
     return case.changed(module, module.text.swap(call.args[0], new))
+
+
+def plain_form(case: Case) -> Files | None:
+    """Write the counter as a plain integer: without another form, first value or step."""
+    node, output = case.node, case.assignment.output
+    found = number_forms(node, output.start, output.step) if node is not None else []
+    if not found or any(piece.module is not found[0].module for piece in found):
+        return None
+    return case.changed(found[0].module, *(piece.splice for piece in found))
 
 
 def plain_number(case: Case) -> Files | None:
