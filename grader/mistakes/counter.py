@@ -587,6 +587,7 @@ KINDS = (
         raised={
             r"unsupported operand type\(s\) for \+=?: '(?:int|float)' and 'str'": _step_is_text
         },
+        fixed_by=(node_count.number_step,),
         examples=(
             example(
                 "step_is_text_in_sum",

@@ -319,7 +319,14 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.thread_goes_on": {"name": "run"},
     "node.asyncio_used": {"name": "asyncio.sleep(…)", "method": "on_timer"},
     "node.timer_hides_method": {"name": "on_timer"},
-    "node.error_hidden": {"name": "count", "written": "counter", "line": "12"},
+    "node.error_hidden": {
+        "name": "count",
+        "written": "counter",
+        "line": "12",
+        "at": "12",
+        "error": "NameError: name 'count' is not defined",
+        "correction": "Write self.counter instead of count.",
+    },
     "node.counter_passed": {
         "name": "self.counter",
         "method": "add_one",

@@ -11,6 +11,7 @@ from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import LOG, LOG_LINE, NODE, SILENT, STEP_LINE, example
 from grader.mistakes.fixes import node_order, node_scope
+from grader.mistakes.hidden_error import corrected, hidden_error
 from grader.mistakes.kind import Family
 from grader.mistakes.objects import OF_NODE
 from grader.mistakes.recognised import RecognisedMistake, Suspect
@@ -53,8 +54,24 @@ def _swallows(suspect: Suspect) -> RecognisedMistake | None:
                 continue
             for handler in filter(_hides, node.handlers):
                 found = suspect.finding("error_hidden", suspect.place_at(handler))
+                error = hidden_error(suspect.source, suspect.assignment, node)
+                if error is not None:
+                    return _with_error(found, *error)
                 return _with_attribute(suspect, found, node.body)
     return None
+
+
+def _with_error(
+    found: RecognisedMistake, error: str, line: int, behind: RecognisedMistake
+) -> RecognisedMistake:
+    """Add the hidden error, its line, and how it is corrected."""
+    from grader.mistakes.catalogue import CATALOGUE  # noqa: PLC0415 - has this file's records
+
+    values = {**behind.params, **behind.words}
+    correction = CATALOGUE[behind.kind].fix_text(values, behind.variant)
+    at = behind.where.line if behind.where is not None else None
+    words = {**found.words, "error": error, "line": line, "correction": correction}
+    return replace(found, words={**words, "at": at or line}, variant="error")
 
 
 def _with_attribute(
@@ -196,12 +213,21 @@ KINDS = (
             "Remove this except (and its try), and run the node again: now the traceback shows "
             "the line with the error."
         ),
+        whys={
+            "error": msg(
+                "This except catches the error and does not show it. Line {line} raises {error}."
+            )
+        },
         fixes={
             "attribute": msg(
                 "Write self.{written} instead of self.{name} on line {line}: no line sets "
                 "self.{name}, and this except hides the AttributeError. Then remove the except "
                 "(and its try)."
-            )
+            ),
+            "error": msg(
+                "Remove this except and its try, and indent the lines of the try as far as the try "
+                "is indented now. Correct line {at} too: {correction}"
+            ),
         },
         behind={
             "run.no_lines": _swallows,
@@ -211,7 +237,7 @@ KINDS = (
             "run.ended_early": _swallows,
             "run.no_node": _swallows,
         },
-        fixed_by=(node_scope.hidden_attribute,),
+        fixed_by=(corrected, node_scope.hidden_attribute),
         examples=(
             example(
                 "misspelt_attribute_hidden",

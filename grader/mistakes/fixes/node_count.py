@@ -273,3 +273,19 @@ def _made_attribute(case: Case, call: ast.Call) -> Files | None:
         text.before((last.end_lineno or last.lineno) + 1, f"{indent}self.{row}"),
         *(Splice(at, at, "self.") for at in places),
     )
+
+
+def number_step(case: Case) -> Files | None:
+    """Remove the quotes of the number that is added to the counter on the finding's line."""
+    module = case.module
+    found = [
+        n
+        for s in (module.nodes if module is not None else ())
+        if isinstance(s, ast.AugAssign | ast.Assign) and s.lineno == case.finding.line
+        for n in ast.walk(s.value)
+        if isinstance(n, ast.Constant) and isinstance(n.value, str)
+    ]
+    text = module.text.plain_string(found[0]) if module is not None and len(found) == 1 else None
+    if module is None or text is None or not text.isascii() or not text.isdigit():
+        return None
+    return case.changed(module, module.text.swap(found[0], str(int(text))))

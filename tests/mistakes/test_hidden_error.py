@@ -1,0 +1,83 @@
+"""The error that an except hides is named if the source shows it, and corrected with it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.mistakes.test_from_source import line_of, look
+from tests.mistakes.test_named_exactly import LOG, STEP, changed, fix_of, patched, why_of
+
+BODY = f"        {LOG}\n{STEP}"
+TEXT = "'Hello time: ' + str(self.counter_)"
+
+
+def hidden(log: str, step: str = "self.counter_ += 1", handler: str = "pass") -> str:
+    """Return the node whose callback hides errors of these two lines."""
+    return changed(
+        (
+            BODY,
+            f"        try:\n            {log}\n            {step}\n"
+            f"        except Exception:\n            {handler}\n",
+        )
+    )
+
+
+@pytest.mark.parametrize(
+    ("symptom", "log", "step", "error", "line", "right"),
+    [
+        ("run.no_lines", LOG.replace(TEXT, "'Hello time: ' + self.counter_"), "self.counter_ += 1",
+         'TypeError: can only concatenate str (not "int") to str', 0, BODY),
+        ("run.no_lines", LOG.replace(TEXT, "'Hello time: %d' % self.counter_ + 1"),
+         "self.counter_ += 1", 'TypeError: can only concatenate str (not "int") to str', 0,
+         BODY.replace(TEXT, "'Hello time: %d' % (self.counter_ + 1)")),
+        ("run.no_lines", LOG.replace("self.counter_", "counter_"), "self.counter_ += 1",
+         "NameError: name 'counter_' is not defined", 0, BODY),
+        ("run.no_lines", LOG.replace(TEXT, "'Hello time: %d', self.counter_"), "self.counter_ += 1",
+         "TypeError: RcutilsLogger.info() takes 2 positional arguments but 3 were given", 0,
+         BODY.replace(TEXT, "'Hello time: %d' % self.counter_")),
+        ("run.constant_counter", LOG, "self.counter_ += '1'",
+         "TypeError: unsupported operand type(s) for +=: 'int' and 'str'", 1, BODY),
+        ("run.constant_counter", LOG, "counter_ += 1",
+         "UnboundLocalError: cannot access local variable 'counter_' where it is not associated "
+         "with a value", 1, BODY),
+    ],
+)  # fmt: skip
+def test_a_sure_error_is_named_and_corrected(
+    symptom: str, log: str, step: str, error: str, line: int, right: str, tmp_path: Path
+) -> None:
+    text = hidden(log, step)
+    found = look(symptom, text)
+    assert found is not None
+    assert found.kind == "node.error_hidden"
+    assert found.where is not None
+    assert found.where.line == line_of(text, "except Exception")
+    at = found.where.line - 2 + line
+    assert why_of(found).endswith(f"Line {at} raises {error}.")
+    assert f"Correct line {at} too: " in fix_of(found)
+    assert patched(found, text, tmp_path) == changed((BODY, right))
+
+
+@pytest.mark.parametrize(
+    "log",
+    [
+        LOG.replace(TEXT, "'Hello time: ' + self.text()"),
+        LOG.replace(TEXT, "self.texts[self.counter_] + 'Hello time: '"),
+    ],
+)
+def test_an_error_that_is_not_sure_is_not_named(log: str) -> None:
+    found = look("run.no_lines", hidden(log))
+    assert found is not None
+    assert found.kind == "node.error_hidden"
+    assert "raises" not in why_of(found)
+    assert "run the node again" in fix_of(found)
+
+
+def test_a_text_in_the_counter_is_no_error() -> None:
+    text = hidden(LOG.replace(TEXT, "'Hello time: ' + self.counter_")).replace(
+        "        try:\n            self.get", "        self.counter_ = '0'\n        try:\n            self.get"
+    )  # fmt: skip
+    found = look("run.no_lines", text)
+    assert found is not None
+    assert "raises" not in why_of(found)
