@@ -268,6 +268,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "entry": "my_node = my_package.my_node:main",
     },
     "package.no_manifest": {"close": "Package.xml", "there": "my_package/package.xml"},
+    "node.spin_missing": {"line": "30", "name": "executor"},
     "node.spin_not_called": {"wanted": "rclpy.spin(node)"},
     "setup.group_misspelt": {"group": "console_script"},
     "setup.missing": {"there": "my_package/setup.py"},

@@ -107,7 +107,41 @@ def _sleep_loop(suspect: Suspect) -> RecognisedMistake | None:
 def _nowhere(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a node without spin, not even as in Thread(target=rclpy.spin)."""
     named = any(isinstance(n, ast.Attribute) and n.attr == "spin" for n in suspect.source.all_nodes)
-    return None if named else _idle(suspect) or _missing(suspect)
+    if named:
+        return _loop_above(suspect) or _added_late(suspect)
+    return _idle(suspect) or _missing(suspect)
+
+
+def _own_spins(suspect: Suspect) -> list[ast.Expr]:
+    """Return the lines of the entry function's own block that spin."""
+    body = suspect.function.body if suspect.function is not None else []
+    return [s for s in body if isinstance(s, ast.Expr) and last_part(_called(s)) == "spin"]
+
+
+def _called(statement: ast.Expr) -> str:
+    return dotted(statement.value.func) if isinstance(statement.value, ast.Call) else ""
+
+
+def _loop_above(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a loop that only waits, above the line that spins."""
+    loop = idle_loop(suspect.source, suspect.function) if suspect.function else None
+    below = [s for s in _own_spins(suspect) if loop is not None and s.lineno > loop.lineno]
+    if loop is None or not below:
+        return None
+    found = suspect.finding("spin_missing", loop, line=str(below[0].lineno))
+    return replace(found, variant="loop_above")
+
+
+def _added_late(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for an executor that gets the node below the line that spins it."""
+    body = suspect.function.body if suspect.function is not None else []
+    for spin in _own_spins(suspect):
+        name = _called(spin).removesuffix(".spin")
+        adds = [s for s in body if isinstance(s, ast.Expr) and _called(s) == f"{name}.add_node"]
+        if name in executors(suspect) and adds and min(s.lineno for s in adds) > spin.lineno:
+            late = {"line": str(adds[0].lineno), "name": name}
+            return replace(suspect.finding("spin_missing", spin, **late), variant="added_late")
+    return None
 
 
 def _idle(suspect: Suspect) -> RecognisedMistake | None:
@@ -359,6 +393,14 @@ KINDS = (
                 "This loop keeps the program alive, but it calls no callbacks. rclpy.spin(node) "
                 "waits too, and calls the callbacks when they are due, until Ctrl+C."
             ),
+            "loop_above": msg(
+                "This loop does not end until Ctrl+C, so that line {line}, which spins the node, is "
+                "not reached before. The loop itself calls no callbacks."
+            ),
+            "added_late": msg(
+                "spin waits until Ctrl+C: line {line}, which gives the node to the executor, is not "
+                "reached before. An executor without the node does not call its callbacks."
+            ),
             "guard": msg(
                 "ros2 run calls only {function}. Lines outside of it, such as those below if "
                 "__name__ == '__main__':, run only if you start the file itself."
@@ -372,6 +414,8 @@ KINDS = (
             "guard": msg("Move the call of rclpy.spin into {function}, after creating the node."),
             "executor": msg("Write {name}.spin() below this line."),
             "loop": msg("Write rclpy.spin({node}) instead of this loop."),
+            "loop_above": msg("Delete this loop: line {line} waits and calls the callbacks."),
+            "added_late": msg("Move line {line} ({name}.add_node) above this line."),
         },
         behind={
             "run.exits_at_once": _missing,

@@ -329,6 +329,21 @@ def test_a_harmless_mistake_is_advice(bench: Bench) -> None:
         ),
         (
             "run.never_spins",
+            MAIN,
+            "    node = MyFirstNode()\n    while rclpy.ok():\n        pass\n    rclpy.spin(node)\n",
+            "node.spin_missing",
+            "Delete this loop: line 28 waits and calls the callbacks.",
+        ),
+        (
+            "run.never_spins",
+            MAIN,
+            "    node = MyFirstNode()\n    executor = SingleThreadedExecutor()\n"
+            "    executor.spin()\n    executor.add_node(node)\n",
+            "node.spin_missing",
+            "Move line 28 (executor.add_node) above this line.",
+        ),
+        (
+            "run.never_spins",
             SPIN,
             "while rclpy.ok():\n            rclpy.spin_once",
             "node.spin_not_called",
@@ -342,6 +357,6 @@ def test_a_cause_is_named_only_if_it_is_certain(
     assert old in RIGHT
     found = diagnose(failed(symptom), evidence(bench, RIGHT.replace(old, new, 1)))
     names = {"node.sum_not_kept", "node.main_prints", "node.waits_first", "node.cleanup_early"}
-    names.add("node.spin_not_called")
+    names |= {"node.spin_not_called", "node.spin_missing"}
     assert {m.id for m in found.mistakes} & names == ({mistake} if mistake else set())
     assert fix in str(found.fix)
