@@ -216,3 +216,9 @@ def test_no_line_is_wider_than_the_page_or_the_readable_width(width: int) -> Non
     for page in (render_report(marked, width=width), render_matrix([marked], width=width)):
         for line in page.splitlines():
             assert cell_len(line) <= (bound if bound >= 40 else 45), line
+
+
+def test_a_page_for_a_browser_keeps_the_tabs_of_a_diff() -> None:
+    assert visible("-\ty\x1b = 1", tabs=True) == "-\ty\\x1b = 1"
+    assert visible("-\ty = 1") == "-   y = 1"
+    assert first_lines("-\ty = 1", lines=2, tabs=True) == ["-\ty = 1"]

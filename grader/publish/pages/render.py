@@ -106,7 +106,7 @@ def _marked(text: str) -> Markup:
     On a narrow screen such a block is scrolled sideways, so the keyboard must reach it.
     """
     html, prose = Markup(), list[str]()
-    for piece in pieces(visible(text).split("\n")):
+    for piece in pieces(visible(text, tabs=True).split("\n")):
         if not piece.marked:
             prose += piece.lines
             continue

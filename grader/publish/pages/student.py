@@ -145,7 +145,7 @@ def _fields(check: CheckResult, translate: Translator) -> list[Field]:
         Field(say("Why"), cut(check.rationale)),
         Field(say("Points"), open_.get(check.status, "")),
         Field(say("Fix"), cut(check.fix)),
-        Field(say("Change"), cut(shown_patch(check.patch, translate)), code=True),
+        Field(say("Change"), cut(shown_patch(check.patch, translate), tabs=True), code=True),
         *(Field(say("Also"), cut(advice)) for advice in check.advice),
         Field(say("Mistake"), ", ".join(mistake.id for mistake in check.mistakes), code=True),
     ]
@@ -188,8 +188,8 @@ def _details(report: Report) -> list[tuple[str, str]]:
     return found
 
 
-def _cut(text: str, translate: Translator) -> str:
-    return _lines(text, translate, most_lines=FIELD_LINES, most=FIELD_CHARACTERS)
+def _cut(text: str, translate: Translator, *, tabs: bool = False) -> str:
+    return _lines(text, translate, most_lines=FIELD_LINES, most=FIELD_CHARACTERS, tabs=tabs)
 
 
 def _log(text: str, translate: Translator) -> str:
@@ -197,6 +197,10 @@ def _log(text: str, translate: Translator) -> str:
     return _lines(text, translate, most_lines=LOG_LINES, most=LOG_CHARACTERS)
 
 
-def _lines(text: str, translate: Translator, *, most_lines: int, most: int) -> str:
-    found: Sequence[str] = first_lines(text, lines=most_lines, most=most, translate=translate)
+def _lines(
+    text: str, translate: Translator, *, most_lines: int, most: int, tabs: bool = False
+) -> str:
+    found: Sequence[str] = first_lines(
+        text, lines=most_lines, most=most, translate=translate, tabs=tabs
+    )
     return "\n".join(found).rstrip()
