@@ -169,7 +169,7 @@ KINDS = (
         fixes={"variable": msg("Write {written} on this line.")},
         seen=r"TypeError: 'property' object is not iterable",
         raised={r"\w": _class_is_spun},
-        fixed_by=(node_life.spin,),
+        fixed_by=(node_life.spin, node_life.spin_of_class),
         examples=(
             example(
                 "spin_of_class",

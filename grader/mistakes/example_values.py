@@ -147,7 +147,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.base_called": {"base": "Node"},
     "node.ros_1": {"name": "loginfo", "written": "self.get_logger().info(…)"},
     "node.keyword_unknown": {"name": "period", "function": "create_timer"},
-    "node.name_hides_function": {"name": "str"},
+    "node.name_hides_function": {"name": "str", "lines": "12"},
+    "node.interrupt_swallowed": {"line": "12"},
     "node.start_is_text": COUNTER,
     "node.argument_missing": {
         "name": "name",
@@ -249,6 +250,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "form": ":03d",
         "others": "self.counter = 0 instead of self.counter = 0.0 (line 12)",
     },
+    "node.python_logging": {"written": "self.get_logger().info('Count: %d' % self.counter)"},
     "node.thread_timer": {
         "name": "callback",
         "written": "self.create_timer(2.0, self.callback)",

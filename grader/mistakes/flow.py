@@ -18,7 +18,7 @@ from grader.mistakes.example import (
     STEP_LINE,
     example,
 )
-from grader.mistakes.fixes import lines, node_loops
+from grader.mistakes.fixes import lines, node_loops, node_try
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
@@ -142,9 +142,9 @@ def _swallowed(suspect: Suspect) -> RecognisedMistake | None:
         loops = [part for part in around if isinstance(part, ast.While)]
         leaves = any(isinstance(n, ast.Raise | ast.Return | ast.Break) for n in ast.walk(handler))
         if loops and not leaves:
-            spins = any(last_part(name).startswith("spin") for _, name in calls_in(loops[0]))
-            found = suspect.finding("interrupt_swallowed", suspect.place_at(handler))
-            return replace(found, variant="spins" if spins else "")
+            place = suspect.place_at(handler)
+            found = suspect.finding("interrupt_swallowed", place, line=loops[0].lineno)
+            return replace(found, variant="" if handler.type is None else "named")
     return None
 
 
@@ -161,17 +161,21 @@ KINDS = (
         msg("An except in a loop catches Ctrl+C, and the loop goes on"),
         msg(
             "Ctrl+C raises KeyboardInterrupt. This except catches it, and the loop around it "
-            "starts again."
+            "goes on."
         ),
-        msg("Write except KeyboardInterrupt: here, and break in it: it ends the loop."),
+        msg(
+            "Write except KeyboardInterrupt: here, and break as the last line in it: break ends "
+            "the loop that begins on line {line}."
+        ),
         links.EXECUTORS,
         fixes={
-            "spins": msg(
-                "Write rclpy.spin({node}) instead of the whole loop. Put only this line in a try: "
-                "with except KeyboardInterrupt:"
+            "named": msg(
+                "Write break as the last line in this except: break ends the loop that begins on "
+                "line {line}."
             )
         },
         behind={"run.ignores_interrupt": _swallowed},
+        fixed_by=(node_try.break_in_except,),
         examples=(
             example(
                 "loop_catches_everything",

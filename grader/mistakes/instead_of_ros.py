@@ -91,7 +91,10 @@ def _python_logging_hidden(suspect: Suspect) -> RecognisedMistake | None:
     logs = python_logs(source, callback)
     if own or not logs:
         return None
-    return replace(suspect.finding("python_logging", logs[0]), variant="hidden")
+    found = suspect.finding("python_logging", logs[0])
+    written = node_logging.log_of_node(source, logs[0])
+    variant = "hidden_written" if written and len(logs) == 1 else "hidden"
+    return replace(found, variant=variant, words={**found.words, "written": written})
 
 
 def _signal_handler(suspect: Suspect) -> RecognisedMistake | None:
@@ -135,6 +138,10 @@ def _other_node_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake
     return None
 
 
+HIDDEN_LOG = msg(
+    "This line logs with Python's logging module, which shows only warnings and errors unless it "
+    "is set up. ROS does not know that logger, so its lines do not reach /rosout either."
+)
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -233,18 +240,16 @@ KINDS = (
         msg("ROS does not know that logger: its lines have another form and do not reach /rosout."),
         msg("Write self.get_logger().info(…) in the callback, and remove the logging module."),
         links.LOGGING,
-        whys={
-            "hidden": msg(
-                "This line logs with Python's logging module, which shows only warnings and errors "
-                "unless it is set up. ROS does not know that logger, so its lines do not reach "
-                "/rosout either."
-            )
-        },
+        whys={"hidden": HIDDEN_LOG, "hidden_written": HIDDEN_LOG},
         fixes={
+            "hidden_written": msg(
+                "Write {written} on this line: the node's own logger, which takes one string. Then "
+                "remove the logging module."
+            ),
             "hidden": msg(
                 "Write self.get_logger().info(…) on this line: the node's own logger. Then remove "
                 "the logging module."
-            )
+            ),
         },
         behind={
             "run.no_lines": _python_logging_hidden,

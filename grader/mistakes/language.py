@@ -228,12 +228,25 @@ def _time(suspect: Suspect) -> RecognisedMistake | None:
     for call in source.calls_of(*CLOCKS, within=callback) if callback is not None else ():
         if call in shown:
             found = suspect.finding("time_for_count", call, name=ast.unparse(call.func)[:60])
-            return _counted_instead(suspect, found)
+            past = any(_is_difference(n) for n in shown)
+            return _counted_instead(suspect, found, past=past)
     return None
 
 
-def _counted_instead(suspect: Suspect, found: RecognisedMistake) -> RecognisedMistake:
-    """Return a finding of a time with the line that logs a count instead."""
+def _is_difference(part: ast.AST) -> bool:
+    """Whether a part is a value minus another one, which is no number of the source."""
+    if not isinstance(part, ast.BinOp) or not isinstance(part.op, ast.Sub):
+        return False
+    return not isinstance(part.left, ast.Constant) and not isinstance(part.right, ast.Constant)
+
+
+def _counted_instead(
+    suspect: Suspect, found: RecognisedMistake, *, past: bool
+) -> RecognisedMistake:
+    """Return a finding of a time with the line that logs a count instead.
+
+    `past` says that the line shows the difference of two times.
+    """
     source, callback = suspect.source, suspect.source.callback
     logs = source.logs(callback) if callback is not None else []
     counter, counts = count_of(source)
@@ -244,7 +257,8 @@ def _counted_instead(suspect: Suspect, found: RecognisedMistake) -> RecognisedMi
         "line": logs[0].lineno,
     }
     of_ros = "get_clock" in str(words["name"])
-    variant = ("ros_counts" if of_ros else "counts") if counts else ("ros" if of_ros else "")
+    kind = "past" if past else "ros" if of_ros else ""
+    variant = "_".join(filter(None, (kind, "counts" if counts else "")))
     return replace(found, variant=variant, words=words)
 
 
@@ -269,6 +283,11 @@ ROS_TIME = msg(
     "The number says how often the callback was called: {start} first, then {step} more each time. "
     "{name} is the time that a clock shows, and no count. Here ROS time began at 0; on your "
     "terminal the number is that of the seconds since 1970."
+)
+PAST_TIME = msg(
+    "The number says how often the callback was called: {start} first, then {step} more each time. "
+    "This line shows how much time has passed. A timer calls its callback for the first time when "
+    "its first period has passed, and such a time is not exact."
 )
 LOG_COUNT = msg(
     "{counter} counts already. Write {written} in the place of the call that logs (line {line}). "
@@ -567,8 +586,13 @@ KINDS = (
             "of the call that logs (line {line}), and {counter} += {step} below it. Delete what "
             "reads the clock."
         ),
-        whys={"ros": ROS_TIME, "ros_counts": ROS_TIME},
-        fixes={"counts": LOG_COUNT, "ros_counts": LOG_COUNT},
+        whys={
+            "ros": ROS_TIME,
+            "ros_counts": ROS_TIME,
+            "past": PAST_TIME,
+            "past_counts": PAST_TIME,
+        },
+        fixes={"counts": LOG_COUNT, "ros_counts": LOG_COUNT, "past_counts": LOG_COUNT},
         behind={
             "run.constant_counter": _time,
             "run.wrong_start": _time,

@@ -357,9 +357,13 @@ KINDS = (
         "timer",
         msg("The callback is indented into __init__"),
         msg("A function inside __init__ is not a method of the class, so self does not have it."),
-        msg("Indent def {callback}(self): as far as def __init__."),
+        msg(
+            "Indent def {callback}(self): as far as def __init__, and move its lines to the left "
+            "by as much."
+        ),
         links.PYTHON_CLASSES,
         raised={OWN_ATTRIBUTE: _callback_in_init},
+        fixed_by=(node_scope.out_of_init,),
         examples=(
             example(
                 "callback_inside_init",

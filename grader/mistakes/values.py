@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import builtins
 import re
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
@@ -56,7 +57,10 @@ def _hidden(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         if name in dir(builtins) and named in (None, name):
             at = _assigned(raised, name)
             if at is not None:
-                return raised.finding("name_hides_function", at=at, name=name)
+                found = raised.finding("name_hides_function", at=at, name=name)
+                others = _other_lines(raised, at)
+                words = {**found.words, "lines": ", ".join(map(str, others))}
+                return replace(found, words=words, variant="lines" if others else "")
     return None
 
 
@@ -71,6 +75,20 @@ def _assigned(raised: Raised, name: str) -> ast.Name | None:
             if scope is not None or not _in_class(module, found):
                 return found
     return None
+
+
+def _other_lines(raised: Raised, at: ast.Name) -> list[int]:
+    """Return the other lines on which the variable is set or read, without the calls."""
+    module, function = raised.module, raised.source.function_around(at)
+    within = ast.walk(function) if function is not None else module.nodes
+    lines = {
+        n.lineno
+        for n in within
+        if isinstance(n, ast.Name)
+        and n.id == at.id
+        and getattr(module.parents.get(n), "func", None) is not n
+    }
+    return sorted(lines - {at.lineno})
 
 
 def _in_class(module: Module, part: ast.AST) -> bool:
@@ -115,6 +133,12 @@ KINDS = (
         ),
         msg("Give the variable another name than {name}."),
         links.PYTHON_ERRORS,
+        fixes={
+            "lines": msg(
+                "Give the variable another name than {name}, here and on line {lines}. Leave "
+                "{name}(…) as it is."
+            )
+        },
         raised={
             r"TypeError: '\w{1,120}' object is not callable": _hidden,
             r"UnboundLocalError: .{0,60}'(?P<name>\w{1,120})'": _hidden,

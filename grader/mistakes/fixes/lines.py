@@ -9,6 +9,7 @@ from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.code_only import code_only
+from grader.package.source.imported import imports
 from grader.package.source.module import Module
 from grader.package.source.place import block_of
 
@@ -122,3 +123,18 @@ def written_everywhere(case: Case) -> Files | None:
     code = code_only(module.text.text)
     places = [match.span() for match in re.finditer(rf"(?<!\w){re.escape(name)}(?!\w)", code)]
     return case.changed(module, *(Splice(start, end, new) for start, end in places))
+
+
+def without_import(case: Case, name: str) -> Files:
+    """Delete the import of a module that the node's file does not use any more."""
+    module = case.node.module if case.node is not None else None
+    if module is None:
+        return case.files
+    for bound, full, statement in imports(module):
+        used = any(isinstance(n, ast.Name) and n.id == bound for n in module.nodes)
+        alone = len(getattr(statement, "names", ())) == 1
+        if full.partition(".")[0] == name and alone and not used:
+            if module.line(statement.lineno) != module.text.code(statement):
+                return case.files
+            return case.changed(module, module.text.without(statement.lineno)) or case.files
+    return case.files

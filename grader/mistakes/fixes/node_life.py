@@ -355,3 +355,27 @@ def node_of_object(case: Case) -> Files | None:
     if spun is None:
         return None
     return case.changed(module, module.text.swap(spun, f"{module.text.code(spun)}.{attribute}"))
+
+
+def spin_of_class(case: Case) -> Files | None:
+    """Create the node above the line that spins its class, and spin the node."""
+    node, module = case.node, case.module
+    call = next(
+        (
+            n
+            for n in (node.calls_of("spin") if node is not None else ())
+            if n.lineno == case.finding.line and n.args and node is not None
+        ),
+        None,
+    )
+    if node is None or module is None or call is None or "node" in module.names:
+        return None
+    init = node.methods.get("__init__")
+    required = len(init.args.args) - len(init.args.defaults) if init is not None else 1
+    text, given = module.text, call.args[-1]
+    row = text.line(call.lineno)
+    alone = row.strip() == text.code(call) and call.lineno == call.end_lineno
+    if not alone or not node.is_node_class(given) or required != 1:
+        return None
+    new = text.before(call.lineno, f"{indent_of(row)}node = {text.code(given)}()")
+    return case.changed(module, new, text.swap(given, "node"))

@@ -242,10 +242,16 @@ def comma(case: Case) -> Files | None:
     to_text = isinstance(second, ast.Call) and called_name(second) == "str"
     literal = text.plain_string(first)
     formats = literal is not None and re.findall(r"%.?", literal) in (["%d"], ["%s"], ["%i"])
-    if literal is None or not (to_text or formats):
-        return None
     start, end = text.span(first)[1], text.span(second)[0]
-    if text.text[start:end].strip() != ",":
+    if literal is None or text.text[start:end].strip() != ",":
+        return None
+    before = case.assignment.output.text.partition("{n}")[0]
+    if "%" not in literal and literal in (before, before.rstrip()) and dotted(second):
+        q = text.code(first)[0]
+        number = text.code(second) if to_text else f"str({text.code(second)})"
+        new = Splice(text.span(first)[0], text.span(second)[1], f"{q}{before}{q} + {number}")
+        return case.changed(node.module_of(first), new)
+    if not (to_text or formats):
         return None
     return case.changed(node.module_of(first), Splice(start, end, " % " if formats else " + "))
 

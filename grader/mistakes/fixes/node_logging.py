@@ -57,6 +57,17 @@ def _changes(module: Module, call: ast.Call) -> list[Splice]:
     return splices
 
 
+def log_of_node(node: NodeSource, call: ast.Call) -> str:
+    """Return the call of the node's logger for a call of Python's; "" if it is not certain."""
+    module = node.module
+    if not module.has(call) or not _is_simple(node, call):
+        return ""
+    start, code = module.text.span(call)[0], module.text.code(call)
+    for splice in sorted(_changes(module, call), key=lambda s: -s.start):
+        code = code[: splice.start - start] + splice.new + code[splice.end - start :]
+    return code if "\n" not in code else ""
+
+
 def _several(call: ast.Call) -> bool:
     """Whether the values behind % need brackets."""
     return len(call.args) > 2 or not dotted(call.args[1])

@@ -28,7 +28,8 @@ def without_loop(case: Case) -> Files | None:
     unwrapped = lines.unwrapped(case)
     module, _, function = found
     after = replace(case, files=unwrapped) if unwrapped is not None else case
-    return _without_sleep(after, module.path, function.name) if unwrapped is not None else None
+    files = _without_sleep(after, module.path, function.name) if unwrapped is not None else None
+    return lines.without_import(replace(case, files=files), "time") if files is not None else None
 
 
 def timer_for_loop(case: Case) -> Files | None:

@@ -108,6 +108,24 @@ def _shifted(case: Case, module: Module, lines: tuple[int, int], indent: str) ->
     return case.changed(module, *splices)
 
 
+def out_of_init(case: Case) -> Files | None:
+    """Make a method of the function that is the last thing in __init__."""
+    node, name = case.node, str(case.finding.params.get("name", ""))
+    init = node.method("__init__") if node is not None else None
+    last = init.body[-1] if init is not None else None
+    if node is None or init is None or not isinstance(last, ast.FunctionDef) or last.name != name:
+        return None
+    if [a.arg for a in last.args.args] != ["self"] or len(init.body) == 1:
+        return None
+    module = node.module_of(last)
+    first = min([last.lineno, *(d.lineno for d in last.decorator_list)])
+    # a comment directly above belongs to it
+    while module.line(first - 1).startswith("#") and first - 1 > init.lineno:
+        first -= 1
+    indent = indent_of(module.text.line(init.lineno))
+    return _shifted(case, module, (first, last.end_lineno or first), indent)
+
+
 def into_class(case: Case) -> Files | None:
     """Indent a method that stands at the margin directly below its class."""
     node = case.node

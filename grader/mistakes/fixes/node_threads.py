@@ -10,7 +10,6 @@ from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.endless import endless_loop
-from grader.package.source.imported import imports
 from grader.package.source.module import Module
 from grader.package.source.names import dotted
 from grader.package.source.place import function_at
@@ -58,7 +57,7 @@ def _without_loop(case: Case, name: str) -> Files | None:
     if files is None:
         return None
     for unused in ("threading", "time"):
-        files = _without_import(replace(case, files=files), unused)
+        files = lines.without_import(replace(case, files=files), unused)
     return files
 
 
@@ -123,7 +122,7 @@ def without_asyncio(case: Case) -> Files | None:
         plain = Splice(start, start + len("async "), "")
         if after.module.text.text[start:].startswith("async def "):
             after = replace(case, files=after.changed(after.module, plain) or deleted)
-    return _without_import(after, "asyncio")
+    return lines.without_import(after, "asyncio")
 
 
 def _thread(case: Case) -> OwnThread | None:
@@ -134,18 +133,3 @@ def _thread(case: Case) -> OwnThread | None:
 
 def _statement(module: Module, part: ast.AST) -> ast.stmt | None:
     return next((n for n in module.around(part) if isinstance(n, ast.stmt)), None)
-
-
-def _without_import(case: Case, name: str) -> Files:
-    """Delete the import of a module that the node's file does not use any more."""
-    module = case.node.module if case.node is not None else None
-    if module is None:
-        return case.files
-    for bound, full, statement in imports(module):
-        used = any(isinstance(n, ast.Name) and n.id == bound for n in module.nodes)
-        alone = len(getattr(statement, "names", ())) == 1
-        if full.partition(".")[0] == name and alone and not used:
-            if module.line(statement.lineno) != module.text.code(statement):
-                return case.files
-            return case.changed(module, module.text.without(statement.lineno)) or case.files
-    return case.files

@@ -1,4 +1,4 @@
-"""The fix of an except that hides an error: the lines without it."""
+"""Fixes of an except: it hides an error, or lets a loop go on after Ctrl+C."""
 
 from __future__ import annotations
 
@@ -38,4 +38,20 @@ def without_try(case: Case) -> Files | None:
             return None
         start = text.start_of(row)
         splices += [Splice(start, start + len(old), new)] if text.line(row).strip() else []
+    return case.changed(module, *splices)
+
+
+def break_in_except(case: Case) -> Files | None:
+    """End the loop in the except that catches Ctrl+C."""
+    module, line = case.module, case.finding.line
+    nodes = module.nodes if module is not None else []
+    found = [n for n in nodes if isinstance(n, ast.ExceptHandler) and n.lineno == line]
+    if module is None or len(found) != 1 or found[0].body[0].lineno == line:
+        return None
+    text, last = module.text, found[0].body[-1]
+    row = indent_of(text.line(last.lineno)) + "break"
+    splices = [text.before((last.end_lineno or last.lineno) + 1, row)]
+    if found[0].type is None:
+        at = text.start_of(found[0].lineno) + text.line(found[0].lineno).index("except") + 6
+        splices.append(Splice(at, at, " KeyboardInterrupt"))
     return case.changed(module, *splices)
