@@ -17,7 +17,13 @@ from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.files import Files
 from grader.package.edit.text import SourceText
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import logged_counter, outer_word, parts_of_callback, targets_of
+from grader.package.source.counter import (
+    logged_counter,
+    outer_word,
+    parts_of_callback,
+    starts_of,
+    targets_of,
+)
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, last_part
 from grader.package.source.number_forms import number_forms
@@ -308,6 +314,16 @@ def _number_format(suspect: Suspect) -> RecognisedMistake | None:
             step = suspect.finding("number_format", node, name=code, written=new)
             return replace(step, variant="step")
     return found or suspect.finding("number_format", _place_of_text(suspect))
+
+
+def _padded(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a form that fills short numbers, where only the long ones have the right text."""
+    output, counter = suspect.output, counter_in(suspect)
+    start = starts_of(suspect.source).get(counter.name) if counter is not None else None
+    found = number_forms(suspect.source, output.start, output.step)
+    if start is None or start.value != output.start or len(found) != 1:
+        return None
+    return _other_form(suspect) if found[0].part == "form" else None
 
 
 def _other_form(suspect: Suspect) -> RecognisedMistake | None:
@@ -790,7 +806,7 @@ KINDS = (
             "form_and_more": MORE_PIECES,
             "floats": MORE_PIECES,
         },
-        behind={"run.wrong_text": _number_format},
+        behind={"run.wrong_text": _number_format, "run.wrong_start": _padded},
         fixed_by=(node_log.plain_form, lines.written, node_log.plain_number),
         examples=(
             example(

@@ -98,6 +98,15 @@ def test_all_pieces_are_named_and_replaced_at_once(tmp_path: Path) -> None:
     )
 
 
+def test_a_count_that_seems_to_start_at_10_is_padded(tmp_path: Path) -> None:
+    text = changed((WRITTEN, "'Hello time: ' + f'{self.counter_:>2}'"))
+    found = behind_symptom("run.wrong_start", Suspect(node_in(text), ASSIGNMENT))
+    assert fix_of(found) == "Write {self.counter_} instead of {self.counter_:>2}."
+    late = text.replace("self.counter_ = 0", "self.counter_ = 10")
+    found = behind_symptom("run.wrong_start", Suspect(node_in(late), ASSIGNMENT))
+    assert found is None or found.kind != "node.number_format"
+
+
 def test_a_form_of_another_value_is_not_named() -> None:
     other = "self.get_logger().debug(f'{time():.1f}')"
     text = changed((LOG, f"{other}\n        self.get_logger().info('Hello time:  ' + self.text())"))
