@@ -466,7 +466,7 @@ KINDS = (
                     "}\n",
                 ),
                 fails="source.node_file",
-                blocks=UNSTARTED,
+                blocks=("source.shebang", *UNSTARTED),
             ),
             example(
                 "python_prompt",
