@@ -25,8 +25,8 @@ def make(root: Path, name: str = PACKAGE) -> Path:
     return root
 
 
-def take(path: Path, name: str | None = None) -> Submission:
-    return take_in(path, package=PACKAGE, node_file=NODE, name=name)
+def take(path: Path, name: str | None = None, *, at_work: bool = False) -> Submission:
+    return take_in(path, package=PACKAGE, node_file=NODE, name=name, at_work=at_work)
 
 
 def paths(submission: Submission) -> set[str]:

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import os
+import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
 
 from grader.base.errors import UsageError
 from grader.base.i18n.message import Message
+from grader.package.submission import take_in
 
 from .small_package import NODE, NODE_PATH, PACKAGE, make, paths, take, write
 
@@ -277,7 +280,7 @@ def test_a_build_inside_the_package_is_told_of(folder: str, tmp_path: Path) -> N
         there = tmp_path / "src" / PACKAGE / folder / name
         there.mkdir(parents=True)
         (there / "COLCON_IGNORE").touch()
-    (hint,) = take(tmp_path).hints
+    (hint,) = take(tmp_path, at_work=True).hints
     place = "" if folder == "." else f"{PACKAGE}/"
     assert f"rm -r {place}build {place}install {place}log" in hint
     assert take(tmp_path / "src" / PACKAGE).hints == (hint,)
@@ -289,4 +292,56 @@ def test_a_build_in_the_workspace_or_by_setup_py_gets_no_advice(tmp_path: Path) 
         (tmp_path / name).mkdir()
         (tmp_path / name / "COLCON_IGNORE").touch()
     (tmp_path / "src" / PACKAGE / "build" / "lib").mkdir(parents=True)
+    assert take(tmp_path, at_work=True).hints == ()
+
+
+@pytest.mark.parametrize(
+    "place",
+    [f"src/{PACKAGE}", f"a/b/c/{PACKAGE}", f"{PACKAGE}/week_1", f"Desktop/ros2_ws/src/{PACKAGE}"],
+)
+def test_folders_around_the_package_are_told_of(tmp_path: Path, place: str) -> None:
+    make(tmp_path / "jane" / place)
+    (hint,) = take(tmp_path / "jane").hints
+    assert f"hand in only {place}, without" in hint
+    assert take(tmp_path / "jane", at_work=True).hints == ()
+    archive = shutil.make_archive(str(tmp_path / "hw"), "zip", tmp_path / "jane")
+    assert take(Path(archive)).hints == (hint,)
+    (tmp_path / "ann").mkdir()
+    (tmp_path / "hw.zip").rename(tmp_path / "ann" / "hw.zip")
+    assert take(tmp_path / "ann").hints == (hint,)
+
+
+def test_a_workspace_that_was_handed_in_is_told_of(tmp_path: Path) -> None:
+    make(tmp_path / "ws" / "src" / PACKAGE)
+    for name in ("build", "install", "log"):
+        (tmp_path / "ws" / name).mkdir()
+        (tmp_path / "ws" / name / "COLCON_IGNORE").touch()
+    (hint,) = take(tmp_path).hints
+    assert f"hand in only ws/src/{PACKAGE}. Leave out build, install and log" in hint
+
+
+def test_a_folder_of_the_packages_name_is_meant_to_be_the_package(tmp_path: Path) -> None:
+    make(tmp_path / PACKAGE / PACKAGE)
+    (hint,) = take(tmp_path / PACKAGE).hints
+    assert f"hand in only {PACKAGE}, without" in hint
+    assert take(tmp_path / PACKAGE / PACKAGE).hints == ()
+
+
+@pytest.mark.parametrize("place", [".", PACKAGE, "work", f"hello-main/{PACKAGE}", "hello-main"])
+def test_the_usual_places_of_a_package_get_no_advice(tmp_path: Path, place: str) -> None:
+    make(tmp_path / "jane" / place)
+    assert take(tmp_path / "jane").hints == ()
+
+
+def test_a_repository_may_have_folders_around_the_package(tmp_path: Path) -> None:
+    make(tmp_path / "src" / PACKAGE)
+    subprocess.run(["git", "init", "-q", tmp_path], check=True)
     assert take(tmp_path).hints == ()
+
+
+def test_packages_side_by_side_are_named_together(tmp_path: Path) -> None:
+    make(tmp_path / "src" / PACKAGE)
+    make(tmp_path / "src" / "other", "other")
+    found = take_in(tmp_path, package=PACKAGE, node_file=NODE, others=["other"])
+    (hint,) = found.hints
+    assert f"hand in only src/{PACKAGE}, src/other, without" in hint

@@ -57,7 +57,7 @@ def take_in_class(
         except Exception:  # nor must a failure of the grader
             yield IntakeItem(attempt, fault=traceback.format_exc(limit=-6))
             continue
-        yield IntakeItem(attempt, submission.sha256, verdict_key(submission.sha256, surroundings))
+        yield IntakeItem(attempt, submission.sha256, _key(submission, surroundings))
 
 
 def tasks(items: Iterable[IntakeItem], assignment: Assignment, surroundings: str) -> Iterator[Task]:
@@ -76,9 +76,14 @@ def tasks(items: Iterable[IntakeItem], assignment: Assignment, surroundings: str
             student=student.key,
             name=student.name,
             student_id=student.id_number or student.key,
-            key=verdict_key(submission.sha256, surroundings),
+            key=_key(submission, surroundings),
             submission=submission,
         )
+
+
+def _key(submission: Submission, surroundings: str) -> str:
+    """Return the key of a submission's verdict, which says too what to hand in next time."""
+    return verdict_key(" ".join((submission.sha256, *submission.hints)), surroundings)
 
 
 def _take_in(attempt: HandedIn, assignment: Assignment) -> Submission:

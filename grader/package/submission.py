@@ -11,6 +11,7 @@ from grader.package.intake.archive_kind import without_ending
 from grader.package.intake.archive_limits import ArchiveLimits, Spent
 from grader.package.intake.archive_nested import look_inside
 from grader.package.intake.archive_problems import ArchiveError
+from grader.package.intake.around import folders_around
 from grader.package.intake.built import edited_copy, newer_copy
 from grader.package.intake.built_inside import built_inside
 from grader.package.intake.choose import Choice, choose, find_candidates
@@ -36,12 +37,15 @@ def take_in(
     others: Iterable[str] = (),
     name: str | None = None,
     modes_kept: bool = True,
+    at_work: bool = False,
 ) -> Submission:
     """Take in a folder or an archive: the package, a workspace, or a parent of the package.
 
     `others` are the names of other packages to take in. `modes_kept` is False if the exec bits of a
-    folder's files were lost on the way (e.g. in an upload file by file). Raises UsageError for a path that is neither, does not exist or cannot
-    be read. Any other problem is the student's and is recorded in the Submission.
+    folder's files were lost on the way (e.g. in an upload file by file). `at_work` means that the
+    path is the student's own workspace and was not handed in. Raises UsageError for a path that is
+    neither, does not exist or cannot be read. Any other problem is the student's and is recorded
+    in the Submission.
     """
     own = resolved(path)
     name = name or submission_name(_without_ending(own), package)
@@ -75,11 +79,18 @@ def take_in(
     inside = built_inside(tree.made, root) if root else None
     advice = [edited_copy(copy, f"{package}/{node_file}")] if copy else []
     files, modes = with_modes(tree, root, files)
-    problem = choice.problem
+    problem, origin = choice.problem, _origin(tree, root or ".")
+    around = None
+    above = {*ancestors(root)} - {root} if root is not None else set()
+    nested = any(one.path in above for one in candidates)
+    if root is not None and not (at_work or nested or origin == "git"):
+        given = own.name if own.is_dir() else ""
+        roots = [root, *(one.root for one in packages)]
+        around = folders_around(roots, tree.made, given=given, package=package)
     return Submission(
         path=own,
         name=sanitise(name),
-        origin=_origin(tree, root or "."),
+        origin=origin,
         modes=modes,
         sha256=_digest(
             files if root is not None else _outline(tree), modes, choice.copies, packages
@@ -91,7 +102,7 @@ def take_in(
         problem=problem.text if problem else "",
         problem_mistake=problem.mistake if problem else "",
         problem_fix=problem.fix if problem else "",
-        hints=(*choice.hints, *advice, *([inside] if inside else [])),
+        hints=(*choice.hints, *advice, *(text for text in (inside, around) if text)),
         node_files=_named(tree, node_file),
         links_out=tuple(tree.links_out),
         copies=choice.copies,

@@ -44,7 +44,11 @@ def grade(order: Order, listener: events.Listener, *, keep: Keep | None = None) 
     """
     begin = time.monotonic()
     submission = take_in_for(
-        order.assignment, order.path, name=order.name, modes_kept=order.modes_kept
+        order.assignment,
+        order.path,
+        name=order.name,
+        modes_kept=order.modes_kept,
+        at_work=order.own_code,
     )
     return mark(submission, order, listener, intake=time.monotonic() - begin, keep=keep)
 

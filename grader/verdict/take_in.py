@@ -9,7 +9,12 @@ from grader.package.submission import Submission, take_in
 
 
 def take_in_for(
-    assignment: Assignment, path: Path, *, name: str | None = None, modes_kept: bool = True
+    assignment: Assignment,
+    path: Path,
+    *,
+    name: str | None = None,
+    modes_kept: bool = True,
+    at_work: bool = False,
 ) -> Submission:
     """Take in a submission for an assignment; see `take_in`."""
     return take_in(
@@ -19,4 +24,5 @@ def take_in_for(
         others=assignment.others,
         name=name,
         modes_kept=modes_kept,
+        at_work=at_work,
     )

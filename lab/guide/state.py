@@ -62,7 +62,7 @@ class StudentState:
     @cached_property
     def submission(self) -> Submission:
         """What the marking would take in from the workspace."""
-        return take_in_for(self.assignment, self.workspace)
+        return take_in_for(self.assignment, self.workspace, at_work=True)
 
     @cached_property
     def results(self) -> dict[str, CheckResult]:

@@ -126,8 +126,8 @@ def no_package(tree: Tree, *, package: str, node_file: str) -> Problem:
             more=more,
         ),
         say(
-            "Hand in the folder {package} that contains package.xml and setup.py, or its "
-            "workspace. If you have none yet, create it with: {create}",
+            "Hand in the folder {package} that contains package.xml and setup.py. If you have none "
+            "yet, create it with: {create}",
             package=package,
             create=create,
         ),
