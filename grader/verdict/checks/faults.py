@@ -56,6 +56,24 @@ def ended_program(run: Run) -> Run | Program | None:
     return next((other for other in run.others if other.by_itself), None)
 
 
+def others_there(evidence: Evidence, run: Run) -> list[Program]:
+    """Return the other programs of a run, without those whose package a check has found missing."""
+    missing = any(
+        result.status == "failed" and any(m.id == "beside.missing" for m in result.mistakes)
+        for result in evidence.results.values()
+    )
+    return [
+        program
+        for program in run.others
+        if not missing
+        or f"Package '{_package_of(evidence, program)}' not found" not in program.transcript
+    ]
+
+
+def _package_of(evidence: Evidence, program: Program) -> str:
+    return evidence.assignment.nodes[program.node].package or evidence.assignment.package
+
+
 def file_of_program(evidence: Evidence, program: Run | Program) -> Where:
     """Return the file of a program's node as the place of a fault without a line."""
     if not isinstance(program, Program):

@@ -16,6 +16,7 @@ from grader.verdict.checks.faults import (
     flood,
     going_on,
     node_file,
+    others_there,
     resource,
     traceback_of,
     words,
@@ -112,7 +113,7 @@ def _newer_line(evidence: Evidence) -> int:
 
 def _others_start(evidence: Evidence) -> None:
     """Raise the failure of another program of the scenario that ended before the clock began."""
-    for program in evidence.run.others:
+    for program in others_there(evidence, evidence.run):
         if program.started:
             continue
         error, where = traceback_of(evidence, program)

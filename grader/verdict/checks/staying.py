@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
@@ -12,6 +13,7 @@ from grader.verdict.checks.faults import (
     file_of_program,
     flood,
     node_file,
+    others_there,
     resource,
     traceback_of,
     words,
@@ -32,7 +34,8 @@ def stays(evidence: Evidence) -> Passed:
             raise resource(evidence, expected)
         if run.flooded:
             raise flood(evidence, expected)
-        program = ended_program(run)
+        there = others_there(evidence, run)
+        program = ended_program(replace(run, others=there))
         if program is not None:
             error, where = traceback_of(evidence, program)
             shown = error or say("status {status}", status=str(program.status))
