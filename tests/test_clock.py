@@ -195,3 +195,31 @@ def test_lines_of_the_clock_are_not_several_at_one_time_on_the_wall() -> None:
     watch = Watch(events=[event, replace(event, n=1, text="Hello time: 1")])
     watch_wall(observer, OUTPUT, watch, lambda event: None, deadline=time.monotonic() + 0.1)
     assert [(event.n, event.due) for event in watch.counted] == [(0, None), (1, None)]
+
+
+def test_the_period_on_the_wall_is_that_of_the_lines_of_then() -> None:
+    console = SlowConsole()
+    node = OnTheWall(console, [0.1, 0.2, 0.3])
+    observer = Observer(Terminal(console, most=1_000_000), node, OUTPUT)
+    now = time.time()
+    fast = [Event(f"Hello time: {n}", now - 1 + n / 100, n, "logger", n, due=n) for n in range(9)]
+    watch = Watch(events=fast)
+    watch_wall(observer, OUTPUT, watch, lambda event: None, deadline=time.monotonic() + 1.5)
+    assert len(watch.counted) == 12
+    assert watch.period == pytest.approx(0.1, abs=0.05)
+    assert 1.0 < watch.silent < 1.6
+
+
+class OnTheWall(Node):
+    """A node that logs at moments of the wall clock, in seconds."""
+
+    def __init__(self, console: SlowConsole, moments: list[float]) -> None:
+        super().__init__(console)
+        self._moments, self._began = moments, time.monotonic()
+
+    def ask(self, do: str, *, seconds: float = 0, **more: int | str) -> Answer:
+        time.sleep(0.01)
+        due = self._moments and time.monotonic() - self._began > self._moments[0]
+        logs = [self._log()] if due else []
+        del self._moments[: len(logs)]
+        return Answer(barrier=True, logs=tuple(logs))

@@ -278,6 +278,21 @@ def test_the_gaps_of_a_throttled_log_are_not_shown_as_a_period(bench: Bench) -> 
     assert caught.value.actual == "lines came at other instants"
 
 
+@pytest.mark.parametrize(("silent", "stops"), [(1.5, False), (6.0, True)])
+def test_a_count_on_the_wall_clock_that_ends_is_no_count(
+    silent: float, stops: bool, bench: Bench
+) -> None:
+    events = [line(n, virtual=0, wall=n, due=None) for n in range(4)]
+    run = Run("ros2 run", Watch(clock="wall", events=events, silent=silent), started=True)
+    if not stops:
+        assert ask(counts, bench, run)
+        return
+    with pytest.raises(Failed) as caught:
+        ask(counts, bench, run)
+    assert caught.value.mistake.id == "run.stops"
+    assert caught.value.actual == "4 lines, then no more came"
+
+
 def test_the_lines_that_came_at_one_time_are_shown(bench: Bench) -> None:
     events = [
         line(n, virtual=due + 1, wall=due + 1, due=due) for n, due in enumerate((0, 1, 1, 2, 2))

@@ -414,18 +414,22 @@ def watch_wall(
     *,
     deadline: float,
 ) -> None:
-    """Watch a fixed number of ticks on the wall clock; the period is the median of the gaps."""
+    """Watch a fixed number of ticks on the wall clock; the period is the median of the gaps.
+
+    The lines of before, which may have come on a faster clock, only belong to the count.
+    """
     watch.clock = "wall"
     watch.dues, watch.missing, watch.early = [], [], []
     watch.events = _without_dues(watch.events)
-    now = time.monotonic()
+    began, now = time.time(), time.monotonic()
     end = min(deadline, now + (WALL_TICKS + 1) * output.period + WALL_SPARE)
     first = observer.watch_still(min(end - now, FIRST_SECONDS))
     watch.events += first
     for event in first:
         on_event(event)
     while time.monotonic() < end and not observer.over:
-        if len(watch.counted) > WALL_TICKS and any(e.n is not None for e in watch.events):
+        fresh = [event for event in watch.counted if event.wall >= began]
+        if len(fresh) > WALL_TICKS and any(e.n is not None for e in watch.events):
             break
         events = observer.take(observer.probe.ask("wait", seconds=0.05))
         watch.events += events
@@ -433,6 +437,8 @@ def watch_wall(
             on_event(event)
     watch.events += observer.settle()
     watch.events.sort(key=lambda event: event.wall)
-    stamps = [event.wall for event in watch.counted]
+    stamps = [event.wall for event in watch.counted if event.wall >= began]
+    if not observer.terminal.ended:
+        watch.silent = time.time() - max([began, *stamps])
     if len(stamps) > 2:
         watch.period = statistics.median(b - a for a, b in zip(stamps, stamps[1:]))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from pydantic import Field, field_validator
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
     from grader.verdict.use import Use
 
+SILENT = 2.5  # of the longest time between two lines, after which none is to come
 MISSED = 1.5  # periods after the last line, when the next one should have come
 
 
@@ -246,7 +248,7 @@ def _must_go_on(evidence: Evidence, expected: str) -> None:
     run = evidence.run
     watch = run.watch
     events = watch.counted
-    silent = bool(watch.missing) and _is_silent(evidence)
+    silent = _is_silent(evidence)
     few = watch.clock == "wall" and len(events) < 3
     if not run.ended_by_itself and not silent and not few:
         return
@@ -274,8 +276,15 @@ def _is_silent(evidence: Evidence) -> bool:
     """Whether no line came after a due instant at which one was missing.
 
     A single line is the last one: the clock went on until its timer would have made another one.
+    On the wall clock: whether none came for much longer than between the lines before.
     """
     watch = evidence.run.watch
+    if watch.clock == "wall":
+        walls = [event.wall for event in watch.counted]
+        gaps = [after - before for before, after in pairwise(walls)]
+        return watch.silent > SILENT * max([evidence.assignment.output.period, *gaps])
+    if not watch.missing:
+        return False
     events, missing = watch.counted, watch.dues[watch.missing[0]]
     last = max(event.virtual for event in events)
     return last < missing or (len(events) == 1 and watch.period is None)
