@@ -223,3 +223,10 @@ class OnTheWall(Node):
         logs = [self._log()] if due else []
         del self._moments[: len(logs)]
         return Answer(barrier=True, logs=tuple(logs))
+
+
+def test_a_logged_text_with_colour_codes_has_its_record() -> None:
+    console = SlowConsole()
+    watch = driven(Node(console, text="\x1b[92mHello time: {n}\x1b[0m"), console)
+    assert {event.source for event in watch.events} == {"logger"}
+    assert watch.counted[0].text == "\x1b[92mHello time: 0\x1b[0m"

@@ -11,7 +11,7 @@ from typing import Literal
 
 from grader.course.assignment import Output
 from grader.run.probe_link import Answer, LogRecord, NodeSeen, ProbeLink
-from grader.run.terminal import Line, Terminal
+from grader.run.terminal import Line, Terminal, without_codes
 
 SECOND = 1_000_000_000
 GRACE = 0.1  # seconds of wall time within which a log record follows its line on the terminal
@@ -216,7 +216,7 @@ class Observer:
     def _match(self) -> list[Event]:
         """Return the lines that look like log records but have had none for the grace time."""
         known = {
-            (r.stamp, r.name, r.text.split("\n")[0].rstrip("\r")) for r in self.records[-4000:]
+            (r.stamp, r.name, without_codes(r.text.split("\n")[0])) for r in self.records[-4000:]
         }
         faked, waiting = [], []
         for line in self._unmatched:

@@ -130,6 +130,11 @@ class Terminal:
         self._console.end()
 
 
+def without_codes(text: str) -> str:
+    """Return a text as a terminal shows it: without control sequences, as for colours."""
+    return _clean(text.encode("utf-8", errors="replace"))
+
+
 def _clean(data: bytes) -> str:
     text = ANSI.sub(b"", data).decode("utf-8", errors="replace")
     return text.replace("\r\n", "\n").rstrip("\r")
