@@ -17,7 +17,7 @@ from grader.mistakes.objects import OF_NODE
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import targets_of
+from grader.package.source.counter import logged_counter, targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part, own_name
 from grader.package.source.node import NodeSource
@@ -137,6 +137,25 @@ def _returns_before_log(suspect: Suspect) -> RecognisedMistake | None:
     return replace(suspect.finding("return_early", before[0]), variant="if")
 
 
+def _step_after_return(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a step below the return of a method that the callback calls."""
+    source = suspect.source
+    found, log = node_order.after_return(source), logged_counter(source)
+    around = source.function_around(log[0]) if log is not None else None
+    if found is None or log is None or around is None:
+        return None
+    method, returned, step = found
+    if log[1] not in targets_of(step):
+        return None
+    params: dict[str, str | int] = {
+        "line": returned.lineno,
+        "method": around.name,
+        "below": log[0].lineno,
+    }
+    mistake = suspect.finding("step_after_return", step, **params)
+    return replace(mistake, variant="above" if around is method else "")
+
+
 def _returns_before_spin(suspect: Suspect) -> RecognisedMistake | None:
     main = suspect.source.main
     for found in node_order.early_returns(main) if main is not None else []:
@@ -148,6 +167,33 @@ def _returns_before_spin(suspect: Suspect) -> RecognisedMistake | None:
 
 _node = Family("node", links.PYTHON_ERRORS)
 KINDS = (
+    _node(
+        "step_after_return",
+        "counter",
+        msg("The line that counts is below a return, so it never runs"),
+        msg("return ends the function: line {line} comes first, and this line does not run."),
+        msg("Move this line to {method}, below line {below}, which logs."),
+        fixes={"above": msg("Move this line above line {line}.")},
+        behind={"run.constant_counter": _step_after_return},
+        fixed_by=(node_order.before_return,),
+        examples=(
+            example(
+                "counts_after_return",
+                Replace(NODE, STEP_LINE, ""),
+                Replace(
+                    NODE, "info('Hello time: ' + str(self.counter_))", "info(self.make_text())"
+                ),
+                Replace(
+                    NODE,
+                    "\n\ndef main(",
+                    "\n    def make_text(self):\n"
+                    "        return 'Hello time: ' + str(self.counter_)\n"
+                    f"{STEP_LINE}\n\ndef main(",
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
     _node(
         "return_early",
         "callback",

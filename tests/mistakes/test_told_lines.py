@@ -168,3 +168,30 @@ def test_a_wrong_period_is_where_its_value_is_written(
     rows = (root / NODE).read_text(encoding="utf-8").split("\n")
     assert rows[(found.where.line or 0) - 1].strip() == line
     assert found.fix == fix
+
+
+HELPER = "self.make_text()"
+
+
+@pytest.mark.parametrize(
+    ("log", "body", "wanted"),
+    [
+        (f"self.get_logger().info({HELPER})", "return str(self.counter_)\n    {step}",
+         ("node.step_after_return", "self.counter_ += 1", "Move this line to timer_callback")),
+        (HELPER, f"{LOG}\n        return True\n    {{step}}",
+         ("node.step_after_return", "self.counter_ += 1", "Move this line above line ")),
+        (f"self.get_logger().info({HELPER})", "return 'Hello time: ' + str(self.counter_)\n",
+         ("node.counter_not_increased", f"self.get_logger().info({HELPER})",
+          "Add to the callback, after the log line: self.counter_ += 1")),
+    ],
+    ids=["text", "log", "no step"],
+)  # fmt: skip
+def test_the_step_of_a_method_that_makes_the_text(
+    log: str, body: str, wanted: tuple[str, str, str]
+) -> None:
+    method = "    def make_text(self):\n        " + body.format(step=STEP.strip("\n"))
+    text = changed(RIGHT, (STEP, ""), (LOG, log), ("\n\ndef main(", f"\n{method}\n\n\ndef main("))
+    text = text.replace("            self.counter_ += 1", "        self.counter_ += 1")
+    kind, line, fix = told(behind("run.constant_counter", text), text)
+    assert (kind, line) == wanted[:2]
+    assert fix.startswith(wanted[2])

@@ -11,7 +11,7 @@ from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
-from grader.package.source.counter import targets_of
+from grader.package.source.counter import adds_to, parts_of_callback, targets_of
 from grader.package.source.module import Function, Module
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
@@ -277,3 +277,38 @@ def does_something(statement: ast.Return) -> bool:
 def early_returns(function: Function) -> list[ast.Return]:
     """Return the returns of a function's own block that have lines after them."""
     return [one for one, _ in pairwise(function.body) if isinstance(one, ast.Return)]
+
+
+def after_return(source: NodeSource) -> tuple[Function, ast.Return, ast.stmt] | None:
+    """Return the only step of an attribute that a return keeps from running, with both around it.
+
+    It is in a method that the callback calls, directly or not.
+    """
+    found = [
+        (part, one, step)
+        for part in parts_of_callback(source)
+        for one in early_returns(part)
+        for step in part.body[part.body.index(one) + 1 :]
+        for name in targets_of(step)
+        if part is not source.callback and adds_to(step, name)
+    ]
+    return found[0] if len(found) == 1 else None
+
+
+def before_return(case: Case) -> Files | None:
+    """Move a step that a return keeps from running to below the line that logs."""
+    node = case.node
+    found = after_return(node) if node is not None else None
+    call = node.log_call if node is not None else None
+    function = node.function_around(call) if node is not None and call is not None else None
+    if node is None or found is None or call is None or function is None:
+        return None
+    method, one, step = found
+    module = node.module_of(step)
+    log = next((s for s in function.body if isinstance(s, ast.Expr) and s.value is call), None)
+    rows = lines.own_lines(module, step)
+    if log is None or rows is None or len(rows) > 1 or not module.has(log):
+        return None
+    at = one.lineno if function is method else (log.end_lineno or log.lineno) + 1
+    row = f"{indent_of(module.text.line(log.lineno))}{module.text.line(rows[0]).strip()}"
+    return case.changed(module, module.text.without(rows[0]), module.text.before(at, row))

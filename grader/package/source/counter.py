@@ -71,9 +71,12 @@ def _counted_names(source: NodeSource) -> Iterator[str]:
 
 
 def names_given(call: ast.Call) -> Iterator[str]:
-    """Yield the names in the arguments of a call, with their dots."""
+    """Yield the names in the arguments of a call, with their dots, without what they call."""
     for given in (*call.args, *(keyword.value for keyword in call.keywords)):
-        yield from filter(None, (dotted(n) for n in ast.walk(given) if not isinstance(n, ast.Call)))
+        parts = list(ast.walk(given))
+        called = [n.func for n in parts if isinstance(n, ast.Call)]
+        plain = (n for n in parts if not isinstance(n, ast.Call) and n not in called)
+        yield from filter(None, map(dotted, plain))
 
 
 def outer_start(source: NodeSource, name: str, kind: type = int) -> ast.Constant | None:
@@ -195,6 +198,15 @@ def parts_of_callback(source: NodeSource) -> list[Function]:
     return parts
 
 
+def _texts_made(source: NodeSource, call: ast.Call) -> Iterator[ast.expr]:
+    """Yield what the node's own methods return for the arguments of a call."""
+    for part in (n for given in call.args for n in ast.walk(given)):
+        method = source.method(own_name(part.func)) if isinstance(part, ast.Call) else None
+        for node in ast.walk(method) if method is not None else ():
+            if isinstance(node, ast.Return) and node.value is not None:
+                yield node.value
+
+
 def _logged_in(source: NodeSource, callback: Function) -> tuple[ast.Call, str] | None:
     calls = [*source.logs(callback), *source.prints(callback)]
     starts = starts_of(source)
@@ -209,8 +221,9 @@ def _logged_in(source: NodeSource, callback: Function) -> tuple[ast.Call, str] |
             if local_start(callback, name) is not None:
                 return call, name
     for call in calls:
-        for text in texts_of(callback, call):
-            shown = [name for name in _read_in(text.value) if name in starts]
+        built = [text.value for text in texts_of(callback, call)]
+        for text in [*built, *_texts_made(source, call)]:
+            shown = [name for name in _read_in(text) if name in starts]
             if shown:
                 return call, shown[0]
     # (the text is built on a line before the call: the incremented name is the counter)
