@@ -180,6 +180,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.timer_throttled": {"seconds": "0.1", "line": "16"},
     "node.sleep_for_timer": {"seconds": "0.1", "slept": "1", "line": "17"},
     "node.init_missing": {"written": "rclpy.init(args=args)"},
+    "node.made_on_import": {"name": "node", "written": "rclpy.init(args=args)", "line": "30"},
     "node.init_late": {"written": "rclpy.init(args=args)"},
     "node.init_in_guard": {"written": "rclpy.init()", "line": "30"},
     "node.period_duration": {"name": "Duration(seconds=1.0)", "written": "1.0"},

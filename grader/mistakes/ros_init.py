@@ -13,6 +13,7 @@ from grader.mistakes.fixes import lines, node_init, node_life
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
+from grader.package.source.counter import targets_of
 from grader.package.source.names import dotted, last_part
 
 NOT_INITIALIZED = r"NotInitializedException"
@@ -33,6 +34,25 @@ def _init_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
             found = raised.finding("init_missing", at=node, written=written)
             return replace(found, variant="not_called")
     return raised.finding("init_missing", written=written)
+
+
+def _made_on_import(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Look for a node that is created outside of functions, when the file is imported."""
+    del match
+    source = raised.source
+    found = node_init.made_on_import(source)
+    if found is None:
+        return None
+    made, init = found
+    variable = next(targets_of(made), "")
+    words = {
+        "written": source.entry.text.code(init) if init else node_init.new_call(source),
+        "line": str(init.lineno) if init else "",
+        "name": variable,
+    }
+    mistake = raised.finding("made_on_import", at=made, params=words)
+    shared = variable and node_init.used_elsewhere(source, variable)
+    return replace(mistake, variant="no_init" if init is None else "global" if shared else "")
 
 
 def _init_in_guard(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -79,6 +99,40 @@ def _without_keyword(raised: Raised, match: re.Match[str]) -> RecognisedMistake 
 
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
+    _node(
+        "made_on_import",
+        "start",
+        msg("The node is created when the file is imported, before rclpy.init()"),
+        msg(
+            "A line outside of functions runs when Python imports the file. {function} runs later, "
+            "and so does its rclpy.init()."
+        ),
+        msg("Move this line into {function}, below {written} (line {line})."),
+        links.RCLPY,
+        whys={
+            "no_init": msg(
+                "A line outside of functions runs when Python imports the file, before {function}. "
+                "No node can be created before rclpy.init()."
+            )
+        },
+        fixes={
+            "no_init": msg("Move this line into {function}, and write {written} above it."),
+            "global": msg(
+                "Move this line into {function}, below {written} (line {line}). Write global {name} "
+                "as the first line of {function}, because other code uses {name} too."
+            ),
+        },
+        raised={NOT_INITIALIZED: _made_on_import},
+        fixed_by=(node_init.into_main,),
+        examples=(
+            example(
+                "node_made_on_import",
+                Replace(NODE, "    node = MyFirstNode()\n", ""),
+                Replace(NODE, "def main(", "node = MyFirstNode()\n\n\ndef main("),
+                fails="run.starts",
+            ),
+        ),
+    ),
     _node(
         "init_missing",
         "start",

@@ -171,6 +171,7 @@ def test_a_wrong_period_is_where_its_value_is_written(
 
 
 HELPER = "self.make_text()"
+INIT = "    rclpy.init(args=args)\n"
 
 
 @pytest.mark.parametrize(
@@ -195,3 +196,26 @@ def test_the_step_of_a_method_that_makes_the_text(
     kind, line, fix = told(behind("run.constant_counter", text), text)
     assert (kind, line) == wanted[:2]
     assert fix.startswith(wanted[2])
+
+
+@pytest.mark.parametrize(
+    ("init", "more", "fix"),
+    [
+        (INIT, "", "Move this line into main, below rclpy.init(args=args) (line "),
+        ("", "", "Move this line into main, and write rclpy.init(args=args) above it."),
+        (
+            INIT,
+            "def other():\n    return node\n\n\n",
+            "as the first line of main, because other code",
+        ),
+    ],
+    ids=["init in main", "no init", "used elsewhere"],
+)
+def test_a_node_that_is_created_on_import(init: str, more: str, fix: str) -> None:
+    made = f"node = MyFirstNode()\n\n\n{more}def main("
+    text = changed(RIGHT, ("    node = MyFirstNode()\n", ""), (INIT, init), ("def main(", made))
+    error = "rclpy.exceptions.NotInitializedException: rclpy.init() has not been called."
+    found = behind_error(Raised(error, Where(file=NODE, line=9), source_of(text), ASSIGNMENT))
+    kind, line, said = told(found, text)
+    assert (kind, line) == ("node.made_on_import", "node = MyFirstNode()")
+    assert fix in said
