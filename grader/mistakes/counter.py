@@ -217,6 +217,21 @@ def _f_prefix(suspect: Suspect) -> RecognisedMistake | None:
     return suspect.finding("f_prefix", _string_of(suspect) or _place_of_text(suspect))
 
 
+def _f_in_quotes(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a whole f-string in the quotes of another string."""
+    string = _string_of(suspect)
+    if string is None or not re.fullmatch(r"[fF](['\"])[^'\"]*\{.*\1", suspect.text):
+        return None
+    try:
+        inner = ast.parse(suspect.text, mode="eval").body
+    except (SyntaxError, ValueError):
+        return None
+    if not isinstance(inner, ast.JoinedStr):
+        return None
+    code = suspect.source.module_of(string).text.code(string)
+    return suspect.finding("f_in_quotes", string, name=code, written=suspect.text)
+
+
 def _string_of(suspect: Suspect) -> ast.Constant | None:
     """Return the string of the callback that is the logged text, if it is the only one."""
     callback = suspect.source.callback
@@ -649,6 +664,30 @@ KINDS = (
                 "round_brackets",
                 Replace(
                     NODE, "'Hello time: ' + str(self.counter_)", "f'Hello time: (self.counter_)'"
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "f_in_quotes",
+        "text",
+        msg("A whole f-string is inside other quotes"),
+        msg(
+            "All that is between the outer quotes is text, the f and the inner quotes too. Python "
+            "replaces {{…}} with a value only if the f is before the outer quotes."
+        ),
+        msg("Delete the outer quotes: write {written} instead of {name}."),
+        links.PYTHON_STRINGS,
+        behind={"run.wrong_text": _f_in_quotes},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "f_in_quotes",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "'f\"Hello time: {self.counter_}\"'",
                 ),
                 fails="run.output",
             ),

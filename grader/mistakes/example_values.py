@@ -120,6 +120,10 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.single_underscores": {"name": "_name_", "written": "__name__"},
     "node.colour_codes": {"name": "\\x1b[92m, \\x1b[0m", "line": "16"},
     "node.step_after_return": {"line": "15", "method": "on_timer", "below": "19"},
+    "node.f_in_quotes": {
+        "name": "'f\"Count: {self.counter}\"'",
+        "written": 'f"Count: {self.counter}"',
+    },
     "node.text_elsewhere": {"name": "'Hello:'", "written": "'Hello: '"},
     "node.self_misspelt": {"name": "slef", "method": "callback"},
     "node.dot_for_comma": {"name": "1.0. self", "written": "1.0, self"},

@@ -86,6 +86,7 @@ OTHERWISE = {
     "thread_beside_timer": "threading.Thread(target=self.wait, daemon=True)\n",
     "f_prefix_missing_in_variable": "        text = f'Hello time: {self.counter_}'\n",
     "node_made_on_import": "    rclpy.init(args=args)\n    node = MyFirstNode()\n",
+    "f_in_quotes": 'info(f"Hello time: {self.counter_}")',
     "counts_after_return": "self.get_logger().info(self.make_text())\n        self.counter_ += 1\n",
     "counter_given_to_function": "str(self.counter_))\n        self.counter_ += 1\n\n",
     "counter_of_method_not_kept": "        self.counter_ = self.add_one(self.counter_)\n",
