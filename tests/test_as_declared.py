@@ -101,3 +101,33 @@ def test_the_digest_does_not_depend_on_the_names() -> None:
     assert wrapper_digest(WRAPPER, "test_node", f"{NAME}.my_first_node:main") == wrapper_digest(
         other.replace("__run__", "__main__"), "x", "a.b:run"
     )
+
+
+OTHER_SCRIPT = f"install/{NAME}/lib/{NAME}/hello"
+
+
+@pytest.mark.parametrize("target", [f"{NAME}.talker:main", f"{NAME}.my_first_node:start"])
+def test_the_advice_says_where_an_executable_leads_that_is_there(bench: Bench, target: str) -> None:
+    (said,) = advice(bench, f"test_node = {target}\nhello = {NAME}.my_first_node:main\n")
+    assert said.startswith(f"test_node starts '{target}', not '{NAME}.my_first_node:main'. hello ")
+    assert "no executable" not in said
+
+
+def test_the_advice_says_if_the_executable_is_not_there(bench: Bench) -> None:
+    (said,) = advice(bench, f"hello = {NAME}.my_first_node:main\n")
+    assert said.startswith("There is no executable test_node. hello ")
+
+
+def advice(bench: Bench, entries: str) -> list[str]:
+    """Return the advice on a package of which `hello` is run."""
+    files = {path: Installed("f", 0o755, len(WRAPPER)) for path in (SCRIPT, OTHER_SCRIPT)}
+    made = build(
+        files=files, entry_files={METADATA: f"[console_scripts]\n{entries}"},
+        scripts={OTHER_SCRIPT: WRAPPER}, entry_points=f"[console_scripts]\n{entries}",
+    )  # fmt: skip
+    static = bench.evidence()
+    evidence = Evidence(static.assignment, static.submission, build=lambda: made, run=no_run)
+    evidence.results[mapping.id] = passed(mapping.id)
+    found = executable.function(evidence)
+    assert found is not None
+    return [str(line) for line in found.advice]

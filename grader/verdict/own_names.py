@@ -56,7 +56,7 @@ def own_executable(assignment: Assignment, entry_points: str) -> str:
     """
     names = {
         name
-        for name, target in _scripts(entry_points)
+        for name, target in scripts(entry_points)
         if target == assignment.target and EXECUTABLE.fullmatch(name)
     }
     if assignment.executable in names or len(names) != 1:
@@ -64,7 +64,7 @@ def own_executable(assignment: Assignment, entry_points: str) -> str:
     return names.pop()
 
 
-def _scripts(entry_points: str) -> list[tuple[str, str]]:
+def scripts(entry_points: str) -> list[tuple[str, str]]:
     """Return names and targets of the executables in the text of an entry_points.txt."""
     found, group = [], ""
     for line in entry_points.splitlines():

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
+from grader.base.shown import shown
 from grader.report.model import Where
 from grader.verdict.checks.as_declared import must_be_as_declared
 from grader.verdict.checks.build import setup_error
@@ -16,6 +17,7 @@ from grader.verdict.checks.entry_faults import wanted_entry
 from grader.verdict.checks.entry_point import mapping_from_source
 from grader.verdict.checks.parsed import file_of
 from grader.verdict.outcome import Blocked, Failed, Passed
+from grader.verdict.own_names import scripts
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
@@ -52,6 +54,18 @@ def _other_name(evidence: Evidence) -> list[str]:
     name, wanted = evidence.named.executable, evidence.assignment.executable
     if name == wanted:
         return []
+    targets = dict(scripts(evidence.build.entry_points))
+    if wanted in targets:
+        return [
+            say(
+                "{wanted} starts '{target}', not '{right}'. {name} leads to the right function "
+                "and was run instead.",
+                wanted=wanted,
+                target=shown(targets[wanted]),
+                right=evidence.assignment.target,
+                name=name,
+            )
+        ]
     return [
         say(
             "There is no executable {wanted}. {name} leads to the right function and was run "
