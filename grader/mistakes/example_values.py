@@ -336,6 +336,9 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "at": "12",
         "error": "NameError: name 'count' is not defined",
         "correction": "Write self.counter instead of count.",
+        "narrower": "except KeyboardInterrupt:",
+        "head": "except Exception:",
+        "row": "20",
     },
     "node.counter_passed": {
         "name": "self.counter",

@@ -10,8 +10,8 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import LOG, LOG_LINE, NODE, SILENT, STEP_LINE, example
-from grader.mistakes.fixes import node_order, node_scope
-from grader.mistakes.hidden_error import corrected, hidden_error
+from grader.mistakes.fixes import node_order, node_try
+from grader.mistakes.hidden_error import attribute_corrected, corrected, hidden_bodies, hidden_error
 from grader.mistakes.kind import Family
 from grader.mistakes.objects import OF_NODE
 from grader.mistakes.recognised import RecognisedMistake, Suspect
@@ -22,8 +22,7 @@ from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part, own_name
 from grader.package.source.node import NodeSource
 
-ENDS = ("KeyboardInterrupt", "ExternalShutdownException", "SystemExit")
-"""Exceptions that end a node as it should end."""
+RAISES = msg("This except catches the error and does not show it. Line {line} raises {error}.")
 LOG_OF_NUMBER = "            self.get_logger().info('Hello time: ' + self.counter_)\n"
 
 
@@ -37,7 +36,7 @@ def _functions(source: NodeSource) -> Iterator[Function]:
 def _hides(handler: ast.ExceptHandler) -> bool:
     """Whether a handler neither raises nor shows the exception that it catches."""
     caught = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
-    if handler.type is not None and all(last_part(dotted(c)) in ENDS for c in caught if c):
+    if handler.type is not None and all(last_part(dotted(c)) in node_try.ENDS for c in caught if c):
         return False
     for node in (part for statement in handler.body for part in ast.walk(statement)):
         if isinstance(node, ast.Raise):
@@ -56,9 +55,24 @@ def _swallows(suspect: Suspect) -> RecognisedMistake | None:
                 found = suspect.finding("error_hidden", suspect.place_at(handler))
                 error = hidden_error(suspect.source, suspect.assignment, node)
                 if error is not None:
-                    return _with_error(found, *error)
-                return _with_attribute(suspect, found, node.body)
+                    found = _with_error(found, *error)
+                else:
+                    body = [s for part in hidden_bodies(suspect.source, node) for s in part]
+                    found = _with_attribute(suspect, found, body)
+                return _with_narrower(suspect.source, found, node, handler)
     return None
+
+
+def _with_narrower(
+    source: NodeSource, found: RecognisedMistake, tried: ast.Try, handler: ast.ExceptHandler
+) -> RecognisedMistake:
+    """Add how the except is written that catches only Ctrl+C, if its try has to stay."""
+    text = source.module_of(tried).text
+    if node_try.can_go(source, tried):
+        return found
+    old, new = node_try.header(text, handler), node_try.narrower(handler)
+    words = {**found.words, "head": " ".join(old.split()), "narrower": new, "row": handler.lineno}
+    return replace(found, words=words, variant=f"{found.variant}_kept".lstrip("_"))
 
 
 def _with_error(
@@ -259,11 +273,7 @@ KINDS = (
             "Remove this except (and its try), and run the node again: now the traceback shows "
             "the line with the error."
         ),
-        whys={
-            "error": msg(
-                "This except catches the error and does not show it. Line {line} raises {error}."
-            )
-        },
+        whys={"error": RAISES, "error_kept": RAISES},
         fixes={
             "attribute": msg(
                 "Write self.{written} instead of self.{name} on line {line}: no line sets "
@@ -274,6 +284,19 @@ KINDS = (
                 "Remove this except and its try, and indent the lines of the try as far as the try "
                 "is indented now. Correct line {at} too: {correction}"
             ),
+            "kept": msg(
+                "Write {narrower} instead of {head} in line {row}, and run the node again: now the "
+                "traceback shows the line with the error."
+            ),
+            "attribute_kept": msg(
+                "Write self.{written} instead of self.{name} on line {line}: no line sets "
+                "self.{name}, and this except hides the AttributeError. Then write {narrower} "
+                "instead of {head} in line {row}."
+            ),
+            "error_kept": msg(
+                "Write {narrower} instead of {head} in line {row}. Correct line {at} too: "
+                "{correction}"
+            ),
         },
         behind={
             "run.no_lines": _swallows,
@@ -283,7 +306,7 @@ KINDS = (
             "run.ended_early": _swallows,
             "run.no_node": _swallows,
         },
-        fixed_by=(corrected, node_scope.hidden_attribute),
+        fixed_by=(corrected, attribute_corrected),
         examples=(
             example(
                 "misspelt_attribute_hidden",

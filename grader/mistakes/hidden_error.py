@@ -6,10 +6,11 @@ import ast
 from dataclasses import replace
 
 from grader.course.assignment import Assignment
-from grader.mistakes.fixes import node_try
+from grader.mistakes.fixes import node_order, node_scope, node_try
 from grader.mistakes.fixes.case import Case, Finding
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.files import Files
+from grader.package.source.names import calls_in, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.sure_errors import sure_error
 from grader.report.model import Where
@@ -21,13 +22,33 @@ def hidden_error(
     """Return the error that a try raises for certain, its line, and the mistake behind it."""
     from grader.mistakes.recognise import behind_error  # noqa: PLC0415 - reads the whole catalogue
 
-    found = sure_error(source, tried.body)
-    if found is None:
-        return None
-    error, line = found
-    where = Where(file=source.module_of(tried).path, line=line)
-    mistake = behind_error(Raised(error, where, source, assignment))
-    return (error, line, mistake) if mistake is not None else None
+    for body in hidden_bodies(source, tried):
+        found = sure_error(source, body)
+        if found is None:
+            continue
+        error, line = found
+        where = Where(file=source.module_of(tried).path, line=line)
+        mistake = behind_error(Raised(error, where, source, assignment))
+        if mistake is not None:
+            return error, line, mistake
+    return None
+
+
+def hidden_bodies(source: NodeSource, tried: ast.Try) -> list[list[ast.stmt]]:
+    """Return the lines whose errors a try hides: its own, and those of what it runs in main.
+
+    It runs the constructor if it creates the node, and the callback if it spins.
+    """
+    bodies = [tried.body]
+    if source.function_around(tried) is not source.main:
+        return bodies
+    name = source.node_class.name if source.node_class is not None else ""
+    called = {last_part(n) for statement in tried.body for _, n in calls_in(statement)}
+    start = source.methods.get("__init__") if name in called else None
+    callback = source.callback if called & {*node_order.SPINS} else None
+    run = [function for function in (start, callback) if function is not None]
+    module = source.module_of(tried)
+    return [*bodies, *(f.body for f in run if source.module_of(f) is module)]
 
 
 def corrected(case: Case) -> Files | None:
@@ -49,5 +70,16 @@ def corrected(case: Case) -> Files | None:
         for fix in fixes_for(finding):
             files = fix(replace(case, finding=finding))
             if files is not None:
-                return node_try.without_try(replace(case, files=files)) or files
+                return _shown(replace(case, files=files))
     return None
+
+
+def attribute_corrected(case: Case) -> Files | None:
+    """Correct the misspelt attribute, and let the except show errors."""
+    files = node_scope.hidden_attribute(case)
+    return _shown(replace(case, files=files)) if files is not None else None
+
+
+def _shown(case: Case) -> Files:
+    """Delete the except that hides the error, or let it catch only Ctrl+C."""
+    return node_try.without_try(case) or node_try.narrowed(case) or case.files

@@ -81,3 +81,67 @@ def test_a_text_in_the_counter_is_no_error() -> None:
     found = look("run.no_lines", text)
     assert found is not None
     assert "raises" not in why_of(found)
+
+
+SPIN = "    try:\n        rclpy.spin(node)\n    except KeyboardInterrupt:\n        pass\n"
+SHOWN = "and run the node again: now the traceback shows the line with the error."
+
+
+def in_main(head: str, more: str = "", log: str = LOG) -> str:
+    """Return the node whose main hides errors of its callback."""
+    spin = SPIN.replace("except KeyboardInterrupt:", head).replace("pass\n", f"pass\n{more}")
+    return changed((SPIN, spin), (LOG, log))
+
+
+@pytest.mark.parametrize(
+    ("head", "narrower", "more"),
+    [
+        ("except (KeyboardInterrupt, Exception):", "except KeyboardInterrupt:", ""),
+        ("except:", "except KeyboardInterrupt:", ""),
+        ("except BaseException as error:", "except KeyboardInterrupt:", ""),
+        ("except Exception:", "except KeyboardInterrupt:", "    else:\n        print('end')\n"),
+        ("except (SystemExit, KeyboardInterrupt, Exception):",
+         "except (SystemExit, KeyboardInterrupt):", ""),
+    ],
+)  # fmt: skip
+def test_an_except_of_main_gets_to_catch_only_what_ends_the_node(
+    head: str, narrower: str, more: str, tmp_path: Path
+) -> None:
+    text = in_main(head, more, "self.get_logger().info(self.text())")
+    found = look("run.ended_early", text)
+    row = line_of(text, head)
+    assert fix_of(found) == f"Write {narrower} instead of {head} in line {row}, {SHOWN}"
+    text = in_main(head, more, LOG.replace("self.counter_", "self.countr_"))
+    found = look("run.ended_early", text)
+    assert fix_of(found) == (
+        f"Write self.counter_ instead of self.countr_ on line {line_of(text, 'countr_')}: no line "
+        "sets self.countr_, and this except hides the AttributeError. Then write "
+        f"{narrower} instead of {head} in line {row}."
+    )
+    assert patched(found, text, tmp_path) == in_main(narrower, more)
+
+
+def test_an_error_of_the_constructor_is_named_in_main(tmp_path: Path) -> None:
+    text = in_main("except Exception:").replace(
+        "    node = MyFirstNode()\n    try:\n", "    try:\n        node = MyFirstNode()\n"
+    )
+    text = text.replace(
+        "        self.counter_ = 0\n",
+        "        self.counter_ = 0\n        self.get_logger().info('start' + 1)\n",
+    )
+    found = look("run.exits_at_once", text)
+    assert f"Line {line_of(text, 'start')} raises TypeError" in why_of(found)
+    assert fix_of(found).startswith("Write except KeyboardInterrupt: instead of except Exception:")
+
+
+@pytest.mark.parametrize(
+    "end", ["        finally:\n            print('tick')\n", "        else:\n            print('tick')\n"]
+)  # fmt: skip
+def test_a_try_with_more_parts_stays(end: str) -> None:
+    text = hidden("self.get_logger().info(self.text())").replace(
+        "            pass\n", f"            pass\n{end}", 1
+    )
+    row = line_of(text, "except Exception")
+    assert fix_of(look("run.no_lines", text)) == (
+        f"Write except KeyboardInterrupt: instead of except Exception: in line {row}, {SHOWN}"
+    )
