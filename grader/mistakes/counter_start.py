@@ -7,29 +7,76 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.counter import counter_in
+from grader.mistakes.counter import Counter, counter_in
 from grader.mistakes.example import LOG_LINE, NODE, STEP_LINE, example
 from grader.mistakes.fixes import node_count
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import adds_to, starts_of, targets_of, texts_of
+from grader.package.source.counter import (
+    adds_to,
+    parts_of_callback,
+    starts_of,
+    targets_of,
+    texts_of,
+)
+from grader.package.source.module import Function
+from grader.package.source.names import dotted
 
 
 def _adds_before_log(suspect: Suspect) -> RecognisedMistake | None:
     counter, callback = counter_in(suspect), suspect.source.callback
     if counter is None or callback is None:
         return None
+    if (grown := _grows_before_log(callback, counter)) is not None:
+        return _before_log(suspect, grown, counter)
     texts = texts_of(callback, counter.logged)
     read = min([counter.logged.lineno, *(text.lineno for text in texts)])
     added = [n for n in ast.walk(callback) if adds_to(n, counter.name)]
     first = min(added, key=lambda n: getattr(n, "lineno", 0), default=None)
     if not isinstance(first, ast.Assign | ast.AugAssign) or first.lineno >= read:
         return None
-    found = suspect.finding("adds_before_log", first, name=counter.name)
-    written = suspect.source.module_of(first).text.code(first)
+    return _before_log(suspect, first, counter)
+
+
+def _before_log(suspect: Suspect, added: ast.stmt, counter: Counter) -> RecognisedMistake:
+    found = suspect.finding("adds_before_log", added, name=counter.name)
+    written = suspect.source.module_of(added).text.code(added)
     words = {**found.words, "written": written[:80], "line": str(counter.logged.lineno)}
     return replace(found, words=words)
+
+
+def _grows_before_log(callback: Function, counter: Counter) -> ast.stmt | None:
+    """Return the statement that adds to a list, the length of which the callback logs below it."""
+    lengths = [n for n in ast.walk(counter.logged) if _is_length(n, counter.name)]
+    for statement in callback.body if lengths else ():
+        call = statement.value if isinstance(statement, ast.Expr) else None
+        grows = isinstance(call, ast.Call) and dotted(call.func) == f"{counter.name}.append"
+        if grows and statement.lineno < counter.logged.lineno:
+            return statement
+    return None
+
+
+def _is_length(node: ast.AST, name: str) -> bool:
+    called = isinstance(node, ast.Call) and dotted(node.func) == "len" and len(node.args) == 1
+    return isinstance(node, ast.Call) and called and dotted(node.args[0]) == name
+
+
+def _is_number(suspect: Suspect, name: str, value: ast.AST) -> bool:
+    """Return whether a counter is the number itself, not an object that has it in it."""
+    objects = (ast.List, ast.Tuple, ast.Dict, ast.Set, ast.ListComp, ast.Lambda, ast.GeneratorExp)
+    if isinstance(value, objects):
+        return False
+    for part in parts_of_callback(suspect.source):
+        for node in ast.walk(part):
+            if isinstance(node, ast.Subscript | ast.Attribute) and dotted(node.value) == name:
+                return False
+            if not isinstance(node, ast.Call):
+                continue
+            used = dotted(node.func) in ("len", "next", "iter", "sum", "max", "min")
+            if dotted(node.func) == name or (used and name in map(dotted, node.args)):
+                return False
+    return True
 
 
 def _starts_elsewhere(suspect: Suspect) -> RecognisedMistake | None:
@@ -47,6 +94,8 @@ def _starts_elsewhere(suspect: Suspect) -> RecognisedMistake | None:
     start = suspect.output.start
     value = at.value if isinstance(at, ast.Assign) else at
     if isinstance(value, ast.Constant) and value.value == start:
+        return None
+    if not _is_number(suspect, counter.name, value):
         return None
     name = counter.name
     around = suspect.source.module_of(at).parents.get(at)
