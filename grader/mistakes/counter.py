@@ -82,7 +82,31 @@ def _local(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name, function = match["name"], _function(raised)
     if function is None or not _adds(function, name) or _word(raised, function, name):
         return None
-    return raised.finding("counter_local", name=name)
+    found = raised.finding("counter_local", name=name)
+    step = raised.assignment.output.step
+    words = {**found.words, "function": function.name, "step": step}
+    return replace(found, words=words, variant=_form_of_local(raised, function, name))
+
+
+def _form_of_local(raised: Raised, function: Function, name: str) -> str:
+    """Return the variant for a counter without self: what the function has, and what is set."""
+    around = raised.module.parents.get(function)
+    if not isinstance(around, ast.ClassDef):
+        if not isinstance(around, ast.Module):
+            return ""
+        return "apart" if name in raised.source.attributes else "outside"
+    arguments = function.args.args
+    if not arguments or arguments[0].arg != "self":
+        return ""
+    attribute = f"self.{name}"
+    own = any(name in targets_of(statement) for statement in around.body)
+    if own or any(_sets(n, attribute) for n in ast.walk(around)):
+        return "set"
+    return "" if function is raised.source.callback else "method"
+
+
+def _sets(node: ast.AST, name: str) -> bool:
+    return isinstance(node, ast.Assign | ast.AnnAssign) and name in targets_of(node)
 
 
 def _global(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -512,6 +536,21 @@ KINDS = (
         COUNTER,
         msg("Write self.{name} in the callback and in __init__."),
         links.PYTHON_CLASSES,
+        fixes={
+            "set": msg("Write self.{name} instead of {name} in {function}."),
+            "method": msg(
+                "Write self.{name} instead of {name} in {function}, and self.{name} = 0 in "
+                "__init__ of the same class."
+            ),
+            "apart": msg(
+                "{function} is outside of the class and has no self. Write self.{name} += {step} "
+                "in {callback} instead of the call of {function}."
+            ),
+            "outside": msg(
+                "Write {name} = 0 below the imports of the file, and global {name} as the first "
+                "line of {function}."
+            ),
+        },
         seen=r"UnboundLocalError: .{0,60}'(?P<name>(?!\w{0,60}node)\w{1,120})'",
         raised={UNBOUND: _local},
         fixed_by=(node_count.self_dot,),

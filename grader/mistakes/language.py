@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Iterable
 from dataclasses import replace
 
 from grader.base.i18n.message import Value, msg
@@ -66,8 +67,26 @@ def _read_only(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
     name = match["name"] or match["old"] or ""
     for method in raised.source.own_methods:
         if method.name == name and any(dotted(d) == "property" for d in method.decorator_list):
-            return raised.finding("property_set", at=method, name=name)
+            found = raised.finding("property_set", at=method, name=name)
+            if (kept := _returned(method)) and kept != f"self.{name}":
+                words = {**found.words, "written": kept, "line": str(raised.line)}
+                return replace(found, words=words, variant="kept")
+            return found if _is_set(raised, name) else replace(found, variant="computed")
     return None
+
+
+def _returned(function: Function) -> str:
+    """Return the attribute that a property gives back as it is; "" if it computes its value."""
+    returns = [n for n in ast.walk(function) if isinstance(n, ast.Return)]
+    named = dotted(returns[0].value) if len(returns) == 1 and returns[0].value else ""
+    return named if named.startswith("self.") and named.count(".") == 1 else ""
+
+
+def _is_set(raised: Raised, name: str) -> bool:
+    """Return whether __init__ itself gives an attribute its first value."""
+    init = raised.source.methods.get("__init__")
+    nodes = ast.walk(init) if init is not None else ()
+    return any(not isinstance(n, ast.AugAssign) and f"self.{name}" in targets_of(n) for n in nodes)
 
 
 def _skips_base(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -174,8 +193,27 @@ def _elsewhere(suspect: Suspect) -> RecognisedMistake | None:
         if around is None or around.name == "__init__":
             continue
         if around is suspect.function or not _calls(source.calls, around):
-            return suspect.finding("counts_elsewhere", node, name=logged[1])
+            found = suspect.finding("counts_elsewhere", node, name=logged[1])
+            if _has_only(around, node) and _given_to_timer(source.calls, around):
+                words = {**found.words, "other": around.name}
+                return replace(found, words=words, variant="timer")
+            return found
     return None
+
+
+def _has_only(function: Function, statement: ast.stmt) -> bool:
+    """Return whether a function does nothing but one statement."""
+    rest = [s for s in function.body if s is not statement and not isinstance(s, ast.Pass)]
+    return all(isinstance(s, ast.Expr) and isinstance(s.value, ast.Constant) for s in rest)
+
+
+def _given_to_timer(calls: Iterable[tuple[ast.Call, object]], function: Function) -> bool:
+    for call, _ in calls:
+        if last_part(dotted(call.func)) == "create_timer":
+            given = (*call.args, *(keyword.value for keyword in call.keywords))
+            if any(last_part(dotted(value)) == function.name for value in given):
+                return True
+    return False
 
 
 def _calls(calls: list[tuple[ast.Call, str]], function: Function) -> bool:
@@ -358,6 +396,15 @@ KINDS = (
         msg("A value is assigned to a property that has no setter"),
         msg("@property makes {name} a value that can only be read."),
         msg("Delete the property {name}: in Python an attribute needs no method that returns it."),
+        fixes={
+            "kept": msg(
+                "The property only returns {written}. Assign to that attribute: write {written} "
+                "instead of self.{name} in line {line}."
+            ),
+            "computed": msg(
+                "Assign to an attribute with another name, from which the property makes its value."
+            ),
+        },
         raised={
             r"AttributeError: (?:property '(?P<name>\w{1,120})' of .{1,200} has no setter"
             r"|can't set attribute(?: '(?P<old>\w{1,120})')?)": _read_only
@@ -476,8 +523,14 @@ KINDS = (
         "counts_elsewhere",
         "counter",
         msg("The counter is increased outside of the callback"),
-        msg("A loop runs as often as it can; the timer calls the callback once in each period."),
+        msg("The timer calls {callback} once for each line. Code elsewhere runs at other times."),
         msg("Move the += into {callback}, below the line that logs."),
+        fixes={
+            "timer": msg(
+                "Move the += into {callback}, below the line that logs. Then delete {other}, which "
+                "does nothing else, and the create_timer that calls it."
+            )
+        },
         behind={
             "run.constant_counter": _elsewhere,
             "run.wrong_start": _elsewhere,
