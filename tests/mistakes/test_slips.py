@@ -231,6 +231,8 @@ SIGNS = [
         "try:\n    a = 1\nexcept (E, F):\n    pass\n",
     ),
     ("log.info('time: ' str(a))\n", "plus_missing", 1, "log.info('time: ' + str(a))\n"),
+    ("f(a=['b/' c])\n", "plus_missing", 1, "f(a=['b/' + c])\n"),
+    ("f(a=['b' c])\n", "comma_missing", 1, "f(a=['b', c])\n"),
     ("f(1.0 self.a)\n", "comma_missing", 1, "f(1.0, self.a)\n"),
     ("f(\n    a=1\n    b=2,\n)\n", "comma_missing", 2, "f(\n    a=1,\n    b=2,\n)\n"),
     ("def f()\n    pass\n", "colon_missing", 1, "def f():\n    pass\n"),

@@ -182,9 +182,15 @@ def _ways(text: Broken) -> Iterator[tuple[Splice, str]]:
             break
         at = start + match.start("blank")
         quoted = {match["before"], code[match.end()]} & {"'", '"'}
-        if quoted and TEXTS.search(code[: match.end()]) and match["blank"].strip("\r\n"):
+        shown = TEXTS.search(code[: match.end()]) or _ends_path(text, at)
+        if quoted and shown and match["blank"].strip("\r\n"):
             yield Splice(at, at + len(match["blank"]), " + "), "plus_missing"
         yield Splice(at, at, ","), "comma_missing"
+
+
+def _ends_path(text: Broken, end: int) -> bool:
+    """Return whether the text that ends here is the beginning of a path, as in 'share/'."""
+    return text.source.text[max(end - 2, 0) : end] in ("/'", '/"')
 
 
 def _colon(text: Broken) -> Slip | None:
