@@ -164,6 +164,10 @@ KINDS = (
                 "Python reads the file from top to bottom. Move line {line}, which sets {name}, above "
                 "setup(, then build again."
             ),
+            "late_lines": msg(
+                "Python reads the file from top to bottom. Move lines {line} to {last}, which set "
+                "{name}, above setup(, then build again."
+            ),
             "undefined": msg(
                 "No line of setup.py defines {name}. If it is a text, write quotes around it: "
                 "'{name}'. If it is a variable, give it a value above setup(. Then build again."
@@ -496,6 +500,17 @@ KINDS = (
                 "setup.py does not call setup(…). Compare the file with the one that ros2 pkg "
                 "create makes."
             ),
+            "function": msg(
+                "The call of setup() is inside of the function {name}, and no line calls {name}. "
+                "Write {name}() as the last line of setup.py, at the left margin, then build again."
+            ),
+        },
+        whys={
+            "function": msg(
+                "colcon runs setup.py to install the package into the workspace's install folder, "
+                "the only place where ros2 run looks. The lines of a function run only if it is "
+                "called."
+            ),
         },
         examples=(
             example(
@@ -509,6 +524,12 @@ KINDS = (
                     SETUP,
                     "import rclpy\n\n\ndef main(args=None):\n    rclpy.init(args=args)\n",
                 ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_in_function",
+                Replace(SETUP, "\nsetup(\n", "\ndef run():\n  setup(\n"),
                 fails="build.colcon",
                 blocks=("entry_point.mapping",),
             ),

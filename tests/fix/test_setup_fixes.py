@@ -64,7 +64,8 @@ def test_the_line_is_named_and_changed(name: str, code: str, fix: str, tmp_path:
         ("packages=find_packages", "TypeError: 'method' object is not iterable", "not_called", True),
         ("packages=folders", "TypeError: 'method' object is not iterable", "", False),
         ("version='0'", "ModuleNotFoundError: No module named 'other'", "", False),
-        ("version=v1)\nv1 = dict(a=1", "NameError: name 'v1' is not defined", "late", False),
+        ("version=v1)\nv1 = 1\ndict(a=1", "NameError: name 'v1' is not defined", "late", False),
+        ("version=v1)\nv1 = dict(a=1", "NameError: name 'v1' is not defined", "late_lines", False),
     ],
 )  # fmt: skip
 def test_a_cause_is_named_only_if_it_is_seen(

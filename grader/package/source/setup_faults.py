@@ -192,7 +192,11 @@ def _name(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
     if name in _bound(module):
         sets = [s for s in module.tree.body if isinstance(s, ast.Assign) and _sets(s, name)]
         late = len(sets) == 1 and sets[0].lineno > first.lineno
-        return reader.fault("late", first, name=name, line=str(sets[0].lineno)) if late else None
+        if not late:
+            return None
+        line, last = str(sets[0].lineno), str(sets[0].end_lineno)
+        variant = "late" if line == last else "late_lines"
+        return reader.fault(variant, first, name=name, line=line, last=last)
     close = CONSTANTS.get(name) or nearest(name, _bound(module) - {name}, cutoff=0.75)
     if close:
         swaps = [module.text.swap(use, close) for use in uses]

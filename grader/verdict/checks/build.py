@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
@@ -160,13 +161,14 @@ def _broken(evidence: Evidence) -> Failed:
             words=words_of(label),
         )
     if NEVER_CALLED in build.log:
+        never = _never_called(_setup_py(evidence))
         return Failed(
             "build.exited",
             expected=expected,
             actual=say("setup.py ended before it called setup()"),
-            where=where,
-            variant=_never_called(_setup_py(evidence)),
-            words={"path": node_path(evidence)},
+            where=Where(file="setup.py", line=line or never.line),
+            variant=never.variant,
+            words={"path": node_path(evidence), "name": never.function},
         )
     if error:
         return _raised(evidence, expected, error, where)
@@ -279,16 +281,33 @@ def _answer(evidence: Evidence, expected: str) -> Failed:
     )
 
 
-def _never_called(found: bytes) -> str:
-    """Return why setup() was not called: nothing calls it, or the file is a node's; "" if it exits."""
+@dataclass(frozen=True)
+class _NeverCalled:
+    """Why setup() was not called, and the function that contains the call and does not run."""
+
+    variant: str = ""
+    line: int | None = None
+    function: str = ""
+
+
+def _never_called(found: bytes) -> _NeverCalled:
+    """Return why setup() was not called; no variant if setup.py calls it, and exits before."""
     try:
         module = parse_module("setup.py", found)
     except (PythonFault, RecursionError, MemoryError):
-        return ""
-    called = {dotted(n.func) for n in module.nodes if isinstance(n, ast.Call)}
-    if called & {"setup", "setuptools.setup"}:
-        return ""
-    return "node" if module.uses_ros else "missing"
+        return _NeverCalled()
+    calls = [n for n in module.nodes if isinstance(n, ast.Call)]
+    calls = [n for n in calls if dotted(n.func) in ("setup", "setuptools.setup")]
+    if not calls:
+        return _NeverCalled("node" if module.uses_ros else "missing")
+    used = {n.id for n in module.nodes if isinstance(n, ast.Name)}
+    for statement in module.tree.body:
+        unused = isinstance(statement, ast.FunctionDef) and statement.name not in used
+        if isinstance(statement, ast.FunctionDef) and unused:
+            inside = set(ast.walk(statement))
+            if all(call in inside for call in calls):
+                return _NeverCalled("function", statement.lineno, statement.name)
+    return _NeverCalled()
 
 
 def _unquoted(found: bytes, error: str) -> ast.Name | None:
