@@ -156,6 +156,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.name_hides_function": {"name": "str", "lines": "12"},
     "node.interrupt_swallowed": {"line": "12"},
     "node.start_is_text": COUNTER,
+    "node.spin_once": {"wanted": "executor.spin()"},
     "node.argument_missing": {
         "name": "name",
         "function": "MyNode.__init__",

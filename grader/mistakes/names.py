@@ -209,6 +209,8 @@ def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     if (wanted := _wanted(raised, match)) is not None:
         return wanted
     foreign = match["function"].partition(".")[0] not in raised.source.known_classes
+    if match["name"] == "self" and "." in match["function"]:
+        return replace(found, variant="class")
     return replace(found, variant="own") if function in own and not foreign else found
 
 
@@ -530,12 +532,22 @@ KINDS = (
         links.PYTHON_ERRORS,
         fixes={
             "own": msg("Pass a value for {name} where {function} is called."),
+            "class": msg(
+                "This line uses the class itself. Create an object of it: write () after the name of "
+                "the class where the value comes from."
+            ),
             "value": msg("Pass a value for {name}: write {written} in line {line}."),
             "unused": msg(
                 "Remove {name} from the parameters in this line: nothing in __init__ uses it, and "
                 "line {line} passes no value."
             ),
             "spin": msg("Write rclpy.spin({node}): spin needs the node that was created."),
+        },
+        whys={
+            "class": msg(
+                "{function} works on an object: Python passes the object as self. Nothing is passed "
+                "if the method is called on the class."
+            ),
         },
         raised={
             r"TypeError: (?P<function>[\w.]{1,200})\(\) missing \d{1,3} required positional arguments?: '(?P<name>\w{1,120})'": _argument
@@ -551,6 +563,20 @@ KINDS = (
             example(
                 "init_wants_more",
                 Replace(NODE, "def __init__(self)", "def __init__(self, name)"),
+                fails="run.starts",
+            ),
+            example(
+                "class_passed_to_function",
+                Replace(
+                    NODE,
+                    "def main(args=None):",
+                    "def run(node):\n    node.get_name()\n    rclpy.spin(node)\n\n\ndef main(args=None):",
+                ),
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n    except",
+                    "        run(MyFirstNode)\n    except",
+                ),
                 fails="run.starts",
             ),
             example(

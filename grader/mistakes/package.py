@@ -156,7 +156,10 @@ KINDS = (
             ),
             "declared_twice": msg("Delete this line: <?xml …?> is only at the top of the file."),
             "after": msg("Delete what is after the last > of the file."),
-            "outside": msg("Move this line above </{name}>: all tags belong inside <{name}>."),
+            "outside": msg(
+                "Move this tag, with all lines up to its end tag, above </{name}>: all tags belong "
+                "inside <{name}>."
+            ),
             "bare": msg("Write quotes around the value: {wanted}"),
             "comment": msg("Write --> where the comment ends."),
         },
@@ -529,7 +532,10 @@ KINDS = (
             "The build type tells colcon how to build. Without ament_python, colcon takes the "
             "package for a C++ one and looks for a CMakeLists.txt."
         ),
-        whys={"outside": DEGRADES},
+        whys={
+            "outside": DEGRADES,
+            "several": msg("The build type tells colcon how to build: a package has only one."),
+        },
         fix=msg(
             "Write in package.xml, then build again: "
             "<export><build_type>ament_python</build_type></export>"
@@ -541,6 +547,10 @@ KINDS = (
             ),
             "renamed": msg("Write <{tag}> instead of <{close}>, and the same in its end tag."),
             "line": msg("Write ament_python in this line instead, then build again."),
+            "several": msg(
+                "Keep only one of them: <build_type>ament_python</build_type>. Delete the others, "
+                "then build again."
+            ),
             "cmake": msg(
                 "If only this line is wrong, write ament_python. Otherwise create a "
                 "new package with ros2 pkg create --build-type ament_python and copy "
@@ -561,6 +571,14 @@ KINDS = (
             example(
                 "build_type_missing",
                 Replace(MANIFEST, "    <build_type>ament_python</build_type>\n", ""),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "build_type_twice",
+                Replace(
+                    MANIFEST, "<build_type>", "<build_type>ament_cmake</build_type><build_type>"
+                ),
                 fails="package.manifest",
                 blocks=UNBUILT,
             ),

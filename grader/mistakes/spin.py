@@ -31,11 +31,28 @@ def _once_only(suspect: Suspect) -> RecognisedMistake | None:
     return None if _spins(suspect) else _once(suspect)
 
 
+def _never_again(suspect: Suspect) -> RecognisedMistake | None:
+    """The program goes on, so that a loop around spin_once has not ended."""
+    found = _once_only(suspect)
+    return replace(found, variant="") if found is not None else None
+
+
 def _once(suspect: Suspect) -> RecognisedMistake | None:
     for call, name in suspect.source.calls:
         if last_part(name) == "spin_once":
-            return suspect.finding("spin_once", call)
+            found = suspect.finding("spin_once", call)
+            if not _in_while(suspect, call):
+                return found
+            owner = name.rpartition(".")[0]
+            node = placeholder_values(suspect.assignment, suspect.source)["node"]
+            wanted = f"{owner}.spin()" if owner in executors(suspect) else f"rclpy.spin({node})"
+            params = {**found.params, "wanted": wanted}
+            return replace(found, variant="loop", params=params)
     return None
+
+
+def _in_while(suspect: Suspect, call: ast.Call) -> bool:
+    return any(isinstance(n, ast.While) for n in suspect.source.module_of(call).around(call))
 
 
 def _not_called(suspect: Suspect) -> RecognisedMistake | None:
@@ -324,9 +341,16 @@ KINDS = (
         msg("rclpy.spin_once handles one callback and returns; then {function} ends."),
         msg("Write rclpy.spin({node})."),
         links.EXECUTORS,
+        whys={
+            "loop": msg(
+                "spin_once handles one callback and returns. The loop around it must go on until "
+                "Ctrl+C, and this loop ended earlier."
+            ),
+        },
+        fixes={"loop": msg("Write {wanted} instead of the whole while loop around this line.")},
         behind={
             "run.exits_at_once": _once_only,
-            "run.never_spins": _once_only,
+            "run.never_spins": _never_again,
             "run.ended_early": _once,
         },
         fixed_by=(node_life.spin,),
@@ -336,6 +360,24 @@ KINDS = (
                 Replace(NODE, "rclpy.spin(node)", "rclpy.spin_once(node)"),
                 fails="run.starts",
                 note="one line on the wall clock; none under use_sim_time, because the first message on /clock is the only callback that it runs",
+            ),
+            example(
+                "executor_shut_down_in_loop",
+                Replace(
+                    NODE,
+                    "import rclpy\n",
+                    "import rclpy\nfrom rclpy.executors import SingleThreadedExecutor\n",
+                ),
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n",
+                    "        runner = SingleThreadedExecutor()\n"
+                    "        runner.add_node(node)\n"
+                    "        while rclpy.ok():\n"
+                    "            runner.spin_once(timeout_sec=0.1)\n"
+                    "            rclpy.shutdown()\n",
+                ),
+                fails="run.starts",
             ),
             example(
                 "spins_until_three",

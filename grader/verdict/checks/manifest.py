@@ -322,7 +322,7 @@ def _check_build_type(evidence: Evidence, manifest: Manifest) -> None:
         raise _build_type(manifest.first("export"), say("there is no <build_type>"))
     if len(elements) > 1:
         many = say("there are {count} <build_type> tags", count=len(elements))
-        raise _build_type(elements[1], many)
+        raise _build_type(elements[1], many, "several")
     if elements[0].text != "ament_python":
         _check_created(evidence, elements[0])
         said = f"<build_type>{shown(elements[0].text)}</build_type>"
