@@ -55,9 +55,14 @@ def _below_guard(tree: ast.Module, function: str) -> list[str]:
             lines = [n.lineno for n in named if dotted(n.value) == function]
             found += [_advice("node.guard_without_call", line, values) for line in lines]
         if isinstance(statement, ast.FunctionDef) and statement.name == function:
-            inside = [n for n in statement.body if is_guard(n)]
+            inside = [n for n in statement.body if is_guard(n) and _calls(n, function)]
             found += [_advice("node.guard_inside", n.lineno, values) for n in inside]
     return found
+
+
+def _calls(statement: ast.stmt, function: str) -> bool:
+    calls = (n for n in ast.walk(statement) if isinstance(n, ast.Call))
+    return any(dotted(call.func) == function for call in calls)
 
 
 def _guard(node: ast.Compare) -> list[str]:

@@ -62,6 +62,7 @@ def test_a_timer_under_its_callbacks_name_gets_advice(line: str, advised: bool) 
     [
         ("if __name__ == '__main__':\n    main\n", "line 8: The () below the guard is missing"),
         ("    if __name__ == '__main__':\n        main()\n", "line 7: The guard is inside of a"),
+        ("    if __name__ == '__main__':\n        run()\n", ""),
         ("if __name__ == '__main__':\n    main()\n", ""),
     ],
 )
