@@ -118,6 +118,30 @@ def test_a_missing_comma_is_reported_at_its_line(bench: Bench) -> None:
     assert entries[1] in failed.fix
 
 
+def test_an_entry_that_begins_with_a_variable_is_reported_at_its_own_line(bench: Bench) -> None:
+    bench.change("setup.py", ENTRY, "executable + '= my_robot_controllermy_first_node:main',")
+    bench.change("setup.py", "\nsetup(", "\nexecutable = 'test_node'\n\nsetup(")
+    written = (bench.root / "setup.py").read_text().splitlines()
+    failed = bench.misses()
+    assert mistake(failed) == "setup.misspelt_module"
+    assert "executable + " in written[(line(failed) or 0) - 1]
+
+
+@pytest.mark.parametrize(
+    ("entry", "is_named"),
+    [
+        ("'{EXE} = {PKG}.first:main',", True),
+        ("'test_node = {PKG}.my_first_node:main',", True),
+        ("'test_node = {}:main',", False),
+    ],
+)
+def test_a_text_with_names_in_braces_lacks_its_f(bench: Bench, entry: str, is_named: bool) -> None:
+    bench.change("setup.py", ENTRY, entry)
+    failed = bench.misses()
+    assert mistake(failed) == "setup.bad_entry"
+    assert (f"f{entry.rstrip(',')}" in failed.fix) == is_named
+
+
 POINTS = """\
     entry_points={
         'console_scripts': [

@@ -51,7 +51,13 @@ REFUSED = msg(
     "and the build stops with: Invalid group name."
 )
 WRITE = msg("Write '{wanted}', then build again.")
-OTHERS = {"other": msg("Fix or delete this entry: '{entry}'")}
+OTHERS = {
+    "other": msg("Fix or delete this entry: '{entry}'"),
+    "no_f": msg(
+        "Python replaces the names in {{ }} only in a string with an f before it. Write: f'{entry}', "
+        "then build again."
+    ),
+}
 
 
 def _stops(slug: str, title: str, **parts: Unpack[Parts]) -> Kind:

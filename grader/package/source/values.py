@@ -128,7 +128,7 @@ class Evaluator:
         left, right = self.value(node.left), self.value(node.right)
         if isinstance(node.op, ast.Add):
             if isinstance(left, Text) and isinstance(right, Text):
-                return Text(left.value + right.value, left.line)
+                return Text(left.value + right.value, node.lineno)
             if isinstance(left, Listing) and isinstance(right, Listing):
                 return Listing((left.items + right.items)[:LONGEST], left.line)
         if isinstance(node.op, ast.Mod) and isinstance(left, Text):

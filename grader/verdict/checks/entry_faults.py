@@ -25,6 +25,9 @@ def wanted_entry(evidence: Evidence) -> str:
     return f"{evidence.assignment.executable} = {evidence.assignment.target}"
 
 
+NAME_IN_BRACES = re.compile(r"\{[A-Za-z_]\w{0,80}\}")
+
+
 def title_of(mistake: str) -> Message:
     """Return a mistake's title in the catalogue."""
     from grader.mistakes.catalogue import CATALOGUE  # noqa: PLC0415 - slow, rarely needed
@@ -72,7 +75,10 @@ def broken(evidence: Evidence, entry: Entry) -> Failed:
     executable = evidence.assignment.executable
     is_wanted = entry.name == executable or executable in entry.text
     mistake = _fault_of(entry.text, entry.target)
-    return _failed(evidence, entry, mistake, variant="" if is_wanted else "other")
+    variant = "" if is_wanted else "other"
+    if mistake == "setup.bad_entry" and NAME_IN_BRACES.search(entry.text):
+        variant = "no_f"
+    return _failed(evidence, entry, mistake, variant=variant)
 
 
 def _fault_of(text: str, target: str) -> str:
