@@ -6,17 +6,23 @@ import ast
 import re
 from dataclasses import replace
 
-from grader.base.i18n.message import msg
+from grader.base.i18n.message import msg, say
 from grader.base.nearest import nearest
+from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.example import BODY_OF_MAIN, NODE, example
-from grader.mistakes.fixes import node_life, node_scope, node_words
+from grader.mistakes.fixes import lines, node_life, node_scope, node_words
+from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import CLASS
-from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, always
+from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect, always
+from grader.package.edit.files import Files
+from grader.package.edit.text import Splice
 from grader.package.edit.tree import Replace
+from grader.package.source.counter import targets_of
 from grader.package.source.imported import full_name
 from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.node import NodeSource
 
 NODES = ("rclpy.node.Node", "rclpy.Node")
 PRIVATE = r"AttributeError: '(?P<type>\w{1,120})' object has no attribute '_\w{1,120}'"
@@ -150,6 +156,65 @@ def _super_late(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
     if raised.module.has(init) and init.lineno <= raised.line < call.lineno:
         return replace(found, variant="line", words={**found.words, "line": str(raised.line)})
     return found
+
+
+def _in_namespace(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a namespace that the class gives to a node of the right name."""
+    call = suspect.source.super_init
+    given = call.args[0] if call is not None and call.args else None
+    named = getattr(given, "value", suspect.assignment.node_name)
+    if call is None or named != suspect.assignment.node_name or "/" in str(named):
+        return None
+    for keyword in call.keywords:
+        value = getattr(keyword.value, "value", None)
+        if keyword.arg == "namespace" and value not in ("", "/", None):
+            text = suspect.source.module_of(call).text
+            code = f"namespace={text.code(keyword.value)}"
+            return suspect.finding("in_namespace", call, name=code)
+    return None
+
+
+def _without_namespace(case: Case) -> Files | None:
+    """Delete the namespace, if it is the last argument."""
+    call = case.node.super_init if case.node is not None else None
+    if case.node is None or call is None or len(call.args) != 1 or len(call.keywords) != 1:
+        return None
+    module = case.node.module_of(call)
+    start, end = module.text.span(call.args[0])[1], module.text.span(call.keywords[0].value)[1]
+    return case.changed(module, Splice(start, end, ""))
+
+
+def _name_invalid(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Name the character, and the string that has it, also if that is in a variable."""
+    string = _name_given(raised.source)
+    name = str(string.value) if string is not None else ""
+    wrong = re.search(r"[^A-Za-z0-9_]", name)
+    if string is None or wrong is None:
+        return always("name_invalid")(raised, match)
+    code = raised.source.module_of(string).text.code(string)
+    written = f"{code[0]}{raised.assignment.node_name}{code[0]}"
+    found = raised.finding("name_invalid", at=string, params={"name": code, "written": written})
+    sign = say("a blank") if wrong[0] == " " else shown(wrong[0])
+    if name == f"{name.rstrip()} ":
+        sign = say("a blank at the end")
+    return replace(found, words={**found.words, "sign": sign}, variant="character")
+
+
+def _name_given(source: NodeSource) -> ast.Constant | None:
+    """Return the string that is the node's name, also if a variable has it."""
+    call = source.super_init
+    given = call.args[0] if call is not None and call.args else None
+    if isinstance(given, ast.Name | ast.Attribute):
+        name = last_part(dotted(given))
+        values = [
+            n.value
+            for n in source.own_nodes
+            if isinstance(n, ast.Assign) and name in map(last_part, targets_of(n))
+        ]
+        given = values[0] if len(values) == 1 else None
+    plain = isinstance(given, ast.Constant) and isinstance(given.value, str)
+    code = source.module_of(given).text.code(given) if given is not None and plain else ""
+    return given if isinstance(given, ast.Constant) and code[:1] in ("'", '"') else None
 
 
 _node = Family("node", links.FIRST_NODE)
@@ -441,9 +506,10 @@ KINDS = (
         ),
         msg("Write super().__init__('{node_name}')."),
         links.NAMES,
+        fixes={"character": msg("Write {written} instead of {name}. The wrong character: {sign}.")},
         seen=r"InvalidNodeNameException: Invalid node name",
-        raised={"InvalidNodeNameException": always("name_invalid")},
-        fixed_by=(node_life.name,),
+        raised={"InvalidNodeNameException": _name_invalid},
+        fixed_by=(node_life.name, lines.written),
         examples=(
             example(
                 "dash_in_node_name",
@@ -451,9 +517,37 @@ KINDS = (
                 fails="run.starts",
             ),
             example(
+                "blank_at_the_end_of_a_name",
+                Replace(
+                    NODE, "class MyFirstNode", "NAME = 'my_first_node '\n\n\nclass MyFirstNode"
+                ),
+                Replace(NODE, "super().__init__('my_first_node')", "super().__init__(NAME)"),
+                fails="run.starts",
+            ),
+            example(
                 "blank_in_node_name",
                 Replace(NODE, "'my_first_node'", "'my first node'"),
                 fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "in_namespace",
+        "class",
+        msg("The node is in a namespace"),
+        msg(
+            "A namespace comes before the node's name, so the full name is not /{node_name}. The "
+            "package's name is no part of it."
+        ),
+        msg("Delete the argument {name}."),
+        links.NAMES,
+        behind={"run.wrong_node_name": _in_namespace},
+        fixed_by=(_without_namespace,),
+        examples=(
+            example(
+                "node_in_namespace",
+                Replace(NODE, "'my_first_node')", "'my_first_node', namespace='robot')"),
+                fails="run.node_name",
             ),
         ),
     ),

@@ -124,6 +124,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "name": "'f\"Count: {self.counter}\"'",
         "written": 'f"Count: {self.counter}"',
     },
+    "node.in_namespace": {"name": "namespace='robot'"},
+    "node.name_invalid": {"name": "'my-node'", "written": "'my_node'", "sign": "-"},
     "node.text_elsewhere": {"name": "'Hello:'", "written": "'Hello: '"},
     "node.self_misspelt": {"name": "slef", "method": "callback"},
     "node.dot_for_comma": {"name": "1.0. self", "written": "1.0, self"},

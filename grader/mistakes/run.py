@@ -108,11 +108,6 @@ KINDS = (
                 fails="run.node_name",
             ),
             example(
-                "node_in_namespace",
-                Replace(NODE, "'my_first_node')", "'my_first_node', namespace='robot')"),
-                fails="run.node_name",
-            ),
-            example(
                 "another_node_has_the_name",
                 Replace(
                     NODE,

@@ -41,7 +41,34 @@ def _again(suspect: Suspect) -> RecognisedMistake | None:
         if others[0].method == function.name and timer.method in source.methods:
             words = {"name": function.name, "method": timer.method}
             return replace(suspect.finding("timer_again", timer.call, **words), variant="other")
-    return None
+    return _again_by_call(suspect)
+
+
+def _again_by_call(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a call of a method that only creates the timer, in that timer's own callback."""
+    source, callback = suspect.source, suspect.source.callback
+    timer = source.timers[0] if len(source.timers) == 1 else None
+    if timer is None or callback is None or timer.method != callback.name:
+        return None
+    maker = timer.function
+    if maker is None or maker is callback or source.methods.get(maker.name) is not maker:
+        return None
+    code = [s for s in maker.body if not _is_text(s)]
+    calls = [s for s in callback.body if isinstance(s, ast.Expr) and _calls(s.value, maker)]
+    made_first = any(
+        _calls(call, maker) for call, _ in source.calls if call not in ast.walk(callback)
+    )
+    if len(code) != 1 or len(calls) != 1 or not made_first or _ends_timers(callback):
+        return None
+    return suspect.finding("timer_again", calls[0], name=callback.name)
+
+
+def _calls(call: ast.expr, method: Function) -> bool:
+    return isinstance(call, ast.Call) and last_part(dotted(call.func)) == method.name
+
+
+def _is_text(statement: ast.stmt) -> bool:
+    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
 
 
 def _ends_timers(function: Function) -> bool:
@@ -109,6 +136,19 @@ KINDS = (
                     NODE,
                     STEP_LINE,
                     f"{STEP_LINE}        self.create_timer(1.0, self.timer_callback)  # next\n",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "timer_again_by_method",
+                Replace(NODE, "self.create_timer(1.0, self.timer_callback)", "self.start()"),
+                Replace(NODE, STEP_LINE, f"{STEP_LINE}        self.start()  # next\n"),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def start(self):\n"
+                    "        self.create_timer(1.0, self.timer_callback)\n\n"
+                    "    def timer_callback",
                 ),
                 fails="run.output",
             ),
