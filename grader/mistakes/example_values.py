@@ -126,6 +126,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.in_namespace": {"name": "namespace='robot'"},
     "node.name_invalid": {"name": "'my-node'", "written": "'my_node'", "sign": "-"},
+    "node.main_in_class": {"name": "MyNode.main", "written": "main", "line": "30"},
     "node.text_elsewhere": {"name": "'Hello:'", "written": "'Hello: '"},
     "node.self_misspelt": {"name": "slef", "method": "callback"},
     "node.dot_for_comma": {"name": "1.0. self", "written": "1.0, self"},

@@ -101,7 +101,12 @@ def _main_in_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
     found = node_scope.inner_function(raised.source, function)
     if match["function"] != function or found is None:
         return None
-    return raised.finding("main_in_class", at=found)
+    uses = node_scope.uses_of_class(raised.source, function)
+    if not uses:
+        return raised.finding("main_in_class", at=found)
+    code = raised.source.entry.text.code(uses[0])
+    words = {"name": code, "written": function, "line": str(uses[0].lineno)}
+    return replace(raised.finding("main_in_class", at=found, params=words), variant="used")
 
 
 def _callback_outside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -232,8 +237,8 @@ KINDS = (
             "top level of the module. An indented def belongs to what is above it."
         ),
         msg(
-            "Remove the indentation of def {function}(…), so that it begins at the margin, and "
-            "indent its lines by 4 spaces."
+            "Move def {function}(…) and all of its lines to the left by the same number of spaces, "
+            "so that def begins at the margin."
         ),
         links.DEVELOPING,
         raised={
@@ -241,8 +246,23 @@ KINDS = (
                 _main_in_class
             )
         },
+        fixes={
+            "used": msg(
+                "Move def {function}(…) and all of its lines to the left by the same number of "
+                "spaces, so that def begins at the margin. Write {written} instead of {name} in line "
+                "{line}."
+            )
+        },
         fixed_by=(node_scope.at_margin,),
-        examples=(example("main_in_class", Replace(NODE, MAIN, IN_CLASS), fails="run.starts"),),
+        examples=(
+            example("main_in_class", Replace(NODE, MAIN, IN_CLASS), fails="run.starts"),
+            example(
+                "main_called_by_class",
+                Replace(NODE, MAIN, IN_CLASS),
+                Replace(NODE, "\n    main()\n", "\n    MyFirstNode.main()\n"),
+                fails="run.starts",
+            ),
+        ),
     ),
     _node(
         "callback_outside",

@@ -90,6 +90,7 @@ OTHERWISE = {
     "blank_at_the_end_of_a_name": "NAME = 'my_first_node'\n",
     "node_in_namespace": "super().__init__('my_first_node')\n",
     "timer_again_by_method": "        self.counter_ += 1\n\n",
+    "main_called_by_class": "if __name__ == '__main__':\n    main()\n",
     "counts_after_return": "self.get_logger().info(self.make_text())\n        self.counter_ += 1\n",
     "counter_given_to_function": "str(self.counter_))\n        self.counter_ += 1\n\n",
     "counter_of_method_not_kept": "        self.counter_ = self.add_one(self.counter_)\n",

@@ -92,13 +92,25 @@ def at_margin(case: Case) -> Files | None:
     if block_of(module, found)[-1] is not found:
         return None
     first = min([found.lineno, *(d.lineno for d in found.decorator_list)])
-    return _shifted(case, module, (first, found.end_lineno or first), "")
+    uses = uses_of_class(node, found.name)
+    if any(first <= use.lineno <= (found.end_lineno or first) for use in uses):
+        return None
+    named = [module.text.swap(use, found.name) for use in uses]
+    return _shifted(case, module, (first, found.end_lineno or first), "", *named)
 
 
-def _shifted(case: Case, module: Module, lines: tuple[int, int], indent: str) -> Files | None:
+def uses_of_class(source: NodeSource, function: str) -> list[ast.Attribute]:
+    """Return the places of the entry's file that name a function through the node's class."""
+    names = {f"{name}.{function}" for name in source.class_names}
+    return [n for n in source.entry.nodes if isinstance(n, ast.Attribute) and dotted(n) in names]
+
+
+def _shifted(
+    case: Case, module: Module, lines: tuple[int, int], indent: str, *more: Splice
+) -> Files | None:
     """Give a block of lines another indentation; None if a line is indented less than the first."""
     old = indent_of(module.text.line(lines[0]))
-    splices = []
+    splices = list(more)
     for number in range(lines[0], lines[1] + 1):
         row, at = module.text.line(number), module.text.start_of(number)
         if row.strip() and not row.startswith(old):
