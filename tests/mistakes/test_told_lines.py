@@ -10,6 +10,7 @@ from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.recognise import behind_error, behind_symptom
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.tutorial import PUBLISHER
+from grader.package.source.counter import wrapped_at
 from grader.package.source.node import NodeSource, read_node
 from grader.report.model import Where
 from tests.corpus.broken import BROKEN
@@ -219,3 +220,17 @@ def test_a_node_that_is_created_on_import(init: str, more: str, fix: str) -> Non
     kind, line, said = told(found, text)
     assert (kind, line) == ("node.made_on_import", "node = MyFirstNode()")
     assert fix in said
+
+
+@pytest.mark.parametrize(
+    ("step", "number"),
+    [
+        ("self.counter_ = (self.counter_ + 1) % 60", 60),
+        ("self.counter_ += 1\n        self.counter_ %= 100", 100),
+        ("self.counter_ += 1", None),
+        ("self.counter_ += 7 % 2", None),
+    ],
+)
+def test_a_count_that_begins_again(step: str, number: int | None) -> None:
+    found = wrapped_at(source_of(changed(RIGHT, ("self.counter_ += 1", step))))
+    assert (found[1] if found is not None else None) == number

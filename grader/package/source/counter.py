@@ -233,3 +233,20 @@ def _logged_in(source: NodeSource, callback: Function) -> tuple[ast.Call, str] |
             if name.startswith("self.") or name in starts:
                 return call, name
     return None
+
+
+def wrapped_at(source: NodeSource) -> tuple[ast.stmt, int] | None:
+    """Return the statement that makes the logged counter begin again (`% 60`), and that number."""
+    logged = logged_counter(source)
+    name = logged[1] if logged is not None else ""
+    for statement in changes_of(source, name) if name else ():
+        value = getattr(statement, "value", None)
+        limit: ast.expr | None = None
+        if isinstance(statement, ast.AugAssign):
+            limit = value if isinstance(statement.op, ast.Mod) else None
+        elif isinstance(value, ast.BinOp) and isinstance(value.op, ast.Mod):
+            limit = value.right if name in _read_in(value.left) else None
+        number = limit.value if isinstance(limit, ast.Constant) else None
+        if type(number) is int:
+            return statement, number
+    return None

@@ -10,9 +10,10 @@ from pydantic import Field, field_validator
 
 from grader.base.i18n.message import Message, joined, say, say_plural
 from grader.base.nearest import compared, with_difference
+from grader.base.shown import shown as shown_code
 from grader.base.yaml_model import broken
 from grader.course.assignment import Count
-from grader.package.source.counter import logged_counter
+from grader.package.source.counter import logged_counter, wrapped_at
 from grader.package.source.remarks import remarks_on
 from grader.report.model import Where
 from grader.run.observer import without_tracebacks
@@ -126,8 +127,28 @@ def _line_by_line(evidence: Evidence, wanted: Count, expected: str) -> Passed:
         advice.append(
             say("There are other lines besides the count; the exercise does not ask for them.")
         )
+    advice += _begins_again(evidence)
     lines = say("{count} lines: {shown}, …", count=len(numbers), shown=shown)
     return Passed(actual=lines, advice=advice)
+
+
+def _begins_again(evidence: Evidence) -> list[Message]:
+    """Return advice on a count that begins again after more lines than a run has."""
+    source = source_of_node(evidence)
+    found = wrapped_at(source) if source is not None else None
+    if source is None or found is None:
+        return []
+    statement, number = found
+    code = shown_code(source.module_of(statement).text.code(statement))
+    return [
+        say(
+            "line {line}: {code} makes the count begin again when it reaches {number}. The exercise "
+            "goes on counting.",
+            line=statement.lineno,
+            code=code,
+            number=number,
+        )
+    ]
 
 
 def _first_wrong(events: list[Event], step: int) -> int:
