@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from grader.mistakes.catalogue import CATALOGUE
+from grader.package.source.broken_xml import xml_fault
 from grader.verdict.checks import package, source
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.checks.declare import INTAKE, Check
@@ -121,6 +122,52 @@ def test_a_wrong_manifest_is_reported_with_its_line(
     assert failed.where.file == "package.xml"
     if at is not None:
         assert line(failed) == at
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "at", "words", "fix", "right"),
+    [
+        ("  <export>", "  <!-- a -- b -->\n  <export>", 10, "two hyphens", "so: <!-- a - b -->",
+         "  <!-- a - b -->\n  <export>"),
+        ("  <export>", "  <!------ a ------>\n  <export>", 10, "two hyphens", "so: <!-- a -->",
+         "  <!-- a -->\n  <export>"),
+        ("  <export>", "  <!-- a\n  b -- c\n  -->\n  <export>", 11, "two hyphens", "or : instead",
+         "  <!-- a\n  b - c\n  -->\n  <export>"),
+        ("  <export>", "  <!- a ->\n  <export>", 10, "<!- does not begin", "Write <!-- where",
+         "  <!-- a -->\n  <export>"),
+        ("  <export>", "  <-- a -->\n  <export>", 10, "<-- does not begin", "Write <!-- where",
+         "  <!-- a -->\n  <export>"),
+        ("  <export>", "  <!-- a ->\n  <export>", 10, "has no end", "Write -->",
+         "  <!-- a -->\n  <export>"),
+        ("  <export>", "  <!-- a\n  <!-- b -->\n  <export>", 10, "has no end", "Write -->",
+         "  <!-- a -->\n  <!-- b -->\n  <export>"),
+        ("TODO: Package", "n < 3, m <3", 6, "bare <", "Write &lt;", "n &lt; 3, m &lt;3"),
+        ("jane</", "jane <j@x.org></", 7, "bare <", "Write &lt;", "jane &lt;j@x.org></"),
+    ],
+)  # fmt: skip
+def test_a_wrong_comment_is_named_and_corrected(
+    bench: Bench, old: str, new: str, at: int, words: str, fix: str, right: str
+) -> None:
+    before = (bench.root / "package.xml").read_text()
+    bench.change("package.xml", old, new)
+    failed = bench.fails(package.manifest)
+    assert (mistake(failed), line(failed)) == ("package.broken_xml", at)
+    assert words in failed.actual
+    assert fix in failed.fix
+    fault = xml_fault((bench.root / "package.xml").read_bytes())
+    assert fault is not None
+    assert fault.fixed == before.replace(old, right).encode()
+
+
+@pytest.mark.parametrize(
+    "new", ["<!# a>", "< license>", "<license name>"]
+)  # fmt: skip
+def test_a_tag_with_an_end_is_not_said_to_have_none(bench: Bench, new: str) -> None:
+    bench.change("package.xml", "<license>", new)
+    failed = bench.fails(package.manifest)
+    assert mistake(failed) == "package.broken_xml"
+    assert "has no >" not in failed.actual
+    assert "bare <" not in failed.actual
 
 
 def test_a_build_type_counts_only_if_its_condition_holds_under_ros_2(bench: Bench) -> None:

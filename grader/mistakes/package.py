@@ -162,6 +162,16 @@ KINDS = (
             ),
             "bare": msg("Write quotes around the value: {wanted}"),
             "comment": msg("Write --> where the comment ends."),
+            "hyphens": msg(
+                "Write the comment so: {wanted} (A comment has two hyphens only at its beginning "
+                "and its end.)"
+            ),
+            "hyphens_lines": msg(
+                "Between <!-- and -->, write one hyphen or : instead of each --. Right before --> "
+                "there is no other hyphen."
+            ),
+            "comment_start": msg("Write <!-- where the comment begins, and --> where it ends."),
+            "less": msg("Write &lt; instead of this <."),
         },
         fixed_by=(manifest.well_formed,),
         examples=(
@@ -181,6 +191,18 @@ KINDS = (
             example(
                 "comment_without_end",
                 Replace(MANIFEST, "  <depend>", "  <!-- TODO: licence\n  <depend>"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "comment_with_two_hyphens",
+                Replace(MANIFEST, "  <depend>", "  <!-- TODO -- licence -->\n  <depend>"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "comment_with_one_hyphen",
+                Replace(MANIFEST, "  <depend>", "  <!- TODO: licence ->\n  <depend>"),
                 fails="package.manifest",
                 blocks=UNBUILT,
             ),

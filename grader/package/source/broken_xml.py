@@ -25,12 +25,18 @@ TAGS = (
 Variant = Literal[
     "unclosed", "again", "unopened", "misspelt", "unfinished", "quotes", "ampersand", "before",
     "after", "outside", "bare", "comment", "declaration", "blank", "declared_twice",
+    "hyphens", "hyphens_lines", "comment_start", "less",
 ]  # fmt: skip
 END_TAG = re.compile(rb"</\s{0,9}(?P<name>[^<>\s]{1,100})\s{0,9}>")
 TYPOGRAPHIC = re.compile(rb"\xe2\x80[\x98-\x9f]")  # U+2018 to U+201F in UTF-8
 BARE = re.compile(rb"\s(?P<name>[\w:.-]{1,60})=(?P<value>[^\s\"'<>=]{1,200})")
 DECLARATION = re.compile(rb"<\?xml\s[^<>]{0,200}\?>")
 BOM = b"\xef\xbb\xbf"
+DASH = rb"(?:-|\xe2\x80[\x90-\x95])"  # with U+2010 to U+2015 in UTF-8
+COMMENT_START = re.compile(rb"<!?" + DASH + rb"{1,3}")
+COMMENT_END = re.compile(rb"[ \t]*" + DASH + rb"{1,3}!?>")
+BARE_LESS = re.compile(rb"<(?=[\s\d=<-]|[\w.+-]{1,60}@[\w.-]{1,60}>)")
+MOST_SHOWN = 120
 ENTITY = re.compile(rb"&(#?\w{1,30});")
 
 
@@ -176,10 +182,9 @@ def _end_of_file(reader: _Reader, at: int) -> XmlFault | None:
 
 def _invalid(reader: _Reader, at: int) -> XmlFault | None:
     found = reader.found
-    head = found.rfind(b"<!--", 0, at + 4)
-    if head >= 0 and b"-->" not in found[head:]:
-        end = reader.line_end(head)
-        return reader.fault("comment", "!--", head, (end, end, b" -->"))
+    fault = _comments(reader, at) or _tag_start(reader, at)
+    if fault is not None:
+        return fault
     start = found.rfind(b"<", 0, max(at, 1))
     if start >= 0 and at - start > 1 and b">" not in found[start:at]:
         return _in_tag(reader, start, at)
@@ -189,7 +194,71 @@ def _invalid(reader: _Reader, at: int) -> XmlFault | None:
     return None if reader.open else _before(reader, at) or _after(reader, at)
 
 
-def _in_tag(reader: _Reader, start: int, at: int) -> XmlFault:
+def _comments(reader: _Reader, at: int) -> XmlFault | None:
+    """Return what is wrong in the first comment that is not right."""
+    found, head = reader.found, reader.found.find(b"<!--")
+    while 0 <= head <= at + 4:
+        dashes = found.find(b"--", head + 4)
+        if dashes < 0 or (
+            found[dashes - 2 : dashes] == b"<!" and b"\n" in found[head : dashes - 2]
+        ):
+            return _no_end(reader, head)
+        if found[dashes : dashes + 3] != b"-->":
+            return _hyphens(reader, head, dashes)
+        head = found.find(b"<!--", dashes + 3)
+    return None
+
+
+def _no_end(reader: _Reader, head: int) -> XmlFault:
+    """Return that a comment has no end, or a wrong one at the end of its line."""
+    end = reader.line_end(head)
+    wrong = re.compile(COMMENT_END.pattern + rb"$").search(reader.found[head + 4 : end])
+    start = head + 4 + wrong.start() if wrong is not None else end
+    return reader.fault("comment", "!--", head, (start, end, b" -->"))
+
+
+def _hyphens(reader: _Reader, head: int, dashes: int) -> XmlFault:
+    """Return that two hyphens are inside of a comment, with the right comment if it is certain."""
+    found = reader.found
+    close = found.find(b"-->", dashes)
+    if close < 0:
+        return _no_end(reader, head)
+    inside = found[head + 4 : close].strip(b"-")
+    if b"<" in inside:
+        return reader.fault("hyphens_lines", "!--", dashes)
+    inside = re.sub(rb"-{2,}", b"-", inside)
+    inside = inside if b"\n" in inside else b" " + inside.strip() + b" "
+    right = b"<!--" + inside + b"-->"
+    change = (head, close + 3, right)
+    if b"\n" in right or len(right) > MOST_SHOWN:
+        return reader.fault("hyphens_lines", "!--", dashes, change)
+    wanted = right.decode("utf-8", "replace")
+    return reader.fault("hyphens", "!--", dashes, change, wanted=wanted)
+
+
+def _tag_start(reader: _Reader, at: int) -> XmlFault | None:
+    """Return what is wrong with a < that begins no tag."""
+    found = reader.found
+    start = found.rfind(b"<", 0, at + 1)
+    if start < 0:
+        return None
+    line_start, end = found.rfind(b"\n", 0, start) + 1, reader.line_end(start)
+    begin = COMMENT_START.match(found, start)
+    if begin is not None and begin[0] != b"<!--":
+        last = COMMENT_END.search(found, begin.end(), end)
+        if last is not None:
+            change = ((*begin.span(), b"<!--"), (*last.span(), b" -->"))
+            return reader.fault("comment_start", begin[0].decode(), start, *change)
+        if begin[0].startswith(b"<!") or not found[line_start:start].strip():
+            return reader.fault("comment_start", begin[0].decode(), start)
+    bare = [m.start() for m in BARE_LESS.finditer(found, line_start, end)]
+    if start in bare and reader.open:
+        fault = reader.fault("less", "", start, *((i, i + 1, b"&lt;") for i in bare))
+        return fault if fault.fixed is not None else None
+    return None
+
+
+def _in_tag(reader: _Reader, start: int, at: int) -> XmlFault | None:
     """Return what is wrong inside a tag: its quotes, or it has no end."""
     found = reader.found
     name = re.compile(rb"</?[\w:.-]{0,60}").match(found, start)
@@ -204,6 +273,9 @@ def _in_tag(reader: _Reader, start: int, at: int) -> XmlFault:
         wanted = (bare["name"] + b"=" + value).decode("utf-8", "replace")
         change = [(bare.start("value"), bare.end("value"), value)]
         return reader.fault("bare", tag.lstrip("<"), start, *change, wanted=wanted)
+    close, following = found.find(b">", start), found.find(b"<", start + 1)
+    if tag in ("<", "</") or 0 <= close < following or following < 0 <= close:
+        return None
     change = [(end, end, b">")] if name and end == name.end() else []
     return reader.fault("unfinished", tag.lstrip("<"), start, *change)
 

@@ -165,6 +165,10 @@ def _described(fault: XmlFault) -> Message:
         "outside": say("there is a tag below </{name}>", **words),
         "bare": say("<{tag} …> has a value without quotes", **words),
         "comment": say("a comment that begins with <!-- has no end"),
+        "hyphens": say("two hyphens (--) are inside of a comment"),
+        "hyphens_lines": say("two hyphens (--) are inside of a comment"),
+        "comment_start": say("{tag} does not begin a comment: a comment begins with <!--", **words),
+        "less": say("there is a bare <"),
         "declaration": say(
             "there is something above <?xml …?>, which is in line {wanted}", **words
         ),
