@@ -246,6 +246,28 @@ def test_a_missing_marker_is_reported(bench: Bench) -> None:
     assert "is a folder" in bench.fails(package.marker).actual
 
 
+INDEX_LINE = """\
+        ('share/ament_index/resource_index/packages',
+            ['resource/' + package_name]),
+"""
+
+
+def test_the_marker_and_its_line_are_both_named(bench: Bench) -> None:
+    (bench.root / MARKER).unlink()
+    alone = bench.fails(package.marker)
+    assert "the build stops" in alone.rationale
+    assert "data_files" not in alone.fix
+    bench.change("setup.py", INDEX_LINE, "")
+    failed = bench.fails(package.marker)
+    assert mistake(failed) == "package.marker_missing"
+    assert "no line for it" in failed.actual
+    assert "touch resource/my_robot_controller" in failed.fix
+    assert "line to data_files" in failed.fix
+    assert "the build stops" not in failed.rationale
+    bench.change("setup.py", "data_files=[", "data_files=OTHERS + [")
+    assert "data_files" not in bench.fails(package.marker).fix
+
+
 @pytest.mark.parametrize("there", [f"{MARKER}.txt", f"resources/{NAME}"])
 def test_the_place_of_a_marker_of_another_name_is_the_file_that_is_there(
     bench: Bench, there: str

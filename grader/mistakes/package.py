@@ -631,6 +631,11 @@ KINDS = (
         title=msg("The marker file in resource/ is missing"),
         why=MARKER_MISSING,
         whys={
+            "line": msg(
+                "ROS finds a package by an empty file with the package's name in the package "
+                "index. setup.py has no line that copies it there when you build. colcon still "
+                "adds a missing one itself, but warns that it will stop doing so."
+            ),
             "other": OTHER_MARKER,
             "path": msg(
                 "setup.py copies the marker file from the path in this line. A path is the folder, "
@@ -642,6 +647,12 @@ KINDS = (
             "mkdir -p resource && touch resource/{package}"
         ),
         fixes={
+            "line": msg(
+                "Add the marker's line to data_files in setup.py: "
+                "('share/ament_index/resource_index/packages', ['resource/{package}']), and create "
+                "the empty file, then build again. In the package's folder, run: "
+                "mkdir -p resource && touch resource/{package}"
+            ),
             "folder": msg(
                 "Delete that folder and create an empty file with the same name. In the package's "
                 "folder, run: rm -r resource/{package} && touch resource/{package}"
@@ -668,6 +679,20 @@ KINDS = (
         ),
         examples=(
             example("marker_missing", Delete(MARKER), fails="package.marker", blocks=UNBUILT),
+            example(
+                "marker_and_its_line_missing",
+                Delete("resource"),
+                Replace(
+                    SETUP,
+                    (
+                        "        ('share/ament_index/resource_index/packages',\n"
+                        "            ['resource/' + package_name]),\n"
+                    ),
+                    "",
+                ),
+                fails="package.marker",
+                note="colcon warns and makes one itself",
+            ),
             example(
                 "marker_without_slash",
                 Replace(SETUP, "'resource/' + package_name", "'resource' + package_name"),

@@ -148,15 +148,30 @@ def _no_marker(evidence: Evidence, path: str) -> Failed:
         variant, there = "rename", f"resource/{shown(close)}"
         said = say("there is no {path}, but resource/{close}", path=path, close=shown(close))
         actual = with_difference(said, close, package)
+    expected: str = say("an empty file {path}", path=path)
+    if not variant and _installs_no_marker(evidence):
+        variant, expected = "line", say("an empty file {path}, and its line in setup.py", path=path)
+        actual = say(
+            "there is no file {path}, and data_files in setup.py has no line for it", path=path
+        )
     return Failed(
         "package.marker_missing",
-        expected=say("an empty file {path}", path=path),
+        expected=expected,
         actual=actual,
         variant=variant,
         params={"folder": close} if variant in ("moved", "inner") else {},
         words={"package": package, "close": shown(close), "there": shlex.quote(shown(close))},
         where=Where(file=there),
     )
+
+
+def _installs_no_marker(evidence: Evidence) -> bool:
+    """Whether setup.py has no line that installs a marker, as far as all lines are known."""
+    setup = setup_py_of(evidence)
+    if setup is None:
+        return False
+    installed, all_known = _installed_in(setup.argument("data_files"), INDEX)
+    return all_known and not installed
 
 
 def _inner_resource(evidence: Evidence, path: str) -> str:
