@@ -322,7 +322,7 @@ def test_a_node_without_exec_bit_has_an_accurate_explanation(bench: Bench) -> No
     assert mistake(failed) == "source.not_executable"
     assert "0644" in failed.actual
     assert "ros2 run does not need it" in failed.rationale
-    assert failed.fix == f"Run: chmod +x {NODE}"
+    assert failed.fix == f"In the package's folder, run: chmod +x {NODE}"
     (bench.root / NODE).chmod(0o655)
     bench.fails(source.exec_bit)
     (bench.root / NODE).chmod(0o700)

@@ -289,11 +289,13 @@ KINDS = (
             "find_packages() in setup.py recognises a Python package by its __init__.py. "
             "Without it, nothing in the folder is installed."
         ),
-        fix=msg("Create the empty file, then build again: touch {path}"),
+        fix=msg(
+            "Create the empty file, then build again. In the package's folder, run: touch {path}"
+        ),
         fixes={
             "misnamed": msg(
                 "Its name must be exactly __init__.py, with two underscores on both sides. "
-                "Rename it, then build again: mv {there} {path}"
+                "Rename it, then build again. In the package's folder, run: mv {there} {path}"
             )
         },
         link=links.PACKAGE,
@@ -719,7 +721,7 @@ KINDS = (
         stage="exec bit",
         title=msg("The node's file is not executable"),
         why=EXEC,
-        fix=msg("Run: chmod +x {path}"),
+        fix=msg("In the package's folder, run: chmod +x {path}"),
         fixes={
             "elsewhere": msg(
                 "In the package's folder, run: chmod +x {there} (or, if you have already moved or "
@@ -768,7 +770,8 @@ KINDS = (
         "crlf",
         msg("The lines have Windows line endings (CRLF)"),
         msg(
-            "Change CRLF to LF (in VS Code: at the bottom right), or run: sed -i 's/\\r$//' {path}"
+            "Change CRLF to LF (in VS Code: at the bottom right). Or run, in the package's folder: "
+            "sed -i 's/\\r$//' {path}"
         ),
         CRLF,
         fixes={
