@@ -425,3 +425,10 @@ def test_a_wrong_build_type_alone_is_one_line_to_change(bench: Bench) -> None:
 def test_what_only_a_build_installs_is_to_be_built_again(kind: str, variant: str) -> None:
     mistake = CATALOGUE[kind]
     assert "build again" in mistake.fixes.get(variant, mistake.fix)
+
+
+def test_a_wrong_path_in_setup_cfg_is_not_said_to_be_bin(bench: Bench) -> None:
+    bench.change("setup.cfg", "script_dir=$base/lib/my_robot_controller", "script_dir=$base/lib/x")
+    assert "installed in another folder" in bench.fails(package.setup_cfg).rationale
+    bench.change("setup.cfg", "script_dir=$base/lib/x\n", "")
+    assert "installed in bin" in bench.fails(package.setup_cfg).rationale

@@ -52,6 +52,11 @@ TWO_SECTIONS = msg(
     "these settings they are installed in bin, and ros2 run answers: No executable found. "
     "[develop] is for colcon build --symlink-install, [install] for a build without it."
 )
+OTHER_PLACE = msg(
+    "setup.cfg sets where executables are installed. ros2 run looks only in lib/<package>. With "
+    "another path they are installed in another folder, and ros2 run answers: No executable found. "
+    "[develop] is for colcon build --symlink-install, [install] for a build without it."
+)
 NEW_CFG = msg(
     "Create setup.cfg beside setup.py. Below [develop] write script_dir=$base/lib/{package}, and "
     "below [install] write install_scripts=$base/lib/{package}. Then build again."
@@ -837,13 +842,14 @@ KINDS = (
         id="package.setup_cfg_wrong",
         stage="setup.cfg",
         title=msg("setup.cfg installs executables where ros2 run does not look"),
-        why=TWO_SECTIONS,
+        why=OTHER_PLACE,
         whys={
+            **dict.fromkeys(("key", "misspelt", "heading", "section"), TWO_SECTIONS),
             "quotes": msg(
                 "setup.cfg sets where executables are installed, and ros2 run looks only in "
                 "lib/<package>. setup.cfg is not Python: its quotes are part of the path, so the "
                 "executable gets into another folder."
-            )
+            ),
         },
         fix=msg("Write {key}={wanted}, then build again."),
         fixes={
