@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import difflib
+import shlex
 from collections.abc import Iterator
 
 from grader.base.i18n.message import say
 from grader.base.plain_text import Translate
 
 LINE_ENDS = say("(line endings of the whole file: CRLF becomes LF)")
+COMMAND = say(
+    "(CRLF becomes LF in the whole file. This is no patch: in the package's folder, run the "
+    "command below)"
+)
 MOST_COMPARED = 400
 
 
@@ -19,12 +24,15 @@ def shown_patch(patch: str, translate: Translate = str) -> str:
     """
     if "\r\n" not in patch:
         return patch
-    return "\n".join(_read(patch.split("\n"), translate(LINE_ENDS)))
+    return "\n".join(_read(patch.split("\n"), translate(LINE_ENDS), translate(COMMAND)))
 
 
-def _read(lines: list[str], remark: str) -> Iterator[str]:
-    at = 0
+def _read(lines: list[str], general: str, with_command: str) -> Iterator[str]:
+    at, remark = 0, general
     while at < len(lines):
+        if lines[at].startswith("+++ b/"):
+            path = shlex.quote(lines[at].removeprefix("+++ b/").rstrip())
+            remark = f"{with_command}\nsed -i 's/\\r$//' {path}"
         removed = _run(lines, at, "-") if not lines[at].startswith("--- ") else 0
         added = _run(lines, at + removed, "+")
         if removed and added:

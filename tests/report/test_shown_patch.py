@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from grader.package.edit.tree import Crlf, Replace
-from grader.report.shown_patch import LINE_ENDS, shown_patch
+from grader.report.shown_patch import COMMAND, LINE_ENDS, shown_patch
 from grader.verdict.fix import patch_for
 from grader.verdict.static import static_results
 from tests.fix.corpus_fixes import NODE, edited
@@ -21,8 +21,9 @@ def patch_of(path: Path) -> str:
 def test_windows_line_ends_are_one_line_of_the_diff(tmp_path: Path) -> None:
     patch = patch_of(edited(tmp_path, Crlf(NODE)))
     assert patch.count("\r\n") > 30
-    head, remark = shown_patch(patch).rstrip().rsplit("\n", 1)
-    assert remark == LINE_ENDS
+    head, remark, command = shown_patch(patch).rstrip().rsplit("\n", 2)
+    assert remark == COMMAND
+    assert command == f"sed -i 's/\\r$//' {NODE}"
     assert head.splitlines()[0].startswith("diff --git a/")
     assert not [line for line in head.splitlines() if line[:1] == "-" and line[:3] != "---"]
 
@@ -34,7 +35,7 @@ def test_another_change_beside_the_line_ends_is_shown(tmp_path: Path) -> None:
         "-#!/usr/bin/python2",
         "+#!/usr/bin/env python3",
     ]
-    assert lines.count(LINE_ENDS) == 1
+    assert lines.count(COMMAND) == 1
 
 
 def test_a_diff_without_windows_line_ends_is_shown_as_it_is(tmp_path: Path) -> None:
