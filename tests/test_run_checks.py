@@ -54,6 +54,9 @@ def ask(check: Check, bench: Bench, run: Run, source: str = RIGHT) -> Passed:
     )
 
 
+ITEM = "TypeError: 'tuple' object does not support item assignment"
+
+
 def line(n: int, *, virtual: float, wall: float, due: int | None) -> Event:
     return Event(f"Hello time: {n}", wall, virtual, "logger", n, due)
 
@@ -316,6 +319,18 @@ def test_a_line_before_the_error_is_not_denied(bench: Bench) -> None:
     with pytest.raises(Failed) as caught:
         ask(counts, bench, run)
     assert caught.value.actual.startswith("no line came: the node stopped")
+
+
+@pytest.mark.parametrize(("raised", "variant"), [(True, "callback"), (False, "")])
+def test_an_error_after_a_line_is_no_exit_to_look_for(
+    raised: bool, variant: str, bench: Bench
+) -> None:
+    run = on_time([1.0])
+    run.ended_by_itself, run.status = True, 1 if raised else 0
+    run.transcript = f"Traceback (most recent call last):\n{ITEM}\n" if raised else ""
+    with pytest.raises(Failed) as caught:
+        ask(counts, bench, run)
+    assert (caught.value.mistake.id, caught.value.variant) == ("run.ended_early", variant)
 
 
 def test_a_fix_names_no_counter_that_the_file_does_not_have(bench: Bench) -> None:

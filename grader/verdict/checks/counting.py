@@ -284,6 +284,7 @@ def _must_go_on(evidence: Evidence, expected: str) -> None:
         expected=say("{lines} until Ctrl+C", lines=expected),
         actual=actual,
         where=where or node_file(evidence),
+        variant="callback" if run.ended_by_itself and error else "",
     )
 
 
