@@ -96,3 +96,13 @@ def test_a_function_outside_of_the_class_cannot_change_an_attribute() -> None:
         "add is outside of the class and has no self. Write self.counter_ += 1 in timer_callback "
         "instead of the call of add."
     )
+
+
+def test_a_method_that_the_log_line_calls_is_not_the_counter() -> None:
+    text = changed(
+        (LOG, LOG.replace("self.counter_", "self.current()")),
+        (STEP, ""),
+        (CALLBACK, f"    def current(self):\n        return self.counter_\n\n{CALLBACK}"),
+    )
+    found = look("run.constant_counter", text)
+    assert found is None or "self.current" not in fix_of(found)

@@ -214,6 +214,8 @@ def _logged_in(source: NodeSource, callback: Function) -> tuple[ast.Call, str] |
         names = list(names_given(call))
         known = [n for n in names if n in starts]
         own = [n for n in names if n.startswith("self.") and n.count(".") == 1]
+        called = {dotted(n.func) for n in ast.walk(call) if isinstance(n, ast.Call)}
+        own = [n for n in own if n not in called]
         for name in (*known, *own):
             if "get_logger" not in name and name not in source.loggers:
                 return call, name
