@@ -281,7 +281,14 @@ def _by_hand(suspect: Suspect) -> RecognisedMistake | None:
     names = {dotted(timer.callback) for timer in source.timers if timer.callback} - {""}
     for call, name in calls_in(init) if init else ():
         if name in names:
-            return suspect.finding("called_by_hand", call)
+            found = suspect.finding("called_by_hand", call)
+            made = [t.call for t in source.timers if t.callback and dotted(t.callback) == name]
+            around = source.function_around(made[0])
+            if len(made) == 1 and around is not None and around is source.callback:
+                written = source.module_of(made[0]).text.code(made[0])
+                words = {**found.words, "written": " ".join(written.split())[:80]}
+                return replace(found, words=words, variant="inside")
+            return found
     return None
 
 
@@ -717,6 +724,18 @@ KINDS = (
         msg("__init__ calls the callback itself"),
         msg("The timer makes the first call after one period; your own call comes too early."),
         msg("Remove the line self.{callback}() from __init__."),
+        whys={
+            "inside": msg(
+                "{callback} makes the timer itself: each call makes one more timer, and the first "
+                "call comes too early."
+            )
+        },
+        fixes={
+            "inside": msg(
+                "Write {written} in __init__ instead of self.{callback}(), and delete the "
+                "create_timer from {callback}."
+            )
+        },
         raised={OWN_ATTRIBUTE: _by_hand_early},
         behind={"run.by_hand": _by_hand},
         fixed_by=(node_timer.by_hand,),

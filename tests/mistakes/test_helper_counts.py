@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from tests.mistakes.test_from_source import line_of, look, raised
-from tests.mistakes.test_named_exactly import LOG, STEP, UNBOUND, changed, fix_of, why_of
+from tests.mistakes.test_named_exactly import LOG, STEP, UNBOUND, changed, fix_of, patched, why_of
 
 START = "        self.counter_ = 0\n"
 TIMER = "        self.create_timer(1.0, self.timer_callback)\n"
@@ -106,3 +108,15 @@ def test_a_method_that_the_log_line_calls_is_not_the_counter() -> None:
     )
     found = look("run.constant_counter", text)
     assert found is None or "self.current" not in fix_of(found)
+
+
+def test_a_callback_that_makes_its_own_timer_is_not_left_without_one(tmp_path: Path) -> None:
+    text = changed((TIMER, "        self.timer_callback()\n"), (STEP, f"{STEP}{TIMER}"))
+    found = look("run.by_hand", text)
+    assert found is not None
+    assert found.kind == "node.called_by_hand"
+    assert fix_of(found) == (
+        f"Write {TIMER.strip()} in __init__ instead of self.timer_callback(), and delete the "
+        "create_timer from timer_callback."
+    )
+    assert patched(found, text, tmp_path) == ""

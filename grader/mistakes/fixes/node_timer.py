@@ -179,6 +179,8 @@ def by_hand(case: Case) -> Files | None:
     method, init = (_timer_method(node), node.method("__init__")) if node else (None, None)
     if node is None or method is None or init is None:
         return None
+    if all(node.function_around(timer.call) is method for timer in node.timers):
+        return None
     text = node.module.text
     calls = [
         s
