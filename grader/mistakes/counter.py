@@ -417,7 +417,13 @@ def _reset(suspect: Suspect) -> RecognisedMistake | None:
         if isinstance(node.value, ast.Constant):
             value = str(node.value.value)[:40]
             found = suspect.finding("counter_reset", node, name=counter.name, value=value)
-            return replace(found, variant="" if "." in counter.name else "local")
+            if "." not in counter.name:
+                return replace(found, variant="local")
+            around = suspect.source.function_around(node)
+            if around is None or around is suspect.source.callback:
+                return found
+            words = {**found.words, "function": around.name}
+            return replace(found, variant="helper", words=words)
     return None
 
 
@@ -957,6 +963,9 @@ KINDS = (
                 "{value}. Only an attribute (self.…) keeps its value from one call to the next."
             ),
             "if": msg("Each time the condition above this line is true, {name} starts again."),
+            "helper": msg(
+                "{callback} calls {function}, and each call sets {name} to {value} again."
+            ),
         },
         fixes={
             "local": msg(
@@ -964,6 +973,11 @@ KINDS = (
                 "in the callback."
             ),
             "if": msg("Remove this line and its if: the counter never starts again."),
+            "helper": msg(
+                "Set {name} only once: __init__ may do it, or call {function}, but {callback} must "
+                "not. Delete the call of {function} from {callback}, or the line that sets {name} "
+                "if {function} has other work to do for {callback}."
+            ),
         },
         behind={"run.constant_counter": _reset, "run.wrong_step": _reset_if},
         fixed_by=(node_count.kept, node_count.moved),

@@ -209,7 +209,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.step_is_text": COUNTER,
     "node.plus_reversed": COUNTER,
     "node.counter_not_increased": COUNTER,
-    "node.counter_reset": COUNTER,
+    "node.counter_reset": {"name": "self.counter", "value": "0", "function": "reset"},
     "node.adds_before_log": {"written": "self.counter += 1", "line": "12"},
     "node.starts_elsewhere": COUNTER,
     "node.adds_twice": COUNTER,

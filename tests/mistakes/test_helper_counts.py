@@ -120,3 +120,16 @@ def test_a_callback_that_makes_its_own_timer_is_not_left_without_one(tmp_path: P
         "create_timer from timer_callback."
     )
     assert patched(found, text, tmp_path) == ""
+
+
+def test_a_method_that_init_calls_too_keeps_its_line(tmp_path: Path) -> None:
+    text = changed(
+        (START, "        self.reset()\n"),
+        (LOG, f"self.reset()\n        {LOG}"),
+        (CALLBACK, f"    def reset(self):\n{START}        self.seen = 0\n\n{CALLBACK}"),
+    )
+    found = look("run.constant_counter", text)
+    assert found is not None
+    assert found.kind == "node.counter_reset"
+    assert "Delete the call of reset from timer_callback" in fix_of(found)
+    assert patched(found, text, tmp_path) == ""

@@ -228,9 +228,11 @@ def moved(case: Case) -> Files | None:
     init, module = node.method("__init__") if node else None, case.module
     if node is None or module is None or init is None or not name.startswith("self."):
         return None
+    statement = statement_at(module, case.finding.line)
+    if statement is None or node.function_around(statement) is not node.callback:
+        return None  # (__init__ can call the same method)
     if name in starts_of(node):
         return lines.deleted(case)
-    statement = statement_at(module, case.finding.line)
     base = node.super_init
     row = module.text.line(statement.lineno) if statement is not None else ""
     if statement is None or base is None or row.strip() != module.text.code(statement):
