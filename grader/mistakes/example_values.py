@@ -202,7 +202,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "line": "10",
     },
     "node.counter_local": {"name": "counter", "function": "callback", "step": 1},
-    "node.called_by_hand": {"written": "self.create_timer(1.0, self.callback)"},
+    "node.called_by_hand": {"written": "self.create_timer(0.5, self.callback)"},
     "node.counts_elsewhere": {"name": "self.counter", "other": "count"},
     "node.property_set": {"name": "counter", "written": "self._counter", "line": "15"},
     "node.str_plus_int": {"name": "self.counter", "written": "str(self.counter)"},
