@@ -17,6 +17,7 @@ from grader.run.observer import SECOND, Event, Observer
 from grader.run.probe_link import Answer, ProbeError, ProbeLink, in_probe
 from grader.run.run import (
     COMPLETE_SECONDS,
+    DYING_SECONDS,
     END_SECONDS,
     Program,
     Run,
@@ -34,7 +35,6 @@ STEP_SECONDS = 2.0  # wall time for one step
 SETTLE_SECONDS = 3.0  # wall time within which a spinning node gives its first answer
 FINE_TICKS = 8  # before which the clock stops 1 ms earlier too
 UNANSWERED = 5  # unanswered steps in a row after which the nodes count as stuck
-DYING_SECONDS = 3.0  # wall time of a run for the ends of programs whose nodes have gone
 LOOK_SECONDS = 2.0  # wall time to read the graph, and the parameters of one node
 MOST_MESSAGES = 20_000  # of a run
 MOST_FEEDBACK = 1_000  # of a goal

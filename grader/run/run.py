@@ -24,6 +24,7 @@ from grader.sandbox.base import UNRUNNABLE, Pipe, Sandbox
 UNSEEN_SECONDS = 5.0  # wall time from the first line within which a node appears on the graph
 COMPLETE_SECONDS = 2.0  # wall time within which all endpoints of a visible node appear
 OWN_TRACEBACK = '/bin/ros2", line '  # in a traceback of the ros2 command itself
+DYING_SECONDS = 3.0  # wall time within which a program ends whose nodes have left the graph
 GONE_SECONDS = 0.1  # wall time for one more look at the graph
 FOLLOW_SECONDS = 2.0  # wall time in which a node that spins sets use_sim_time
 TRY_SECONDS = 3.0  # wall time in which one of a node's own services answers
@@ -283,11 +284,27 @@ def _watch(
     else:
         watch.note = say("the node does not follow /clock")
         watch_wall(observer, output, watch, on_event, deadline=deadline)
-    run.nodes = observer.probe.ask("look").nodes or run.nodes
+    there = observer.probe.ask("look").nodes
+    if not there:
+        watch.events += _await_end(observer, deadline)
+    run.nodes = there or run.nodes
     run.counting = counting_node(run.nodes, watch.counted)
     if watch.clock == "wall" and watch.counted and not foreign and not observer.over:
         watch.while_still = _count_while_still(run, observer)
         run.nodes = observer.probe.ask("look").nodes or run.nodes
+
+
+def _await_end(observer: Observer, deadline: float) -> list[Event]:
+    """Wait for the end of a program whose nodes have left the graph; return what it still writes.
+
+    A program with an error leaves the graph first, and ends a moment later, on a busy machine long
+    after.
+    """
+    events: list[Event] = []
+    until = min(deadline, time.monotonic() + DYING_SECONDS)
+    while not observer.over and time.monotonic() < until:
+        events += observer.take(observer.probe.ask("wait", seconds=0.05))
+    return events
 
 
 def counting_node(nodes: Sequence[NodeSeen], counted: Sequence[Event]) -> str:
