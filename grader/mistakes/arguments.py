@@ -96,6 +96,8 @@ def _rospy(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if match["name"] != "rospy" or used is None:
         return None
     name = used["name"]
+    if name == "is_shutdown":
+        return _is_shutdown(raised)
     if name in ("spin", "init_node"):
         variant = "init_node" if name == "init_node" else "spin"
         return replace(raised.finding("ros_1", name=name), variant=variant)
@@ -168,8 +170,26 @@ def _only_self(raised: Raised, function: str) -> RecognisedMistake | None:
     return None
 
 
+def _is_shutdown(raised: Raised) -> RecognisedMistake | None:
+    """rospy.is_shutdown() is the contrary of rclpy.ok()."""
+    for node in raised.module.nodes:
+        if not isinstance(node, ast.Call) or last_part(dotted(node.func)) != "is_shutdown":
+            continue
+        if raised.line not in lines_of(node):
+            continue
+        around = raised.module.parents.get(node)
+        name, written = raised.module.text.code(node), "not rclpy.ok()"
+        if isinstance(around, ast.UnaryOp) and isinstance(around.op, ast.Not):
+            name, written = raised.module.text.code(around), "rclpy.ok()"
+        found = raised.finding("ros_1", name=name, written=written)
+        return replace(found, variant="is_shutdown")
+    return None
+
+
 def _ros_1(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name = match["name"]
+    if name == "is_shutdown":
+        return _is_shutdown(raised)
     if name == "init_node":
         return replace(raised.finding("ros_1", name=name), variant="init_node")
     if name not in ROS_1:
@@ -250,7 +270,14 @@ KINDS = (
             "methods for this."
         ),
         msg("Write {written} instead of rclpy.{name}."),
+        whys={
+            "is_shutdown": msg(
+                "is_shutdown belongs to rospy, the Python library of ROS 1. In ROS 2, rclpy.ok() is "
+                "true until ROS is shut down."
+            )
+        },
         fixes={
+            "is_shutdown": msg("Write {written} instead of {name}."),
             "init_node": msg(
                 "Delete the line with init_node: in ROS 2, super().__init__('{node_name}') gives "
                 "the node its name."
@@ -268,8 +295,18 @@ KINDS = (
             node_arguments.ros_2_log,
             node_arguments.ros_2_timer,
             node_arguments.without_init_node,
+            lines.written,
         ),
         examples=(
+            example(
+                "is_shutdown_of_ros_1",
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)",
+                    "        while not rclpy.is_shutdown():\n            rclpy.spin_once(node)",
+                ),
+                fails="run.starts",
+            ),
             example(
                 "loginfo_of_ros_1",
                 Replace(NODE, "self.get_logger().info", "rclpy.loginfo"),

@@ -144,6 +144,10 @@ def _swallowed(suspect: Suspect) -> RecognisedMistake | None:
         if loops and not leaves:
             place = suspect.place_at(handler)
             found = suspect.finding("interrupt_swallowed", place, line=loops[0].lineno)
+            last = handler.body[-1]
+            if isinstance(last, ast.Continue) and handler.type is not None:
+                words = {**found.words, "last": last.lineno}
+                return replace(found, words=words, variant="continue")
             return replace(found, variant="" if handler.type is None else "named")
     return None
 
@@ -168,15 +172,38 @@ KINDS = (
             "the loop that begins on line {line}."
         ),
         links.EXECUTORS,
+        whys={
+            "continue": msg(
+                "Ctrl+C raises KeyboardInterrupt. This except catches it, and continue begins the "
+                "loop again."
+            )
+        },
         fixes={
+            "continue": msg(
+                "Write break instead of continue on line {last}: break ends the loop that begins on "
+                "line {line}."
+            ),
             "named": msg(
                 "Write break as the last line in this except: break ends the loop that begins on "
                 "line {line}."
-            )
+            ),
         },
         behind={"run.ignores_interrupt": _swallowed},
         fixed_by=(node_try.break_in_except,),
         examples=(
+            example(
+                "loop_goes_on_after_ctrl_c",
+                Replace(
+                    NODE,
+                    SPIN_UNTIL_CTRL_C,
+                    "    while True:\n"
+                    "        try:\n"
+                    "            rclpy.spin(node)\n"
+                    "        except KeyboardInterrupt:\n"
+                    "            continue\n",
+                ),
+                fails="run.interrupt",
+            ),
             example(
                 "loop_catches_everything",
                 Replace(

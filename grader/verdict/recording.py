@@ -69,6 +69,8 @@ def _run_as_json(run: Run) -> dict[str, Any]:
         del found["seen"], found["name"]
     if not run.others:
         del found["others"]
+    if not run.watch.silent:  # of no watch on the wall clock
+        del found["watch"]["silent"]
     return found
 
 

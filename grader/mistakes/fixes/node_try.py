@@ -97,6 +97,8 @@ def break_in_except(case: Case) -> Files | None:
     text, last = module.text, found[0].body[-1]
     row = indent_of(text.line(last.lineno)) + "break"
     splices = [text.before((last.end_lineno or last.lineno) + 1, row)]
+    if isinstance(last, ast.Continue):
+        splices = [text.swap(last, "break")]
     if found[0].type is None:
         at = text.start_of(found[0].lineno) + text.line(found[0].lineno).index("except") + 6
         splices.append(Splice(at, at, " KeyboardInterrupt"))

@@ -172,8 +172,19 @@ def _steps(source: NodeSource, names: set[str], step: int) -> Iterator[NumberFor
                 total = node.value if isinstance(node.value, ast.BinOp) else None
                 is_sum = total is not None and dotted(total.left) in targets_of(node)
                 added = total.right if total is not None and is_sum else None
-            if added is not None and _is_float(added, step):
+            if added is not None and (_is_float(added, step) or _is_named(source, added, step)):
                 yield _of_statement(module, node, added, str(step), "step")
+
+
+def _is_named(source: NodeSource, value: ast.expr, number: int) -> bool:
+    """Whether a value is a name that is set to a float of this number, and to nothing else."""
+    name = dotted(value)
+    given = [
+        node.value
+        for node in source.own_nodes
+        if isinstance(node, ast.Assign | ast.AnnAssign) and name and name in targets_of(node)
+    ]
+    return bool(given) and all(v is not None and _is_float(v, number) for v in given)
 
 
 def _of_statement(
