@@ -176,6 +176,16 @@ class Talk:
             if message["kind"] == kind and fits(message):
                 return message
 
+    def hear_each(self, *kinds: str) -> dict[str, dict[str, Any]]:
+        """Return the next message of each kind, in whatever order they come."""
+        deadline = time.monotonic() + SECONDS
+        found: dict[str, dict[str, Any]] = {}
+        while len(found) < len(kinds):
+            message = self.heard.get(timeout=max(0.01, deadline - time.monotonic()))
+            if message["kind"] in kinds:
+                found.setdefault(message["kind"], message)
+        return found
+
 
 @contextlib.contextmanager
 def bridge(env: Mapping[str, str]) -> Iterator[Talk]:

@@ -117,8 +117,10 @@ def test_parameters_are_read_and_set(talk: Talk, ros_env: dict[str, str]) -> Non
         assert (rows["rate"]["type"], rows["rate"]["text"]) == ("double", "2.5")
         assert (rows["names"]["type"], rows["names"]["text"]) == ("string_array", '["a", "b"]')
         assert (rows["loud"]["type"], rows["loud"]["text"]) == ("bool", "false")
-        assert change("rate", "double", "4") == (True, "")
-        assert talk.hear("parameter_event")["node"] == "/listener"
+        talk.say(do="set", id=6, node="/listener", name="rate", type="double", text="4")
+        heard = talk.hear_each("set", "parameter_event")  # the node sends the event first
+        assert (heard["set"]["done"], heard["set"]["reason"]) == (True, "")
+        assert heard["parameter_event"]["node"] == "/listener"
         assert change("names", "string_array", '["c"]') == (True, "")
         assert change("rate", "double", "quick") == (False, "wrong_value")
         assert change("loud", "integer", "1")[0] is False  # the node's own reason
