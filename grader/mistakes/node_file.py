@@ -459,6 +459,26 @@ KINDS = (
                 blocks=UNSTARTED,
             ),
             example(
+                "answer_below_the_code",
+                Replace(
+                    NODE,
+                    "    main()\n",
+                    "    main()\n```\n\n### How it works\n- The node spins until Ctrl+C.\n",
+                ),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "answer_around_the_code",
+                Replace(
+                    NODE, "#!/usr/bin/env", "Here's the full node:\n\n```python\n#!/usr/bin/env"
+                ),
+                Replace(NODE, "    main()\n", "    main()\n```\nRun it with `ros2 run`!\n"),
+                fails="source.node_file",
+                also={"source.shebang": "source.pasted"},
+                blocks=UNSTARTED,
+            ),
+            example(
                 "rich_text",
                 Write(
                     NODE,

@@ -641,6 +641,11 @@ KINDS = (
                 "index. setup.py has no line that copies it there when you build. colcon still "
                 "adds a missing one itself, but warns that it will stop doing so."
             ),
+            "rename_both": msg(
+                "ROS finds a package by an empty file with the package's name in the package "
+                "index. setup.py copies it there from resource/ when you build, but here it copies "
+                "a file with another name."
+            ),
             "other": OTHER_MARKER,
             "path": msg(
                 "setup.py copies the marker file from the path in this line. A path is the folder, "
@@ -666,6 +671,10 @@ KINDS = (
                 "Rename resource/{close} to resource/{package}: the two names must be the "
                 "same. Then build again."
             ),
+            "rename_both": msg(
+                "Rename resource/{close} to resource/{package}, and let line {line} of setup.py "
+                "install it by that name: ['resource/{package}']. Then build again."
+            ),
             "other": msg(
                 "Make that line install 'resource/{package}': set package_name in setup.py "
                 "to '{package}'. Then build again."
@@ -681,6 +690,7 @@ KINDS = (
         fixed_by=(
             layout.marker,
             setup_py.marker,
+            setup_py.marker_and_line,
         ),
         examples=(
             example("marker_missing", Delete(MARKER), fails="package.marker", blocks=UNBUILT),
@@ -697,6 +707,19 @@ KINDS = (
                 ),
                 fails="package.marker",
                 note="colcon warns and makes one itself",
+            ),
+            example(
+                "marker_with_ending_in_both",
+                Move(MARKER, MARKER + ".txt"),
+                Replace(SETUP, "'resource/' + package_name", "'resource/' + package_name + '.txt'"),
+                fails="package.marker",
+                note="colcon warns and makes the right one itself",
+            ),
+            example(
+                "marker_line_with_ending",
+                Replace(SETUP, "'resource/' + package_name", "'resource/' + package_name + '.txt'"),
+                fails="package.marker",
+                blocks=UNBUILT,
             ),
             example(
                 "marker_without_slash",

@@ -27,7 +27,7 @@ PASTED_WHYS = {
     "sign": KEYBOARD,
     **dict.fromkeys(("command", "heredoc", "editor"), TYPED),
     **dict.fromkeys(
-        ("page", "markup", "notebook", "word", "conflict", "numbers", "prose"), NO_CODE
+        ("page", "markup", "notebook", "word", "conflict", "numbers", "prose", "around"), NO_CODE
     ),
 }
 PASTED = {
@@ -49,6 +49,10 @@ PASTED = {
     "heredoc": msg("Delete the line '{found}': it ends a command of the shell, and is not code."),
     "editor": msg("Delete the line '{found}': it is a command for the editor, not code."),
     "prose": msg("Delete that line: it is a sentence and not code."),
+    "around": msg(
+        "Keep only the code, lines {line} to {wanted}. Delete everything above and below it, the "
+        "lines '{found}' too: that is the text of a chat or a web page, and not Python."
+    ),
     "numbers": msg("Remove the line numbers from the start of the lines: they are not code."),
 }
 DOCUMENTS = {
@@ -286,7 +290,7 @@ def description(slip: Slip | Pasted) -> Message:
         "sign": say("a sign that Python does not know: {found}", found=found),
         "tag": say("a part of a web page: {found}", found=found),
         "label": say("a line of a web page: {found}", found=found),
-        "fence": say("a line of a web page: {found}", found=found),
+        **dict.fromkeys(("fence", "around"), say("a line of a web page: {found}", found=found)),
         "prompt": say("the prompt of Python: {found}", found=found),
         "command": say("a command for the terminal: {found}", found=found),
         "heredoc": say("the end of a command of the shell: {found}", found=found),

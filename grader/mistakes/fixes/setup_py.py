@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 
+from grader.mistakes.fixes import layout
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.setup_call import FILE, SetupCall, read_setup_call
 from grader.package.edit.files import Files
@@ -102,6 +103,15 @@ def marker(case: Case) -> Files | None:
     return case.with_data(FILE, setup.source.spliced(splices)) if splices else None
 
 
+def marker_and_line(case: Case) -> Files | None:
+    """Rename the marker file, and make data_files install it by that name."""
+    setup = read_setup_call(case)
+    splices = _renamed(setup, case) if setup is not None else []
+    moved = layout.marker(case) if setup is not None and splices else None
+    new = setup.source.spliced(splices) if setup is not None else None
+    return moved.with_data(FILE, new) if moved is not None and new is not None else None
+
+
 def _pair(node: ast.expr) -> tuple[ast.Constant, ast.expr] | None:
     """Return the folder and the files of an item of data_files."""
     if isinstance(node, ast.Tuple | ast.List) and len(node.elts) == 2:
@@ -133,16 +143,15 @@ def _renamed(setup: SetupCall, case: Case) -> list[Splice]:
                 return [setup.text(start, "resource/")]
             if start is not None and last is not None and start.value == "resource/":
                 return [setup.text(last, case.package)] if last.value != case.package else []
+        if str(case.finding.params.get("path", "")):
+            return [setup.source.swap(named, _marker_of(setup, case))]
     return []
 
 
 def _added(setup: SetupCall, case: Case) -> list[Splice]:
     data_files = setup.argument("data_files")
     q = setup.source.quote
-    package = setup.constant("package_name")
-    known = isinstance(package, ast.Constant) and package.value == case.package
-    path = f"{q}resource/{q} + package_name" if known else f"{q}resource/{case.package}{q}"
-    row = f"({q}{INDEX}{q}, [{path}])"
+    row = f"({q}{INDEX}{q}, [{_marker_of(setup, case)}])"
     if data_files is None:
         return setup.new_argument("data_files", ["[", f"    {row},", "],"])
     if not isinstance(data_files, ast.List):
@@ -150,6 +159,14 @@ def _added(setup: SetupCall, case: Case) -> list[Splice]:
     if any((pair := _pair(e)) and str(pair[0].value).strip("/") == INDEX for e in data_files.elts):
         return []
     return setup.into_list(data_files, row)
+
+
+def _marker_of(setup: SetupCall, case: Case) -> str:
+    """Return the code of the marker's path."""
+    q = setup.source.quote
+    package = setup.constant("package_name")
+    known = isinstance(package, ast.Constant) and package.value == case.package
+    return f"{q}resource/{q} + package_name" if known else f"{q}resource/{case.package}{q}"
 
 
 def prints(case: Case) -> Files | None:

@@ -38,7 +38,10 @@ def slip_of(found: bytes) -> Slip | None:
     code = SourceText(code_only(source.text), source.encoding)
     text = Broken(source, code, fault, fault.line)
     return (
-        _document(text) or _pasted(text) or next(filter(None, (look(text) for look in LOOKS)), None)
+        _document(text)
+        or _answer(text)
+        or _pasted(text)
+        or next(filter(None, (look(text) for look in LOOKS)), None)
     )
 
 
@@ -71,6 +74,41 @@ def _conflict(text: Broken) -> Slip | None:
         return None
     last = str(marks[min(2, len(marks) - 1)])
     return Slip("document", "conflict", marks[0], text.source.line(marks[0]), "", other=int(last))
+
+
+FENCE = re.compile(r"[ \t]{0,20}(?:```|~~~)[ \t]{0,9}[\w+-]{0,20}[ \t]*")
+
+
+def _answer(text: Broken) -> Slip | None:
+    """Return the text of a chat or a web page that stands above or below the code."""
+    source = text.source
+    fences = [n for n, _ in enumerate(source.lines, 1) if FENCE.fullmatch(source.line(n).rstrip())]
+    first, last = (0, len(source.lines) + 1)
+    if len(fences) == 2:
+        first, last = fences
+    elif len(fences) == 1:
+        is_open = "def " not in _between(source, 0, fences[0])
+        first, last = (fences[0], last) if is_open else (first, fences[0])
+    code = _between(source, first, last)
+    beside = (_between(source, 0, first), _between(source, last, len(source.lines) + 1))
+    prose = any(fault_of(part.encode()) is not None for part in beside)
+    prose = prose and not any("def " in part for part in beside)
+    if not fences or not prose or "def " not in code or fault_of(code.encode()) is not None:
+        return None
+    splices = [
+        Splice(0, source.start_of(first + 1), ""),
+        Splice(source.start_of(last), len(source.text), ""),
+    ]
+    at = fences[0]
+    lines = (str(last - 1), first + 1)
+    return Slip(
+        "pasted", "around", at, source.line(at).strip(), lines[0], source.spliced(splices), lines[1]
+    )
+
+
+def _between(source: SourceText, first: int, last: int) -> str:
+    """Return the lines between two lines, without these."""
+    return "".join(f"{source.line(n)}\n" for n in range(first + 1, last))
 
 
 PROSE = re.compile(r"[A-Z][a-z']{0,30}(?:,? [\w'`-]{1,40}){3,40}[.:!]?")

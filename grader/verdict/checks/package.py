@@ -133,7 +133,7 @@ def _no_marker(evidence: Evidence, path: str) -> Failed:
     package = evidence.assignment.package
     others = [name for name in names_in(evidence, "resource") if name != package]
     variant, actual = "", say("there is no file {path}", path=path)
-    there = path
+    there, place, line = path, "", 0
     lone = [n for n in others if "." not in n] if len(others) == 1 else []
     close = nearest(package, others) or "".join(lone)
     if evidence.submission.file(path) is not None:
@@ -146,6 +146,8 @@ def _no_marker(evidence: Evidence, path: str) -> Failed:
         actual = say("there is no {path}, but {there}", path=path, there=there)
     elif close:
         variant, there = "rename", f"resource/{shown(close)}"
+        line = _line_that_installs(evidence, f"resource/{close}")
+        variant, place = ("rename_both", f"resource/{close}") if line else (variant, "")
         said = say("there is no {path}, but resource/{close}", path=path, close=shown(close))
         actual = with_difference(said, close, package)
     expected: str = say("an empty file {path}", path=path)
@@ -159,10 +161,22 @@ def _no_marker(evidence: Evidence, path: str) -> Failed:
         expected=expected,
         actual=actual,
         variant=variant,
-        params={"folder": close} if variant in ("moved", "inner") else {},
-        words={"package": package, "close": shown(close), "there": shlex.quote(shown(close))},
+        params={"folder": close} if variant in ("moved", "inner") else {"path": place},
+        words={
+            "package": package,
+            "close": shown(close),
+            "there": shlex.quote(shown(close)),
+            "line": line,
+        },
         where=Where(file=there),
     )
+
+
+def _line_that_installs(evidence: Evidence, path: str) -> int:
+    """Return the line of setup.py that installs a file as the marker; 0 if there is none."""
+    setup = setup_py_of(evidence)
+    found, _ = _installed_in(setup.argument("data_files"), INDEX) if setup else ([], True)
+    return next((item.line for item in found if normpath(item.value) == path), 0)
 
 
 def _installs_no_marker(evidence: Evidence) -> bool:

@@ -439,7 +439,10 @@ def _no_shebang(evidence: Evidence, path: str, data: bytes, first: bytes) -> Fai
     later = [n for n, line in enumerate(data.splitlines()[:20], 1) if line[:2] == b"#!" and n > 1]
     line: int | None = 1
     actual: str
-    pasted = _above_shebang(data, later[0] if later else 2)
+    slip = slip_of(data) if later else None
+    pasted: Pasted | Slip | None = _above_shebang(data, later[0] if later else 2)
+    if slip is not None and slip.variant == "around" and slip.line < later[0]:
+        pasted = slip
     if pasted is not None:
         return _pasted_first(path, pasted)
     if first[:3] == b"\xef\xbb\xbf":
@@ -483,7 +486,7 @@ def _above_shebang(data: bytes, line: int) -> Pasted | None:
     return None if others else lines[1]
 
 
-def _pasted_first(path: str, pasted: Pasted) -> Failed:
+def _pasted_first(path: str, pasted: Pasted | Slip) -> Failed:
     return Failed(
         "source.pasted",
         expected=say("line 1: {shebang}", shebang=SHEBANG),
