@@ -90,7 +90,7 @@ def test_an_empty_node_has_its_code_in_the_file_beside_it(bench: Bench, other: s
     bench.write(f"{NAME}/{other}", code)
     failed = bench.fails(source.node_file)
     assert mistake(failed) == "source.empty_node_file"
-    assert f"mv {shlex.quote(f'{NAME}/{other}')} {NODE}" in failed.fix
+    assert f"cp {shlex.quote(f'{NAME}/{other}')} {NODE} && rm" in failed.fix
     first = bench.fails(source.shebang)
     assert first.where == Where(file=f"{NAME}/{other}", line=1)
     bench.write(f"{NAME}/{other}", f"#!/usr/bin/env python3\n{code}")

@@ -78,10 +78,13 @@ def _installed(slug: str, title: str, fix: str, **parts: Unpack[Parts]) -> Kind:
 KINDS = (
     _build(
         "ignored",
-        msg("The package has a file COLCON_IGNORE"),
-        msg("Delete that file. In the package's folder, run: rm COLCON_IGNORE. Then build again."),
+        msg("The package has a file COLCON_IGNORE or AMENT_IGNORE"),
+        msg("Delete that file. In the package's folder, run: rm {name}. Then build again."),
         msg("colcon skips every folder that has a file of this name, without a message."),
-        examples=(example("colcon_ignore", Write("COLCON_IGNORE", ""), fails="build.colcon"),),
+        examples=(
+            example("colcon_ignore", Write("COLCON_IGNORE", ""), fails="build.colcon"),
+            example("ament_ignore", Write("AMENT_IGNORE", ""), fails="build.colcon"),
+        ),
     ),
     _build(
         "setup_prints",
@@ -179,6 +182,15 @@ KINDS = (
             "positional": msg(
                 "Each value in setup() has a name and an = before it. Write: {wanted}, then build "
                 "again."
+            ),
+            "unpacked": msg(
+                "{name} is a dict with the values of setup(). Write setup({wanted}): the two stars "
+                "give each value under its name. Then build again."
+            ),
+            "ros_1": msg(
+                "This is the setup.py of a ROS 1 package (catkin). In a new folder, run ros2 pkg "
+                "create --build-type ament_python {package}, copy its setup.py here, and write the "
+                "entry of your executable into console_scripts. Then build again."
             ),
             "import_form": msg(
                 "The import and the call do not fit together. Write {wanted} instead of {found}, "
@@ -437,6 +449,25 @@ KINDS = (
                 fails="build.colcon",
             ),
             example(
+                "setup_values_in_a_dict",
+                Replace(SETUP, "\nsetup(\n", "\nconfig = dict(\n"),
+                Replace(SETUP, "        ],\n    },\n)\n", "        ],\n    },\n)\nsetup(config)\n"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_of_catkin",
+                Write(
+                    SETUP,
+                    "from setuptools import setup\n"
+                    "from catkin_pkg.python_setup import generate_distutils_setup\n\n"
+                    "d = generate_distutils_setup(\n    packages=['my_robot_controller'],\n"
+                    "    package_dir={'': 'src'},\n)\n\nsetup(**d)\n",
+                ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
                 "setup_name_positional",
                 Replace(SETUP, "    name=package_name,", "    package_name,"),
                 fails="build.colcon",
@@ -481,7 +512,7 @@ KINDS = (
     ),
     _build(
         "exited",
-        msg("setup.py ends before it calls setup()"),
+        msg("setup.py ends before setup() has done its work"),
         msg(
             "Remove the exit from setup.py, and compare the file with the one that ros2 pkg "
             "create makes."
@@ -495,6 +526,20 @@ KINDS = (
             "node": msg(
                 "The code of a node is in setup.py. Move it to {path}, and write setup.py again as "
                 "ros2 pkg create makes it."
+            ),
+            "guard": msg("Write {wanted} instead of {name}, then build again."),
+            "entries_list": msg(
+                "entry_points is a dict: the name of a group, and the list of its entries. Write "
+                "{{'console_scripts': before the [, and }} after the ]. Then build again."
+            ),
+            "entries_dict": msg(
+                "In {name}, each entry is one text, 'name = package.module:function', in a list. "
+                "Write instead of the inner braces: {wanted}. Then build again."
+            ),
+            "refused": msg(
+                "setuptools prints its reason only if you start it yourself. In the package's "
+                "folder, run: python3 setup.py --version. Correct the value of setup() that it "
+                "names, then build again."
             ),
             "missing": msg(
                 "setup.py does not call setup(…). Compare the file with the one that ros2 pkg "
@@ -511,7 +556,19 @@ KINDS = (
                 "the only place where ros2 run looks. The lines of a function run only if it is "
                 "called."
             ),
+            "guard": msg(
+                "colcon runs setup.py, and then __name__ is '__main__'. With another text the "
+                "condition is never true, and nothing is installed."
+            ),
+            **dict.fromkeys(
+                ("refused", "entries_list", "entries_dict"),
+                msg(
+                    "setuptools stops at a value that it does not accept. colcon then says only "
+                    "that distutils.core.setup() was never called."
+                ),
+            ),
         },
+        fixed_by=(setup_py.fault,),
         examples=(
             example(
                 "setup_exits",
@@ -534,6 +591,35 @@ KINDS = (
                 blocks=("entry_point.mapping",),
             ),
             example(
+                "setup_guard_misspelt",
+                Replace(SETUP, "\nsetup(\n", "\nif __name__ == 'main':\n  setup(\n"),
+                fails="build.colcon",
+            ),
+            example(
+                "entry_points_as_list",
+                Replace(SETUP, "entry_points={\n        'console_scripts': [", "entry_points=["),
+                Replace(SETUP, "        ],\n    },\n)", "    ],\n)"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "console_scripts_as_dict",
+                Replace(SETUP, "'console_scripts': [", "'console_scripts': {"),
+                Replace(
+                    SETUP,
+                    "'test_node = my_robot_controller.my_first_node:main'",
+                    "'test_node': 'my_robot_controller.my_first_node:main'",
+                ),
+                Replace(SETUP, "        ],\n    },\n)", "        },\n    },\n)"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_value_refused",
+                Replace(SETUP, "zip_safe=True", "python_requires='three'"),
+                fails="build.colcon",
+            ),
+            example(
                 "setup_never_called",
                 Replace(SETUP, "\nsetup(\n", "\ndict(\n"),
                 fails="build.colcon",
@@ -550,7 +636,22 @@ KINDS = (
             "the only place where ros2 run looks. A setup.py that loops or waits never "
             "finishes."
         ),
+        fixes={
+            "node": msg(
+                "The code of a node is in setup.py, and the build runs it. Move it to {path}, and "
+                "write setup.py again as ros2 pkg create makes it. Then build again."
+            ),
+        },
         examples=(
+            example(
+                "node_above_setup",
+                Replace(
+                    SETUP,
+                    "\nsetup(\n",
+                    "\nimport rclpy\nrclpy.init()\nrclpy.spin(rclpy.create_node('a'))\nsetup(\n",
+                ),
+                fails="build.colcon",
+            ),
             example(
                 "setup_loops",
                 Replace(SETUP, "\nsetup(\n", "\nwhile True:\n    pass\n\nsetup(\n"),
@@ -570,6 +671,13 @@ KINDS = (
             "Read the build log below, starting at its first error. Build again after each change."
         ),
         fixes={
+            "no_copy_close": msg(
+                "Write {wanted} instead of {name} in data_files, then build again."
+            ),
+            "package_dir": msg(
+                "package_dir leads to the folder {name}, and the package has no such folder. Delete "
+                "package_dir and write {wanted}, then build again."
+            ),
             "no_copy": msg(
                 "data_files in setup.py lists {name}, and the package has no such file. Delete it "
                 "from data_files, or create the file, then build again."
@@ -594,6 +702,20 @@ KINDS = (
                     SETUP,
                     "('share/' + package_name, ['package.xml']),",
                     "('share/' + package_name),",
+                ),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_manifest_misspelt",
+                Replace(SETUP, "['package.xml']", "['packages.xml']"),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_source_folder_missing",
+                Replace(
+                    SETUP,
+                    "    packages=find_packages(exclude=['test']),",
+                    "    packages=find_packages(where='src'),\n    package_dir={'': 'src'},",
                 ),
                 fails="build.colcon",
             ),

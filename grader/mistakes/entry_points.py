@@ -110,6 +110,10 @@ def _not_found(
     )
 
 
+NO_PACKAGES = msg(
+    "packages= lists the folders to install. Without it, the build stops if it finds several "
+    "folders."
+)
 KINDS = (
     Kind(
         id="setup.missing",
@@ -404,10 +408,18 @@ KINDS = (
             "group": msg(
                 "Put it into entry_points, then build again: "
                 "entry_points={{'console_scripts': ['{wanted}']}},"
-            )
+            ),
+            "late": msg(
+                "Python calls setup() before it reaches {name}. Move the lines of {name} above "
+                "setup(, and write entry_points={name}, in setup(). Then build again."
+            ),
+            "variable": msg(
+                "Write entry_points={name}, in setup(), then build again. (If setup() has an "
+                "entry_points already, write it there.)"
+            ),
         },
         link=links.DEVELOPING,
-        fixed_by=(entries.grouped, entries.moved, entries.added),
+        fixed_by=(entries.passed, entries.grouped, entries.moved, entries.added),
         examples=(
             example(
                 "entry_in_tests_require",
@@ -432,6 +444,18 @@ KINDS = (
                     "    console_scripts=[",
                 ),
                 Replace(SETUP, "        ],\n    },\n)", "    ],\n)"),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "entry_points_not_passed",
+                Replace(SETUP, "    entry_points={\n", ")\n\nentry_points = {\n"),
+                Replace(SETUP, "        ],\n    },\n)", "    ],\n}"),
+                Replace(
+                    SETUP,
+                    "\nsetup(\n",
+                    "\npoints = {'console_scripts': [\n    'test_node = my_robot_controller.my_first_node:main',\n]}\n\nsetup(\n",
+                ),
                 fails="entry_point.mapping",
                 blocks=UNINSTALLED,
             ),
@@ -629,10 +653,7 @@ KINDS = (
         whys={
             "folder": FOLDERS,
             "import": FOLDERS,
-            "argument": msg(
-                "packages= lists the folders to install. Without it, the build stops if it finds "
-                "several folders."
-            ),
+            **dict.fromkeys(("argument", "misspelt"), NO_PACKAGES),
             "text": msg(
                 "packages= is a list of folders. This value is a text, and setuptools takes each "
                 "of its letters for a folder."
@@ -640,14 +661,20 @@ KINDS = (
         },
         fix=msg("Write in setup(): {wanted}, then build again."),
         fixes={
+            "misspelt": msg("Write packages= instead of {name}= in setup(), then build again."),
             "import": msg(
                 "Write at the top of setup.py: {statement}, and in setup(): {wanted}, then build "
                 "again."
-            )
+            ),
         },
         link=links.DEVELOPING,
         fixed_by=(layout.init_file, setup_py.packages),
         examples=(
+            example(
+                "packages_misspelt",
+                Replace(SETUP, "    packages=find", "    package=find"),
+                fails="build.colcon",
+            ),
             example(
                 "packages_name_the_file",
                 Replace(SETUP, "find_packages(exclude=['test'])", "['my_first_node']"),

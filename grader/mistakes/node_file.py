@@ -335,8 +335,8 @@ KINDS = (
         fixes={
             "built": BUILT,
             "beside": msg(
-                "Give the file with your node the name of the empty one. In the package's folder, "
-                "run: mv {there} {path}"
+                "Copy your node into the empty file, and delete the other one. In the package's "
+                "folder, run: cp {there} {path} && rm {there}. Then build again."
             ),
         },
         link=links.FIRST_NODE,
@@ -832,6 +832,12 @@ KINDS = (
         msg("Line 1 names a program other than Python 3"),
         FIRST,
         OTHER_PROGRAM,
+        whys={
+            "first_sign": msg(
+                "A comment begins with #. Here another sign is before it, or # is missing: Python "
+                "takes the line for code and stops at it, and Linux finds no program for the file."
+            )
+        },
         fixed_by=(first_line.shebang,),
         examples=(
             example(

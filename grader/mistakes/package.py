@@ -130,6 +130,31 @@ KINDS = (
         "manifest_unreadable",
         msg("package.xml cannot be read"),
         msg("Hand in a package.xml that can be read."),
+        fixes={
+            "encoding": msg(
+                "Save the file again with the encoding UTF-8, then build again. ROS reads it in no "
+                "other encoding. (Windows PowerShell writes UTF-16 with >.)"
+            )
+        },
+        examples=(
+            example(
+                "manifest_in_utf_16",
+                Write(
+                    MANIFEST,
+                    (
+                        '<?xml version="1.0"?>\n<package format="3">\n'
+                        "  <name>my_robot_controller</name>\n  <version>0.0.0</version>\n"
+                        "  <description>Counts</description>\n"
+                        '  <maintainer email="a@example.com">A</maintainer>\n'
+                        "  <license>MIT</license>\n  <depend>rclpy</depend>\n"
+                        "  <export>\n    <build_type>ament_python</build_type>\n  </export>\n"
+                        "</package>\n"
+                    ).encode("utf-16"),
+                ),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+        ),
     ),
     _manifest(
         "broken_xml",
@@ -837,6 +862,10 @@ KINDS = (
         fix=msg("Fix that line: a line is either [section] or key=value."),
         fixes={
             "section": msg("Write [{other}] on that line: setup.cfg needs both sections."),
+            "headings": msg(
+                "Write [develop] on a line of its own above script_dir, and [install] above "
+                "install_scripts. Then build again."
+            ),
             "twice": msg("Delete the second one: each name appears only once."),
             "encoding": msg(
                 "Save the file again with the encoding UTF-8, without a BOM. Windows PowerShell "
@@ -850,6 +879,13 @@ KINDS = (
             example(
                 "setup_cfg_section_twice",
                 Replace(CFG, "[install]", "[develop]"),
+                fails="package.setup_cfg",
+                blocks=UNBUILT,
+            ),
+            example(
+                "setup_cfg_without_headings",
+                Replace(CFG, "[develop]\n", ""),
+                Replace(CFG, "[install]\n", ""),
                 fails="package.setup_cfg",
                 blocks=UNBUILT,
             ),

@@ -266,6 +266,7 @@ KINDS = {
     "pasted": "source.pasted",
     "document": "source.pasted",
     "language": "source.other_language",
+    "shebang": "source.wrong_shebang",
 }
 """The mistakes of the node's file by the cause of a slip; the others are syntax errors."""
 
@@ -280,7 +281,7 @@ def words_of(slip: Slip | Pasted) -> dict[str, str]:
 def description(slip: Slip | Pasted) -> Message:
     """Return what was found at the place of a slip."""
     found = shown(slip.found)
-    if isinstance(slip, Slip) and slip.cause in ("signs", "document"):
+    if isinstance(slip, Slip) and slip.cause in ("signs", "document", "shebang"):
         return say("in: {code}", code=found)
     if isinstance(slip, Slip) and slip.cause == "language":
         return say("this is not Python: {found}", found=found)

@@ -24,6 +24,7 @@ NOT_FIXED = {
     *("not_utf8", "null_bytes", "word_document"),
     *("node_hidden_by_folder", "group_twice_with_entries", "rich_text"),
     "build_type_twice",
+    "manifest_in_utf_16",
 }
 NOTHING_TO_MARK = {
     *("empty_folder", "only_a_text", "only_the_node", "manifest_and_setup_missing"),

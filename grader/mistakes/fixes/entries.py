@@ -172,6 +172,18 @@ def _removed(source: SourceText, holder: ast.List, item: ast.expr) -> Splice | N
     return Splice(first + 1, last - 1, "")
 
 
+def passed(case: Case) -> Files | None:
+    """Give setup() the variable that holds the entry points."""
+    setup, name = read_setup_call(case), str(case.finding.params.get("variable", ""))
+    if setup is None or not name:
+        return None
+    points = setup.argument("entry_points")
+    splices = setup.new_argument("entry_points", [f"{name},"])
+    if points is not None:
+        splices = [setup.source.swap(points, name)]
+    return case.with_data(FILE, setup.source.spliced(splices)) if splices else None
+
+
 def grouped(case: Case) -> Files | None:
     """Put the argument console_scripts of setup() into entry_points."""
     setup = read_setup_call(case)

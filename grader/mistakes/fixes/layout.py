@@ -70,12 +70,13 @@ def out_of_init(case: Case) -> Files | None:
 
 
 def node_beside(case: Case) -> Files | None:
-    """Move the node from the file beside it into the empty file."""
+    """Copy the node from the file beside it into the empty file, which keeps its mode."""
     old = str(case.finding.params.get("there", ""))
     there = case.files.data(case.node_path)
     if case.finding.mistake != "source.empty_node_file" or there is None or there.strip():
         return None
-    return case.files.with_move(old, case.node_path) if case.files.file(old) else None
+    data = case.files.data(old) if case.files.file(old) else None
+    return case.with_data(case.node_path, data) if data else None
 
 
 def out_of_inner_folder(case: Case) -> Files | None:

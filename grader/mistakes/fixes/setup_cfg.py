@@ -89,13 +89,15 @@ def dashes(case: Case) -> Files | None:
 
 
 def syntax(case: Case) -> Files | None:
-    """Close a heading's bracket, or remove a byte order mark."""
+    """Close a heading's bracket, add the headings, or remove a byte order mark."""
     found = case.files.data(FILE)
     text = read_text(found)
     if text is None or found is None or _is_read(found):
         return None
     if text.mark:
         return case.with_data(FILE, found[len(text.mark) :])
+    if "[" not in text.text:
+        return _headings(case, text)
     line = text.line(case.finding.line or 0)
     if line.strip() in ("[develop]", "[install]"):
         return _other_section(case, text, line)
@@ -104,6 +106,18 @@ def syntax(case: Case) -> Files | None:
         return None
     start = text.start_of(case.finding.line or 0)
     new = text.spliced([Splice(start, start + len(line), f"[{match[2]}]")])
+    return case.with_data(FILE, new) if new and _is_read(new) else None
+
+
+def _headings(case: Case, text: SourceText) -> Files | None:
+    """Write the heading of each section above its key."""
+    splices = [
+        text.before(number, f"[{section}]")
+        for number, _ in enumerate(text.lines, 1)
+        for section, key in KEYS.items()
+        if text.line(number).replace("-", "_").startswith(key)
+    ]
+    new = text.spliced(splices) if len(splices) == len(KEYS) else None
     return case.with_data(FILE, new) if new and _is_read(new) else None
 
 

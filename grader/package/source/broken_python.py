@@ -8,7 +8,7 @@ from typing import Literal
 from grader.package.edit.text import SourceText, Splice
 from grader.package.source.python import PythonFault, parse_python
 
-Cause = Literal["pasted", "document", "language", "signs"]
+Cause = Literal["pasted", "document", "language", "signs", "shebang"]
 LONGEST = 500
 """Characters of a line that is examined: some patterns take quadratic time."""
 MOST_TRIES = 8

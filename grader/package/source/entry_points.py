@@ -99,11 +99,17 @@ def from_setup_cfg(cfg: SetupCfg) -> EntryPoints:
 
 @dataclass(frozen=True)
 class Misplaced:
-    """An entry that is in setup.py, but not in entry_points; `argument` is "" outside of setup()."""
+    """An entry that is in setup.py, but not in entry_points; `argument` is "" outside of setup().
+
+    `variable` is the dict of groups that holds it, if setup() does not get that; `is_late` if it
+    is set below the call.
+    """
 
     text: str
     line: int
     argument: str
+    variable: str = ""
+    is_late: bool = False
 
 
 def misplaced(tree: ast.Module, name: str) -> Misplaced | None:
@@ -115,8 +121,34 @@ def misplaced(tree: ast.Module, name: str) -> Misplaced | None:
             continue
         argument = holders.get(id(node), "")
         if begins.match(node.value) and argument != "entry_points":
-            return Misplaced(node.value.strip(), node.lineno, argument)
+            variable, is_late = ("", False) if argument else _variable(tree, node)
+            return Misplaced(node.value.strip(), node.lineno, argument, variable, is_late)
     return None
+
+
+def _variable(tree: ast.Module, entry: ast.Constant) -> tuple[str, bool]:
+    """Return the variable with the groups that hold an entry and is not used; and if it is late."""
+    calls = [n.lineno for n in ast.walk(tree) if isinstance(n, ast.Call) and is_setup_call(n)]
+    sets = [
+        s for s in tree.body if isinstance(s, ast.Assign) and isinstance(s.targets[0], ast.Name)
+    ]
+    lists = {_target(s) for s in sets if any(node is entry for node in ast.walk(s.value))}
+    for statement in sets:
+        if not isinstance(statement.value, ast.Dict):
+            continue
+        keys = [key.value for key in statement.value.keys if isinstance(key, ast.Constant)]
+        names = {n.id for n in ast.walk(statement.value) if isinstance(n, ast.Name)}
+        name = _target(statement)
+        if not ({name} | names) & lists or "console_scripts" not in keys:
+            continue
+        uses = [n for n in ast.walk(tree) if isinstance(n, ast.Name) and n.id == name]
+        if len(uses) == 1 and len(calls) == 1:
+            return name, statement.lineno > calls[0]
+    return "", False
+
+
+def _target(statement: ast.Assign) -> str:
+    return statement.targets[0].id if isinstance(statement.targets[0], ast.Name) else ""
 
 
 def _holders(tree: ast.Module) -> dict[int, str]:

@@ -67,7 +67,8 @@ def read_setup_cfg(found: bytes) -> SetupCfg:
         reason = say("a line before the first [section]")
         if text[:1] == "\ufeff":
             reason = say("a byte order mark before the first [section]")
-        raise SetupCfgFault(reason, error.lineno) from None
+        headless = "[" not in text and all(key in text for key in ("script_dir", "install_scripts"))
+        raise SetupCfgFault(reason, error.lineno, "headings" if headless else "") from None
     except (configparser.DuplicateOptionError, configparser.DuplicateSectionError) as error:
         twice = getattr(error, "option", None) or f"[{error.section}]"
         section = getattr(error, "option", None) is None

@@ -270,10 +270,98 @@ def _positional(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
         return None
     value = reader.call.args[0]
     code = reader.module.text.code(value)
+    if isinstance(value, ast.Name) and _is_dict(reader.module, value.id):
+        at = reader.module.text.span(value)[0]
+        return reader.fault("unpacked", value, Splice(at, at, "**"), name=code, wanted=f"**{code}")
     is_name = len(reader.call.args) == 1 and reader.argument("name") is None
     at = reader.module.text.span(value)[0]
     splices = [Splice(at, at, "name=")] if is_name else []
     return reader.fault("positional", value, *splices, wanted=f"name={code}")
+
+
+def _is_dict(module: Module, name: str) -> bool:
+    """Whether every assignment of a name at module level gives it a dict."""
+    values = [s.value for s in module.tree.body if isinstance(s, ast.Assign) and _sets(s, name)]
+    kinds = [
+        isinstance(v, ast.Dict) or (isinstance(v, ast.Call) and dotted(v.func) == "dict")
+        for v in values
+    ]
+    return bool(kinds) and all(kinds)
+
+
+def _never_called(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """An `if` that is never true around the call, or entry points of a form that is refused."""
+    del match
+    for statement in reader.module.tree.body:
+        if isinstance(statement, ast.If) and reader.call in ast.walk(statement):
+            return _wrong_guard(reader, statement)
+    return _entries_form(reader)
+
+
+def _wrong_guard(reader: _Reader, statement: ast.If) -> SetupFault | None:
+    """`if __name__ == 'main':`."""
+    test, text = statement.test, reader.module.text
+    is_name = isinstance(test, ast.Compare) and dotted(test.left) == "__name__"
+    if not is_name or not isinstance(test, ast.Compare) or not isinstance(test.ops[0], ast.Eq):
+        return None
+    value = test.comparators[0]
+    if not isinstance(value, ast.Constant) or value.value == "__main__":
+        return None
+    wanted = f"{text.quote}__main__{text.quote}"
+    swap = text.swap(value, wanted)
+    return reader.fault("guard", test, swap, name=text.code(value), wanted=wanted)
+
+
+def _entries_form(reader: _Reader) -> SetupFault | None:
+    """Entry points as a list, or console_scripts as a dict of executables."""
+    points, text = reader.argument("entry_points"), reader.module.text
+    q = text.quote
+    if isinstance(points, ast.List | ast.Tuple) and points.elts:
+        wanted = f"{{{q}console_scripts{q}: {text.code(points)}}}"
+        return reader.fault("entries_list", points, text.swap(points, wanted))
+    if not isinstance(points, ast.Dict):
+        return None
+    for key, value in zip(points.keys, points.values, strict=True):
+        if not isinstance(value, ast.Dict) or not isinstance(key, ast.Constant):
+            continue
+        pairs = [(k, v) for k, v in zip(value.keys, value.values, strict=True)]
+        texts = [
+            f"{k.value!s} = {v.value!s}"
+            for k, v in pairs
+            if isinstance(k, ast.Constant) and isinstance(v, ast.Constant)
+        ]
+        if len(texts) != len(pairs) or not texts:
+            return None
+        wanted = f"[{', '.join(f'{q}{entry}{q}' for entry in texts)}]"
+        swap = text.swap(value, wanted)
+        return reader.fault("entries_dict", value, swap, wanted=wanted, name=str(key.value))
+    return None
+
+
+def _no_source_folder(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """`package_dir` leads to a folder that is not there."""
+    value = reader.argument("package_dir")
+    keyword = next((k for k in reader.call.keywords if k.arg == "package_dir"), None)
+    packages = reader.argument("packages")
+    if value is None or keyword is None or packages is None:
+        return None
+    text = reader.module.text
+    splices = reader.without(keyword, reader.call.keywords)
+    wanted = text.code(packages)
+    if isinstance(packages, ast.Call) and dotted(packages.func).rpartition(".")[2] in FINDERS:
+        wanted = f"{dotted(packages.func)}(exclude=[{text.quote}test{text.quote}])"
+        splices.append(text.swap(packages, wanted))
+    words = {"name": match["path"], "wanted": f"packages={wanted}"}
+    return reader.fault("package_dir", keyword, *splices, **words)
+
+
+def _of_ros_1(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """The setup.py of a catkin package."""
+    del match
+    for statement in reader.module.tree.body:
+        if isinstance(statement, ast.ImportFrom) and str(statement.module).startswith("catkin_pkg"):
+            return reader.fault("ros_1", statement, package=reader.package)
+    return None
 
 
 def _group_name(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
@@ -342,6 +430,11 @@ def _not_copied(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
         named = files.elts if isinstance(files, ast.List | ast.Tuple) else []
         for node in named:
             if isinstance(node, ast.Constant) and node.value == path:
+                close = nearest(path, ["package.xml"], cutoff=0.8)
+                if close:
+                    wanted = f"{text.quote}{close}{text.quote}"
+                    swap = text.swap(node, wanted)
+                    return reader.fault("no_copy_close", node, swap, name=path, wanted=close)
                 splices = reader.without(node, named) or reader.without(pair, items)
                 return reader.fault("no_copy", node, *splices, name=path)
     return None
@@ -361,6 +454,11 @@ LOOKS: tuple[tuple[str, Callable[[_Reader, re.Match[str]], SetupFault | None]], 
     (r"AssertionError$", _file_alone),
     (r"error: can't copy '(?P<path>[^'\n]{1,300})': doesn't exist", _not_copied),
     (r"colcon cannot read", _function_given),
+    (r"setup\(\) was never called", _never_called),
+    (r"error: error in 'egg_base' option: '(?P<path>[^'\n]{1,200})'", _no_source_folder),
+    (r"OSError: Path ", _of_ros_1),
 )
+NOT_REACHED = "setup() was never called"
+"""Stands for the error if setup.py ends before setup() has done its work."""
 UNREAD = "colcon cannot read"
 """Stands for the error if colcon does not understand what setup.py answers."""

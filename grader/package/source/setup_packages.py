@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from dataclasses import dataclass
 
+from grader.base.nearest import nearest
 from grader.package.edit.text import Splice
 from grader.package.source.module import Module, parse_module
 from grader.package.source.python import PythonFault, can_parse
@@ -18,7 +19,8 @@ class Packages:
     """The argument `packages` as it should be, its line, and the import that it needs, if any.
 
     `is_text` is whether it is a text: setuptools takes each of its letters for a folder.
-    `fixed` is the file after the change; None if no change is certain.
+    `misspelt` is the argument that was meant. `fixed` is the file after the change; None if no
+    change is certain.
     """
 
     wanted: str
@@ -26,6 +28,7 @@ class Packages:
     statement: str = ""
     is_text: bool = False
     fixed: bytes | None = None
+    misspelt: str = ""
 
 
 def setup_call(module: Module) -> ast.Call | None:
@@ -64,6 +67,12 @@ def packages_of(found: bytes, package: str, *, nested: bool) -> Packages:
     if module is None:
         return Packages(finds, None, imports)
     keyword = next((k for k in _keywords(module) if k.arg == "packages"), None)
+    if keyword is None and (meant := _meant(module)) is not None:
+        start = module.text.span(meant)[0]
+        name = meant.arg or ""
+        new = module.text.spliced([Splice(start, start + len(name), "packages")])
+        given = f"packages={module.text.code(meant.value)}"
+        return Packages(given, meant.value.lineno, fixed=new, misspelt=name)
     call, known = setup_call(module), "find_packages" in module.imports
     named = value_of(module, ast.Name("package_name", ast.Load())) == package
     name = "package_name" if named else f"{q}{package}{q}"
@@ -73,6 +82,13 @@ def packages_of(found: bytes, package: str, *, nested: bool) -> Packages:
     is_text = isinstance(value_of(module, keyword.value), str) if keyword else False
     fixed = _fixed(module, call, keyword, wanted, statement)
     return Packages(wanted, line, statement, is_text, fixed)
+
+
+def _meant(module: Module) -> ast.keyword | None:
+    """Return the argument of setup() whose name is nearly packages."""
+    names = [k.arg or "" for k in _keywords(module)]
+    close = nearest("packages", [n for n in names if n != "package_data"], cutoff=0.75)
+    return next((k for k in _keywords(module) if close and k.arg == close), None)
 
 
 def _keywords(module: Module) -> list[ast.keyword]:

@@ -39,6 +39,7 @@ def slip_of(found: bytes) -> Slip | None:
     text = Broken(source, code, fault, fault.line)
     return (
         _document(text)
+        or _shebang(text)
         or _answer(text)
         or _pasted(text)
         or next(filter(None, (look(text) for look in LOOKS)), None)
@@ -62,6 +63,22 @@ def _document(text: Broken) -> Slip | None:
             line = _line_at(text.source, match.end())
             return Slip("document", variant, line, text.source.line(line).strip())
     return None
+
+
+SHEBANG = "#!/usr/bin/env python3"
+LIKE_SHEBANG = re.compile(
+    r"[^\w\s#]{0,3}[ \t]?#?[ \t]?!?[ \t]?/?(?:usr|bin)/[\w/ .]{0,80}python[\d.]{0,6}\s*"
+)
+
+
+def _shebang(text: Broken) -> Slip | None:
+    """Return a first line that was meant as a shebang and does not begin with #."""
+    line = text.source.line(1)
+    if text.number != 1 or line.startswith("#") or LIKE_SHEBANG.fullmatch(line) is None:
+        return None
+    start = text.source.start_of(1)
+    new = text.source.spliced([Splice(start, start + len(line), SHEBANG)])
+    return Slip("shebang", "first_sign", 1, line.strip(), SHEBANG, new)
 
 
 CONFLICT = re.compile(r"^(?:<{7}|={7}|>{7})(?: |$)")

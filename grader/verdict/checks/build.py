@@ -8,18 +8,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import joined, say
+from grader.base.i18n.message import Message, joined, say
 from grader.base.nearest import nearest
 from grader.base.shown import shown
 from grader.mistakes.fixes.setup_cfg import KEYS
 from grader.mistakes.slips import description, words_of
-from grader.package.intake.choose import IGNORE
 from grader.package.source.module import parse_module
 from grader.package.source.names import dotted
 from grader.package.source.pasted import labels_in
 from grader.package.source.python import PythonFault
 from grader.package.source.setup_cfg import SetupCfgFault, read_setup_cfg
-from grader.package.source.setup_faults import UNREAD, SetupFault, setup_fault
+from grader.package.source.setup_faults import NOT_REACHED, UNREAD, SetupFault, setup_fault
 from grader.package.source.setup_packages import packages_of
 from grader.package.source.setup_py import called_value, entry_outside, missing_imports
 from grader.package.source.slips import slip_of
@@ -44,6 +43,13 @@ NO_FOLDER = re.compile(r"package directory '([^'\n]{1,200})' does not exist")
 NO_OPTION = re.compile(
     r"error in setup\.cfg: command '([\w-]{1,40})' has no such option '([\w-]{1,60})'"
 )
+EGG_BASE = re.compile(r"error: error in 'egg_base' option: '[^'\n]{1,200}'")
+NOT_WRITTEN = re.compile(
+    r"error: \[Errno \d{1,3}\] (?:Read-only file system|Permission denied): '(?P<path>[^'\n]{1,200})'"
+)
+IGNORED = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
+"""Files for which colcon passes over a folder."""
+EXITS = ("exit", "quit", "sys.exit", "os._exit", "os.abort")
 NEVER_CALLED = "was never called"
 BAD_GROUP = "ValueError: ('Invalid group name', "
 ANSWER = 'File "<unknown>", line '  # colcon evaluates setup.py's output, which has no file name
@@ -79,6 +85,9 @@ def colcon_builds(evidence: Evidence) -> Passed:
     if evidence.has_mistake("entry_point.mapping", "setup.missing"):
         raise Blocked(by="entry_point.mapping")
     if evidence.has_mistake("package.setup_cfg", "package.setup_cfg_syntax"):
+        raise Blocked(by="package.setup_cfg")
+    elsewhere = NOT_WRITTEN.search(build.log)
+    if evidence.has_failed("package.setup_cfg") and elsewhere is not None:
         raise Blocked(by="package.setup_cfg")
     of_group = evidence.has_mistake("entry_point.mapping", "setup.group_misspelt")
     if of_group and BAD_GROUP in build.log:
@@ -126,7 +135,9 @@ def _stopped(evidence: Evidence) -> Failed:
                 "it was still running after {seconds} s and was stopped",
                 seconds=f"{build.seconds:.0f}",
             ),
-            where=Where(file="setup.py"),
+            where=Where(file="setup.py", line=_ros_line(_setup_py(evidence))),
+            variant="node" if _ros_line(_setup_py(evidence)) else "",
+            words={"path": node_path(evidence)},
         )
     return Failed(
         "build.resource",
@@ -138,6 +149,17 @@ def _stopped(evidence: Evidence) -> Failed:
         where=Where(file="setup.py"),
         params={"limit": build.stopped_by},
     )
+
+
+def _ros_line(found: bytes) -> int | None:
+    """Return the line of setup.py that starts ROS: the code of a node is in it."""
+    try:
+        module = parse_module("setup.py", found)
+    except (PythonFault, RecursionError, MemoryError):
+        return None
+    calls = [n for n in module.nodes if isinstance(n, ast.Call) and module.uses_ros]
+    lines = [n.lineno for n in calls if dotted(n.func) in ("rclpy.init", "rclpy.spin")]
+    return min(lines, default=None)
 
 
 def _broken(evidence: Evidence) -> Failed:
@@ -162,10 +184,21 @@ def _broken(evidence: Evidence) -> Failed:
         )
     if NEVER_CALLED in build.log:
         never = _never_called(_setup_py(evidence))
+        refused = _fault(evidence, NOT_REACHED)
+        if refused is not None:
+            return Failed(
+                "build.exited",
+                expected=expected,
+                actual=_never(refused.variant),
+                where=Where(file="setup.py", line=refused.line),
+                variant=refused.variant,
+                params={"error": NOT_REACHED},
+                words=refused.words,
+            )
         return Failed(
             "build.exited",
             expected=expected,
-            actual=say("setup.py ended before it called setup()"),
+            actual=_never(never.variant),
             where=Where(file="setup.py", line=line or never.line),
             variant=never.variant,
             words={"path": node_path(evidence), "name": never.function},
@@ -175,12 +208,14 @@ def _broken(evidence: Evidence) -> Failed:
     folder = NO_FOLDER.search(build.log)
     if folder is not None or FLAT in build.log:
         return _not_packaged(evidence, expected, shown(folder[1]) if folder is not None else "")
-    if evidence.submission.file(IGNORE) is not None and NOTHING_BUILT in build.log:
+    ignored = [name for name in IGNORED if evidence.submission.file(name) is not None]
+    if ignored and NOTHING_BUILT in build.log:
         return Failed(
             "build.ignored",
             expected=expected,
             actual=_summary(build.log),
-            where=Where(file=IGNORE),
+            where=Where(file=ignored[0]),
+            words={"name": ignored[0]},
         )
     stop = cmake_error(build.log)
     if stop is not None and evidence.submission.package(stop.package) is not None:
@@ -195,7 +230,7 @@ def _broken(evidence: Evidence) -> Failed:
     if option is not None:
         return _unknown_option(evidence, expected, option)
     ended = say("colcon ended with status {status}", status=str(build.status))
-    copy = NO_COPY.search(build.log)
+    copy = NO_COPY.search(build.log) or EGG_BASE.search(build.log)
     fault = _fault(evidence, copy[0]) if copy is not None else None
     if copy is not None and fault is not None:
         return Failed(
@@ -245,7 +280,7 @@ def _not_packaged(evidence: Evidence, expected: str, folder: str) -> Failed:
     package = evidence.assignment.package
     found = packages_of(_setup_py(evidence), package, nested=has_subpackages(evidence))
     actual = say("setup() has no argument packages=")
-    variant = "import" if found.statement else "argument"
+    variant = "import" if found.statement else "misspelt" if found.misspelt else "argument"
     if folder:
         actual = say("setup.py names a folder that is not in the package: {folder}", folder=folder)
         variant = "import" if found.statement else "text" if found.is_text else "folder"
@@ -256,7 +291,7 @@ def _not_packaged(evidence: Evidence, expected: str, folder: str) -> Failed:
         where=Where(file="setup.py", line=found.line),
         variant=variant,
         params={"folder": folder} if folder else {},
-        words={"wanted": found.wanted, "statement": found.statement},
+        words={"wanted": found.wanted, "statement": found.statement, "name": found.misspelt},
     )
 
 
@@ -297,6 +332,8 @@ def _never_called(found: bytes) -> _NeverCalled:
     except (PythonFault, RecursionError, MemoryError):
         return _NeverCalled()
     calls = [n for n in module.nodes if isinstance(n, ast.Call)]
+    raises = any(isinstance(n, ast.Raise) for n in module.nodes)
+    exits = raises or any(dotted(n.func) in EXITS for n in calls)
     calls = [n for n in calls if dotted(n.func) in ("setup", "setuptools.setup")]
     if not calls:
         return _NeverCalled("node" if module.uses_ros else "missing")
@@ -307,7 +344,23 @@ def _never_called(found: bytes) -> _NeverCalled:
             inside = set(ast.walk(statement))
             if all(call in inside for call in calls):
                 return _NeverCalled("function", statement.lineno, statement.name)
+    if not exits and any(n in ast.walk(s) for n in calls for s in _plain(module.tree.body)):
+        return _NeverCalled("refused", calls[0].lineno)
     return _NeverCalled()
+
+
+def _plain(body: list[ast.stmt]) -> list[ast.stmt]:
+    """Return the statements that always run."""
+    return [s for s in body if isinstance(s, ast.Expr | ast.Assign)]
+
+
+def _never(variant: str) -> Message:
+    """Return what is known if setup() did not finish its work."""
+    if variant in ("refused", "entries_list", "entries_dict"):
+        return say("setuptools stopped in setup(), and gave no reason")
+    if variant == "guard":
+        return say("the condition above setup() is never true, so nothing calls it")
+    return say("setup.py ended before it called setup()")
 
 
 def _unquoted(found: bytes, error: str) -> ast.Name | None:

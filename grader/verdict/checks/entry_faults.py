@@ -61,8 +61,11 @@ def _failed(
     )
 
 
-def broken(evidence: Evidence, entry: Entry) -> Failed:
-    """Return the fault of an entry that setuptools cannot read; any such entry stops the build."""
+def broken(evidence: Evidence, entry: Entry, *, is_other: bool) -> Failed:
+    """Return the fault of an entry that setuptools cannot read; any such entry stops the build.
+
+    With `is_other` the required entry is there too.
+    """
     pieces = [piece for piece, _ in entry.pieces]
     if len(pieces) > 1 and sum("=" in piece or ":" in piece for piece in pieces) > 1:
         return _failed(
@@ -73,7 +76,7 @@ def broken(evidence: Evidence, entry: Entry) -> Failed:
             line=str(entry.pieces[0][1]),
         )
     executable = evidence.assignment.executable
-    is_wanted = entry.name == executable or executable in entry.text
+    is_wanted = entry.name == executable or (executable in entry.text and not is_other)
     mistake = _fault_of(entry.text, entry.target)
     variant = "" if is_wanted else "other"
     if mistake == "setup.bad_entry" and NAME_IN_BRACES.search(entry.text):
@@ -229,7 +232,10 @@ def _misplaced(evidence: Evidence, entry: Misplaced) -> Failed:
     actual, variant = say("it is in {argument} instead", argument=argument), ""
     if argument.endswith(("require", "requires")):
         variant = "requirement"
-    if not argument:
+    if entry.variable:
+        variant = "late" if entry.is_late else "variable"
+        actual = say("setup() does not get {name}", name=shown(entry.variable))
+    elif not argument:
         actual = say("it is outside of setup()")
     elif argument == "console_scripts":
         actual, variant = say("console_scripts is outside of entry_points"), "group"
@@ -239,8 +245,12 @@ def _misplaced(evidence: Evidence, entry: Misplaced) -> Failed:
         actual=actual,
         where=Where(file="setup.py", line=entry.line),
         variant=variant,
-        params={"entry": shown(entry.text), "argument": argument},
-        words={"wanted": wanted_entry(evidence)},
+        params={
+            "entry": shown(entry.text),
+            "argument": argument,
+            **({"variable": shown(entry.variable)} if variant == "variable" else {}),
+        },
+        words={"wanted": wanted_entry(evidence), "name": shown(entry.variable)},
     )
 
 

@@ -26,9 +26,10 @@ from grader.verdict.checks.parsed import (
     printable_reason,
     setup_py_of,
 )
-from grader.verdict.outcome import Failed, Passed
+from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
+    from grader.package.source.setup_py import SetupPy
     from grader.verdict.evidence import Evidence
 
 
@@ -51,7 +52,8 @@ def mapping_from_source(evidence: Evidence) -> Passed | None:
     entries = points.group(CONSOLE)
     for entry in entries:
         if not entry.valid:
-            raise entry_faults.broken(evidence, entry)
+            right = any(other.valid and other.name == assignment.executable for other in entries)
+            raise entry_faults.broken(evidence, entry, is_other=right)
     named = [entry for entry in entries if entry.name == assignment.executable]
     if len(named) > 1:
         raise entry_faults.duplicate(evidence, named)
@@ -62,10 +64,25 @@ def mapping_from_source(evidence: Evidence) -> Passed | None:
         raise created_inside or entry_faults.missing(evidence, points, setup)
     entry = named[0]
     if "".join(entry.target.split()) != assignment.target:
+        if _comes_from_name(evidence, setup, entry.target):
+            raise Blocked(by="package.manifest")
         raise entry_faults.other_target(evidence, entry)
     text = shown(f"{entry.name} = {entry.target}")
     said = say("{file}, line {line}: {entry}", file=entry.file, line=entry.line, entry=text)
     return Passed(actual=said, advice=_advice(evidence))
+
+
+def _comes_from_name(evidence: Evidence, setup: SetupPy, target: str) -> bool:
+    """Whether only the wrong name of the package, set once in setup.py, makes a target wrong."""
+    file = file_of(evidence, "setup.py")
+    if setup.name is None or file is None:
+        return False
+    if not evidence.has_mistake("package.manifest", "package.name_mismatch"):
+        return False
+    name = setup.name.value
+    once = file.data.count(name.encode()) == 1
+    rest = evidence.assignment.target.removeprefix(evidence.assignment.package)
+    return once and "".join(target.split()) == name + rest
 
 
 def _no_setup_py(reason: str, inner: str) -> Failed:

@@ -45,6 +45,8 @@ def mapping(evidence: Evidence) -> Passed:
                 entry = f"{name} = {target}"
                 return Passed(actual=say("{entry} (as setup.py computes it)", entry=entry))
             raise _computed(evidence, f"{name} = {target}")
+    if evidence.build.status != 0 and setup_error(evidence.build.log)[0]:
+        raise Blocked(by="build.colcon")
     none = say("no entry named {executable}", executable=assignment.executable)
     raise _computed(evidence, none)
 

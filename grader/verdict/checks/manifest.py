@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 import sys
 from collections.abc import Mapping
@@ -116,9 +117,19 @@ def _read(evidence: Evidence) -> Manifest:
             None,
         )
     try:
-        return read_manifest(file.data)
+        found = read_manifest(file.data)
     except ManifestError as error:
         raise _unusable(error, file.data) from None
+    try:
+        file.data.decode("utf-8")
+    except UnicodeDecodeError:
+        raise _failed(
+            "package.manifest_unreadable",
+            say("package.xml cannot be read: {reason}", reason=say("not UTF-8 text")),
+            1,
+            variant="encoding",
+        ) from None
+    return found
 
 
 def _unusable(error: ManifestError, found: bytes) -> Failed:
@@ -394,7 +405,9 @@ def _advice(manifest: Manifest, *, asked: bool) -> list[str]:
     """Return advice that costs no points; `asked`: a check asks for the dependencies."""
     names = {element.text: element.line for element in manifest.depends}
     advice = _of_ros_1(names)
-    if "rclpy" not in names and not asked and not advice:
+    parts = {part for name in names for part in re.split(r"[\s,;]+", name)}
+    is_named = "rclpy" in parts or any(meant_package(name) == "rclpy" for name in names)
+    if not is_named and not asked and not advice:
         advice.append(
             say(
                 "package.xml does not say that the package needs rclpy: add "
@@ -403,7 +416,16 @@ def _advice(manifest: Manifest, *, asked: bool) -> list[str]:
         )
     for name, line in sorted(names.items()):
         close = meant_package(name)
-        if close:
+        if re.search(r"\S[\s,;]+\S", name):
+            advice.append(
+                say(
+                    "package.xml, line {line}: '{name}' is more than one name. Write a <depend> of "
+                    "its own for each package.",
+                    line=line,
+                    name=shown(name),
+                )
+            )
+        elif close:
             unknown = say(
                 "package.xml, line {line}: the dependency '{name}' is not known",
                 line=line,

@@ -336,7 +336,7 @@ def _slip(path: str, text: str, kind: str, slip: Slip) -> Failed:
         where=Where(file=path, line=slip.line),
         variant=slip.variant,
         params={"what": slip.variant} if slip.cause in ("pasted", "document") else params,
-        words=words_of(slip),
+        words={**words_of(slip), "file": shown(path.rpartition("/")[2])},
     )
 
 
@@ -439,9 +439,9 @@ def _no_shebang(evidence: Evidence, path: str, data: bytes, first: bytes) -> Fai
     later = [n for n, line in enumerate(data.splitlines()[:20], 1) if line[:2] == b"#!" and n > 1]
     line: int | None = 1
     actual: str
-    slip = slip_of(data) if later else None
+    slip = slip_of(data)
     pasted: Pasted | Slip | None = _above_shebang(data, later[0] if later else 2)
-    if slip is not None and slip.variant == "around" and slip.line < later[0]:
+    if slip is not None and slip.variant == "around" and later and slip.line < later[0]:
         pasted = slip
     if pasted is not None:
         return _pasted_first(path, pasted)
@@ -465,12 +465,14 @@ def _no_shebang(evidence: Evidence, path: str, data: bytes, first: bytes) -> Fai
         if not data.strip():
             actual = say("the file is empty")
     variant, words = _named(evidence, path)
+    if slip is not None and slip.cause == "shebang":
+        variant = slip.variant
     return Failed(
         mistake,
         expected=say("line 1: {shebang}", shebang=SHEBANG),
         actual=actual,
         where=Where(file=shown(path), line=line),
-        variant=variant if mistake == "source.crlf" else "",
+        variant=variant if mistake == "source.crlf" or variant == "first_sign" else "",
         words=words,
     )
 
