@@ -192,6 +192,48 @@ SIGNS = {
     "line_above": msg(
         "Indent this line as far as line {line}: the lines of one block begin in the same column."
     ),
+    "behind_colon": msg(
+        "This line has its block behind the colon, so the block ends with the line, and line {line} "
+        "belongs to no block. Move this to a line of its own below, indented as far as line {line}: "
+        "{wanted}"
+    ),
+    "behind_colon_nothing": msg(
+        "This line has its block behind the colon, so the block ends with the line, and line {line} "
+        "belongs to no block. Delete the {wanted} behind the colon."
+    ),
+    "head_commented": msg(
+        "This line opens the block of line {line}, but is a comment. Remove the # and indent the "
+        "line by 4 spaces less than line {line}: {wanted}"
+    ),
+    "def_gone": msg(
+        "This line belongs to a method, and the def of the method is not there. Write above it, "
+        "indented as far as line {line}: {wanted}"
+    ),
+    "def_gone_unknown": msg(
+        "This line uses self, so it belongs to a method, but above it is no def with its name. Write "
+        "that line with def, indented as far as line {line}; or, if the line belongs to no method, "
+        "indent it as far as line {line}."
+    ),
+    "too_far": msg(
+        "A line is indented further only below a line that ends with a colon, and line {line} above "
+        "it does not. Indent it as far as line {line}, with {wanted} spaces, and the lines of its "
+        "block with it."
+    ),
+    "too_far_either": msg(
+        "A line is indented further only below a line that ends with a colon, and line {line} above "
+        "it does not. Indent both the same: as far as the lines of the block that they belong to."
+    ),
+    "too_far_margin": msg(
+        "A line is indented further only below a line that ends with a colon, and line {line} above "
+        "it does not. Delete the spaces before it, and as many before each line of its block."
+    ),
+    "margin": msg(
+        "The first line of the code begins at the left margin: delete the {wanted} spaces before it."
+    ),
+    "margin_all": msg(
+        "The first line of the code begins at the left margin: delete the {wanted} spaces before it, "
+        "and as many before each line below it."
+    ),
     "entry_parts": msg("An entry is one text, with the = inside its quotes. Write: {wanted}"),
     "assign_swapped": msg("The name that gets the value is on the left of the =. Write: {wanted}"),
     "assign_left": msg(

@@ -20,7 +20,7 @@ WORD = re.compile(r"[ \t]*(?P<word>\w{1,20})\b[^=(]{0,200}:[ \t]*$")
 
 def try_block(text: Broken) -> Slip | None:
     """Return what is wrong with the except or finally that a try: needs."""
-    head = _try_above(text) if any(known in text.fault.text for known in FAULTS) else None
+    head = try_above(text) if any(known in text.fault.text for known in FAULTS) else None
     if head is None:
         return None
     clause = CLAUSE.match(text.line) is not None
@@ -46,7 +46,7 @@ def try_block(text: Broken) -> Slip | None:
     return Slip("signs", "try_alone", head, shown, "", _caught(text, head), other=text.number)
 
 
-def _try_above(text: Broken) -> int | None:
+def try_above(text: Broken) -> int | None:
     """Return the line of the innermost try: above that has no except or finally."""
     widths: set[int] = set()
     for number in range(text.number - 1, 0, -1):

@@ -16,6 +16,7 @@ from grader.package.source.code_only import code_only
 from grader.package.source.pasted import WHOLE_LINES, cleaned, pasted_in
 from grader.package.source.slip_blocks import BLOCK_LOOKS, two_statements
 from grader.package.source.slip_brackets import open_bracket
+from grader.package.source.slip_indent import behind_colon, further_in
 from grader.package.source.slip_statements import STATEMENT_LOOKS
 from grader.package.source.slip_tabs import tab
 from grader.package.source.slip_try import try_block
@@ -437,6 +438,6 @@ def _global(text: Broken) -> Slip | None:
 
 
 LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
-    _conflict, _prose, _numbers, _brace, _global, _braces, _comment, _commas, _apostrophe, _quotes, _keys, open_bracket, tab, try_block,
-    *STATEMENT_LOOKS, *BLOCK_LOOKS, _other_sign, two_statements,
+    _conflict, _prose, _numbers, _brace, _global, _braces, _comment, _commas, _apostrophe, _quotes, _keys, open_bracket, tab, behind_colon, try_block,
+    *STATEMENT_LOOKS, *BLOCK_LOOKS, further_in, _other_sign, two_statements,
 )  # fmt: skip
