@@ -7,6 +7,7 @@ import re
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
+from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import node_timer
@@ -16,6 +17,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.endless import goes_on
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
+from grader.package.source.parameters import def_after, needed_besides_self, only_self, uses_of
 from grader.package.source.sleeps import longest_sleep
 
 DECORATORS = ("staticmethod", "classmethod", "property")
@@ -34,7 +36,22 @@ def _no_self(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     method = callback if callback is not None and callback.name == called else method
     if method is None or method.args.args:
         return None
-    return raised.finding("callback_no_self", at=method)
+    return _with_line(raised.finding("callback_no_self", at=method), raised, method)
+
+
+def _with_line(found: RecognisedMistake, raised: Raised, method: Function) -> RecognisedMistake:
+    """Return a mistake in a def with the line as it should be, if only parameters change in it."""
+    text = raised.source.module_of(method).text
+    change = only_self(text, method)
+    if change is None:
+        return found
+    needed = {argument.arg for argument in needed_besides_self(method)}
+    uses = uses_of(method, needed)
+    words = {**found.words, "wanted": shown(def_after(text, method, change))}
+    if not uses:
+        return replace(found, variant="line", words=words)
+    words |= {"found": uses[0].id, "line": str(min(use.lineno for use in uses))}
+    return replace(found, variant="used", words=words)
 
 
 def _parameter(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -43,7 +60,8 @@ def _parameter(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
         return None
     if match["name"] == "self" and _decorator(method):
         return None
-    return raised.finding("callback_parameter", at=method, name=match["name"])
+    found = raised.finding("callback_parameter", at=method, name=match["name"])
+    return _with_line(found, raised, method)
 
 
 def _decorator(method: Function) -> ast.expr | None:
@@ -104,6 +122,7 @@ KINDS = (
         ONLY_SELF,
         msg("Write: def {callback}(self):"),
         links.PYTHON_CLASSES,
+        fixes={"line": msg("Write: {wanted}")},
         seen=r"(?<!__init__\(\) )takes 0 positional arguments but 1 was given|ValueError: invalid method signature",
         raised={NO_PARAMETER: _no_self},
         fixed_by=(node_timer.callback_self,),
@@ -155,6 +174,13 @@ KINDS = (
         msg("The callback has more parameters than self"),
         ONLY_SELF,
         msg("Write: def {callback}(self): (only a subscription passes a message to its callback)."),
+        fixes={
+            "line": msg("Only a subscription passes a message to its callback. Write: {wanted}"),
+            "used": msg(
+                "Only a subscription passes a message to its callback. In line {line}, write the "
+                "value that you mean instead of {found}. Then write: {wanted}"
+            ),
+        },
         seen=r"TypeError: [\w.]{0,200}\(\) missing \d{1,3} required positional arguments?: "
         r"'(?P<name>\w{1,120})'",
         raised={

@@ -11,6 +11,7 @@ from grader.package.edit.text import Splice, indent_of
 from grader.package.source.counter import starts_of, targets_of
 from grader.package.source.names import dotted, own_name
 from grader.package.source.node import NodeSource
+from grader.package.source.parameters import needed_besides_self, only_self, uses_of
 from grader.package.source.period import is_right, number_in, origin_of
 from grader.package.source.timer import timer_of
 
@@ -129,26 +130,16 @@ def _timer_method(node: NodeSource) -> ast.FunctionDef | None:
 def callback_self(case: Case) -> Files | None:
     """Give the callback the single parameter self."""
     node = case.node
-    method = _timer_method(node) if node else None
-    if node is None or method is None or method.decorator_list:
+    if node is None:
         return None
-    text = node.module.text
-    arguments = method.args
-    if ast.unparse(arguments) == "":
-        line = text.line(method.lineno)
-        head = f"def {method.name}("
-        if line.count(head) != 1:
-            return None
-        at = text.start_of(method.lineno) + line.find(head) + len(head)
-        return case.changed(node.module, Splice(at, at, "self"))
-    names = [a.arg for a in arguments.args]
-    plain = len(names) == 2 and names[0] == "self" and not arguments.defaults
-    extra = [n for n in ast.walk(method) if isinstance(n, ast.Name) and n.id == names[-1]]
-    if not plain or extra or arguments.vararg or arguments.kwonlyargs or arguments.kwarg:
+    at = [m for m in node.own_methods if m.lineno == case.finding.line]
+    method = at[0] if len(at) == 1 else _timer_method(node)
+    if method is None or method.decorator_list:
         return None
-    start = text.span(arguments.args[0])[0] + len("self")
-    end = text.span(arguments.args[1])[1]
-    return case.changed(node.module, Splice(start, end, ""))
+    if uses_of(method, {argument.arg for argument in needed_besides_self(method)}):
+        return None
+    change = only_self(node.module.text, method)
+    return case.changed(node.module, change) if change is not None else None
 
 
 def period(case: Case) -> Files | None:
