@@ -29,6 +29,7 @@ PASTED_WHYS = {
     **dict.fromkeys(
         ("page", "markup", "notebook", "word", "conflict", "numbers", "prose", "around"), NO_CODE
     ),
+    **dict.fromkeys(("output", "note", "patch", "number_lines"), NO_CODE),
 }
 PASTED = {
     "quotes": msg("Type the quotes of that line again: ' or \" on the keyboard."),
@@ -52,6 +53,21 @@ PASTED = {
     "around": msg(
         "Keep only the code, lines {line} to {wanted}. Delete everything above and below it, the "
         "lines '{found}' too: that is the text of a chat or a web page, and not Python."
+    ),
+    "output": msg(
+        "Delete that line and those below it up to line {line}: a program printed them in the "
+        "terminal, and they are not code."
+    ),
+    "note": msg(
+        "Delete that line, and the others of this kind: they are text of a document, and not code. "
+        "To keep such a line, write a # before it."
+    ),
+    "patch": msg(
+        "These lines show a change (a patch, as git diff prints it). Delete each line that begins "
+        "with a -, and delete the + at the start of the other lines."
+    ),
+    "number_lines": msg(
+        "Delete lines 1 to {line}: they are the line numbers of a web page, not code."
     ),
     "numbers": msg("Remove the line numbers from the start of the lines: they are not code."),
 }
@@ -91,6 +107,21 @@ LANGUAGE = {
     "base": msg("The base class is in round brackets after the name. Write: {wanted}"),
     "member": msg("Python has a dot between an object and its part. Write: {wanted}"),
     "except": msg("Python has try: and except …: for errors, and raise instead of throw."),
+    "arrow": msg(
+        "Python has no =>. Write a method with def, and give its name without brackets; a short "
+        "function without a name begins with lambda."
+    ),
+    "then": msg(
+        "Python has no then and no do: a line that begins a block ends with a colon. Write: {wanted}"
+    ),
+    "do_while": msg(
+        "Python has no do … while. Delete line {line}, and write instead of this line: {wanted}"
+    ),
+    "this": msg("In a method, the object has the name self. Write: {wanted}"),
+    "constructor": msg(
+        "The constructor of a Python class is the method __init__, and its first parameter is self. "
+        "Write: {wanted}"
+    ),
     "choice": msg("Python has no ? : for a choice. Write: a if condition else b"),
     "backtick": msg("A text is in quotes, ' or \", not in backticks."),
     "assign": msg("Python assigns with =. Write: {wanted}"),
@@ -112,6 +143,7 @@ SIGNS = {
     ),
     "brace": msg("The brace in the f-string has no end. Write: {wanted}"),
     "brace_alone": msg("Remove the }} that closes no brace, or write the {{ before the value."),
+    "brace_twice": msg("In an f-string, each value is between one {{ and one }}. Write: {wanted}"),
     "brace_wrong": msg("In an f-string, each value is between {{ and }}. Correct the braces."),
     "quotes_inside": msg(
         "The values in this f-string have the same quotes as the f-string, which only Python 3.12 "
@@ -223,6 +255,10 @@ SIGNS = {
         "A line is indented further only below a line that ends with a colon, and line {line} above "
         "it does not. Indent both the same: as far as the lines of the block that they belong to."
     ),
+    "too_far_alone": msg(
+        "A line is indented further only below a line that ends with a colon, and line {line} above "
+        "it does not. Indent this line as far as line {line}."
+    ),
     "too_far_margin": msg(
         "A line is indented further only below a line that ends with a colon, and line {line} above "
         "it does not. Delete the spaces before it, and as many before each line of its block."
@@ -234,6 +270,54 @@ SIGNS = {
         "The first line of the code begins at the left margin: delete the {wanted} spaces before it, "
         "and as many before each line below it."
     ),
+    "operator_split": msg("The two signs of an operator are next to each other. Write: {wanted}"),
+    "operator_swapped": msg("The = is the second sign of <= and >=. Write: {wanted}"),
+    "quote_exact": msg("Add the missing quote. Write: {wanted}"),
+    "prefix_apart": msg("No space is between the letter and the quote. Write: {wanted}"),
+    "dot_bracket": msg("No dot is between a name and its brackets. Write: {wanted}"),
+    "parameter_outside": msg("The parameters of a def are inside its brackets. Write: {wanted}"),
+    "import_comma": msg("An import does not end with a comma. Write: {wanted}"),
+    "backslash_end": msg(
+        "A backslash continues a line only if nothing is behind it. Delete the spaces behind it."
+    ),
+    "colon_inside": msg("A line that begins a block has a colon before the block. Write: {wanted}"),
+    "lambda_statement": msg(
+        "A lambda contains one expression and no statement. Write this as lines of a method, and give "
+        "the method's name (self. and the name, without brackets) instead of the lambda: {wanted}"
+    ),
+    "quote_other": msg("A text begins and ends with the same quote. Write: {wanted}"),
+    "text_two_lines": msg(
+        "A text in simple quotes ends on the line where it begins. Join this line and line {line}: "
+        "{wanted}"
+    ),
+    "character_for": msg("Python does not know a sign of this line. Write: {wanted}"),
+    "character": msg(
+        "Python does not know a sign of this line, for example an emoji. Delete it: {wanted}"
+    ),
+    "character_note": msg(
+        "Python does not know the sign {wanted}. Delete it; or, if the line is a note and not code, "
+        "write a # before the line."
+    ),
+    "decorator": msg(
+        "A decorator belongs to the def or the class below it, and line {line} is neither. Delete "
+        "this line, or move it to the line above its def."
+    ),
+    "finally_first": msg(
+        "finally: is the last part of a try:. Move this line and its block, up to line {wanted}, above "
+        "line {line}."
+    ),
+    "clause_deeper": msg(
+        "{wanted} begins in the same column as the line to which it belongs. Indent this line as far "
+        "as line {line}."
+    ),
+    "clause_deeper_block": msg(
+        "{wanted} begins in the same column as the line to which it belongs. Indent this line as far "
+        "as line {line}, and the lines of its block by 4 spaces more."
+    ),
+    "lines_not_indented": msg(
+        "Line {line} ends with a colon, so its block comes next: indent this line, and those below it "
+        "up to line {wanted}, by 4 spaces more than line {line}."
+    ),
     "entry_parts": msg("An entry is one text, with the = inside its quotes. Write: {wanted}"),
     "assign_swapped": msg("The name that gets the value is on the left of the =. Write: {wanted}"),
     "assign_left": msg(
@@ -241,8 +325,8 @@ SIGNS = {
     ),
     "name_parts": msg("A name is one word, without spaces and without -. Write: {wanted}"),
     "word_as_name": msg(
-        "{wanted} is a word of Python and cannot be a name. Choose another name, for example "
-        "my_{wanted}."
+        "{wanted} is a word of Python and cannot be a name. Write another name in all lines that "
+        "use it, for example my_{wanted}."
     ),
     "word_misspelt": msg("A word of Python is misspelt. Write: {wanted}"),
     "parameter_dot": msg(
@@ -339,6 +423,10 @@ def description(slip: Slip | Pasted) -> Message:
         "heredoc": say("the end of a command of the shell: {found}", found=found),
         "editor": say("a command for the editor: {found}", found=found),
         "prose": say("a sentence: {found}", found=found),
+        "output": say("a line of a terminal's output: {found}", found=found),
+        "note": say("a line of a document: {found}", found=found),
+        "patch": say("a line of a patch: {found}", found=found),
+        "number_lines": say("a line number: {found}", found=found),
         "numbers": say("a line number: {found}", found=found),
     }
     return texts[slip.variant]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import Literal
 
@@ -60,6 +61,16 @@ class Broken:
         """Return the splice that replaces columns of the line at which Python stops."""
         begin = self.code.start_of(self.number)
         return Splice(begin + start, begin + end, new)
+
+    def expanded(self, match: re.Match[str], template: str) -> str:
+        """Return a template with the groups of a match in the line, as they are written there."""
+        written = self.source.line(self.number)
+
+        def value(part: re.Match[str]) -> str:
+            start, end = match.span(part["name"])
+            return written[start:end] if start >= 0 else ""
+
+        return re.sub(r"\\g<(?P<name>\w+)>", value, template)
 
     def slip(
         self, cause: Cause, variant: str, found: str, *splices: Splice, fixed: bytes | None = None

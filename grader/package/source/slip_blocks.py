@@ -121,11 +121,41 @@ def _not_indented(text: Broken) -> Slip | None:
         code = text.source.line(head).strip()
         return Slip("signs", "block_comment", head, code, "", new, other=text.number)
     own = len(indent_of(text.source.line(text.number)))
+    for lines in _lines_of_block(text, head) if own <= width else ():
+        columns = " " * (width + 4 - own)
+        starts = [text.source.start_of(n) for n in lines if text.source.line(n).strip()]
+        new = text.changed(*(Splice(at, at, columns) for at in starts))
+        if new is not None and can_parse(new):
+            return Slip("signs", "lines_not_indented", text.number, shown, str(lines[-1]), new,
+                        other=head)  # fmt: skip
     if own < width or re.match(r"[ \t]*(?:def|class|@|async|else|elif|except|finally)", text.line):
         return Slip("signs", "block_empty", head, text.source.line(head).strip(), other=text.number)
     alone = own == width and (_next_indent(text) > own or _ends_after(text))
     new = text.changed(text.within(0, 0, " " * 4)) if alone else None
     return Slip("signs", "not_indented", text.number, shown, "", new, other=head)
+
+
+def _lines_of_block(text: Broken, head: int) -> list[list[int]]:
+    """Return the lines that belong to a def above them, and are not indented: up to a blank line.
+
+    They are certain only if one of them uses self, or returns, or if the block goes on below them.
+    """
+    found = []
+    for number in range(text.number, len(text.code.lines) + 1):
+        row = text.code.line(number)
+        if not text.source.line(number).strip() or re.match(r"[ \t]*(?:def|class|@|async)", row):
+            break
+        found.append(number)
+    code = "\n".join(text.code.line(number) for number in found)
+    certain = re.search(r"\bself\.|^[ \t]*return\b", code, re.M) is not None
+    is_def = re.match(r"[ \t]*(?:async[ \t]+)?def\b", text.code.line(head)) is not None
+    first = [n for n in found if len(indent_of(text.code.line(n))) == len(indent_of(text.line))]
+    first = [n for at, n in enumerate(first) if n == text.number + at]
+    after = text.code.line(first[-1] + 1) if first else ""
+    goes_on = len(indent_of(after)) == len(indent_of(text.code.line(head))) + 4
+    ways = [found] if certain else []
+    ways += [first] if goes_on else []
+    return [way for way in ways if len(way) > 1] if is_def else []
 
 
 def _ends_after(text: Broken) -> bool:

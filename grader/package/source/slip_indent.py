@@ -163,11 +163,39 @@ def _too_far(text: Broken, above: Above) -> Slip | None:
     shown = text.source.line(text.number).strip()
     if _is_like_earlier(text, above.line):
         return Slip("signs", "too_far_either", text.number, shown, "", other=above.line)
-    new = _shifted(text, len(indent_of(text.source.line(text.number))) - len(wanted))
+    columns = len(indent_of(text.source.line(text.number))) - len(wanted)
+    new = _shifted(text, columns)
+    start = text.source.start_of(text.number)
+    alone = text.changed(Splice(start, start + columns, ""))
+    if alone is not None and can_parse(alone) and not (new is not None and can_parse(new)):
+        shown = text.source.line(text.number).strip()
+        return Slip("signs", "too_far_alone", text.number, shown, "", alone, other=above.line)
     if new is None:
         return None
     variant = "too_far" if wanted else "too_far_margin"
     return Slip("signs", variant, text.number, shown, str(len(wanted)), new, other=above.line)
+
+
+def first_of_block(text: Broken) -> Slip | None:
+    """Return the first line of a block that is not indented by 4 spaces, unlike those below it."""
+    above = _above(text) if EXTRA in text.fault.text else None
+    if above is None:
+        return None
+    head = getattr(above.around, "lineno", 0)
+    own, wrong = (indent_of(text.source.line(n)) for n in (text.number, above.line))
+    body = getattr(above.around, "body", [])
+    alone = len(body) == 1 and body[0].lineno == above.line
+    if (
+        not (head and alone and above.starts_line)
+        or len(own) != len(indent_of(text.source.line(head))) + 4
+    ):
+        return None
+    start = text.source.start_of(above.line)
+    new = text.source.spliced([Splice(start, start + len(wrong), own)])
+    if new is None or not can_parse(new):
+        return None
+    shown = text.source.line(above.line).strip()
+    return Slip("signs", "line_above", above.line, shown, "", new, other=text.number)
 
 
 def _is_like_earlier(text: Broken, above: int) -> bool:

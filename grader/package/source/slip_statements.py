@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 from grader.base.nearest import nearest
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.broken_python import MOST_TRIES, Broken, Slip
+from grader.package.source.python import can_parse
 
 Look = Callable[[Broken], Slip | None]
 PLACE = r"[A-Za-z_][\w.]{0,120}"
@@ -83,7 +84,7 @@ def _name_parts(text: Broken) -> Slip | None:
     if match is None or INHERITS.search(match["name"]):
         return None
     parts = re.split(r"[ \t-]+", match["name"])
-    name = "_".join(parts)
+    name = re.sub(r"(?<=_)_-_|[ \t-]+", "_", re.sub(r"(?<=_)[ \t]+|[ \t]+(?=_)", "", match["name"]))
     if match["word"] == "class":
         name = "".join(part[:1].upper() + part[1:] for part in parts)
     splice = text.within(*match.span("name"), name)
@@ -99,8 +100,19 @@ def _word_as_name(text: Broken) -> Slip | None:
             other = text.within(match.end("name"), match.end("name"), "_")
             if text.changed(other) is not None:
                 shown = text.source.line(text.number).strip()
-                return Slip("signs", "word_as_name", text.number, shown, match["name"])
+                new = _renamed(text, match["name"])
+                return Slip("signs", "word_as_name", text.number, shown, match["name"], new)
     return None
+
+
+def _renamed(text: Broken, word: str) -> bytes | None:
+    """Return the file with another name for an attribute or a method, if Python then reads it."""
+    code, written = text.code.text, text.source.text  # (a value in an f-string is not in the code)
+    ends = {at.end() for at in re.finditer(rf"\b(?:def|class)[ \t]+(?={word}\b)", code)}
+    ends |= {at.end() for at in re.finditer(rf"\.[ \t]*(?={word}\b)", code)}
+    ends |= {at.end() for at in re.finditer(rf"\bself\.(?={word}\b)", written)}
+    new = text.source.spliced([Splice(at, at, "my_") for at in ends])
+    return new if new is not None and can_parse(new) else None
 
 
 def _word(text: Broken) -> Slip | None:

@@ -10,16 +10,18 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from grader.package.edit.text import SourceText, Splice, read_source
+from grader.package.edit.text import SourceText, Splice, indent_of, read_source
 from grader.package.source.broken_python import BLOCK, LONGEST, MOST_TRIES, Broken, Slip, fault_of
 from grader.package.source.code_only import code_only
 from grader.package.source.pasted import WHOLE_LINES, cleaned, pasted_in
 from grader.package.source.slip_blocks import BLOCK_LOOKS, two_statements
 from grader.package.source.slip_brackets import open_bracket
-from grader.package.source.slip_indent import behind_colon, further_in
+from grader.package.source.slip_indent import behind_colon, first_of_block, further_in
+from grader.package.source.slip_output import OUTPUT_LOOKS
 from grader.package.source.slip_statements import STATEMENT_LOOKS
 from grader.package.source.slip_tabs import tab
 from grader.package.source.slip_try import try_block
+from grader.package.source.slip_typed import LATE_LOOKS, QUOTE_LOOKS, TYPED_LOOKS
 
 TYPES = (
     "int|float|double|bool|boolean|string|String|var|let|const|auto|char|long|size_t|std::string"
@@ -28,6 +30,7 @@ HEAD = re.compile(
     rf"^[ \t]*(?:{BLOCK})\b[^\r\n{{}}]*?(?P<brace>[ \t]{{0,9}}:?[ \t]{{0,9}}\{{)[ \t]{{0,9}}$", re.M
 )
 CLOSER = re.compile(r"^[ \t]{0,80}\}[ \t]{0,9};?[ \t]{0,9}$", re.M)
+MODIFIERS = "private|public|protected|static|final|const|constexpr|readonly|volatile"
 MOST_BLOCKS = 50
 
 
@@ -141,23 +144,34 @@ def _prose(text: Broken) -> Slip | None:
     return Slip("pasted", "prose", text.number, written, fixed=new)
 
 
-NUMBERED = re.compile(r"[ \t]*\d{1,4}(?:[.:|]|[ \t])[ \t]?(?=[A-Za-z_#@ \t'\"]|$)")
+NUMBER = r"[ \t]*\d{1,4}"
+CODE = r"(?=[A-Za-z_#@ \t'\"]|$)"
+NUMBERED = tuple(
+    re.compile(f"{NUMBER}{between}{CODE}")
+    for between in (r"(?:[.:|][ \t]?|[ \t])", r"[.:| \t][ \t]?")
+)
+"""A line number, and what is between it and the code: as little as possible."""
 
 
 def _numbers(text: Broken) -> Slip | None:
     """Return line numbers that were pasted with the code."""
-    at = [n for n, _ in enumerate(text.source.lines, 1) if NUMBERED.match(text.code.line(n))]
+    found = (_numbers_before(text, pattern) for pattern in NUMBERED)
+    return next(filter(None, found), None)
+
+
+def _numbers_before(text: Broken, pattern: re.Pattern[str]) -> Slip | None:
+    at = [n for n, _ in enumerate(text.source.lines, 1) if pattern.match(text.code.line(n))]
     if text.number not in at:
         return None
     splices = []
     for number in at:
-        match = NUMBERED.match(text.source.line(number))
+        match = pattern.match(text.source.line(number))
         start = text.source.start_of(number)
         splices.append(Splice(start, start + (match.end() if match else 0), ""))
     new = text.changed(*splices)
     if new is None:
         return None
-    match = NUMBERED.match(text.line)
+    match = pattern.match(text.line)
     return Slip("pasted", "numbers", text.number, (match[0] if match else "").strip(), fixed=new)
 
 
@@ -200,6 +214,13 @@ COMMENTS = (
     _rule("comment", r"//", "#", certain=False),
     _rule("comment", r"/\*(?P<text>.*)\*/[ \t]*$", r"#\g<text>", certain=False),
     _rule("comment", r"^[ \t]*/\*", None),
+    _rule("comment", r"^(?P<start>[ \t]*)--[ \t]*(?=\w)", r"\g<start># ", certain=False),
+    _rule(
+        "comment",
+        r"(?P<start>^[ \t]*|[ \t]{2,})%[ \t]*(?=[A-Za-z]+[ \t]+[A-Za-z])",
+        r"\g<start># ",
+        certain=False,
+    ),
 )
 RULES = (
     _rule("increment", r"^(?P<start>[ \t]*[\w.]+)[ \t]*(?P<sign>[+-])(?P=sign)[ \t]*;?[ \t]*$",
@@ -211,8 +232,12 @@ RULES = (
     _rule("operator", r"[ \t]{0,9}\|\|[ \t]{0,9}", " or "),
     _rule("operator", r"(?<![\w)\]'\"])!(?!=)[ \t]*", "not "),
     _rule("elif", r"^(?P<start>[ \t]*)(?:else[ \t]+if|elseif|elsif)\b", r"\g<start>elif"),
-    _rule("declaration", rf"^(?P<start>[ \t]*)(?:{TYPES})[ \t]+(?=[A-Za-z_][\w.]*[ \t]*=(?!=))",
+    _rule("declaration", rf"^(?P<start>[ \t]*)(?:(?:{MODIFIERS})[ \t]+)*(?:(?:{TYPES}|{MODIFIERS})[ \t]+)(?=[A-Za-z_][\w.]*[ \t]*=(?!=))",
           r"\g<start>"),
+    _rule("then", r"^(?P<start>[ \t]*(?:if|elif|while|for)\b.*?)[ \t]+(?:then|do)[ \t]*:?[ \t]*$",
+          r"\g<start>:", certain=False),
+    _rule("comment", r"(?P<start>[ \t])%[ \t]+(?=[A-Za-z]+(?:[ \t]+[A-Za-z]+){2})", r"\g<start># ", certain=False),
+    _rule("this", r"\bthis[ \t]*(?:->|\.)[ \t]*(?=[A-Za-z_])", "self.", certain=False),
     _rule("function", r"^(?P<start>[ \t]*)(?:(?:public|private|static|async)[ \t]+)?"
           r"(?:function|func|fn|fun|void|sub|define|defn)[ \t]+(?=\w+[ \t]*\()", r"\g<start>def "),
     _rule("new", r"\bnew[ \t]+(?=[A-Za-z_][\w.]*[ \t]*\()", ""),
@@ -227,6 +252,9 @@ RULES = (
     _rule("member", r"(?<=\w)::(?=[A-Za-z_])", ".", certain=False),
     _rule("except", r"^[ \t]*(?:\}[ \t]*)?catch\b", None),
     _rule("except", r"^(?P<start>[ \t]*)throw\b", r"\g<start>raise"),
+    _rule("function", r"^(?P<start>[ \t]*)(?P<name>\w+)[ \t]*=[ \t]*\((?P<given>[^()]*)\)[ \t]*=>[ \t]*\{?[ \t]*$",
+          r"\g<start>def \g<name>(\g<given>):", certain=False),
+    _rule("arrow", r"=>", None),
     _rule("choice", r"\?", None),
     _rule("backtick", r"`", None),
     _rule("assign", r"^(?P<start>[ \t]*[A-Za-z_][\w.]*[ \t]*):=", r"\g<start>="),
@@ -260,14 +288,14 @@ def _ways(text: Broken, rule: Rule, matches: list[re.Match[str]]) -> Iterator[li
     """Yield the changes to try: `//` divides before the last one, and a line can have all of
     `&&`, `||` and `!`.
     """
-    if rule.variant == "comment":
+    if rule.variant == "comment" and rule.new in ("#", r"#\g<text>"):
         yield from ([_as_comment(text, match)] for match in reversed(matches))
         return
     alike = (
         [r for r in RULES if r.variant == rule.variant] if rule.variant == "operator" else [rule]
     )
     yield [
-        text.within(*match.span(), match.expand(other.new or ""))
+        text.within(*match.span(), text.expanded(match, other.new or ""))
         for other in alike
         for match in list(other.pattern.finditer(text.line))[:MOST_TRIES]
     ]
@@ -279,6 +307,24 @@ def _as_comment(text: Broken, match: re.Match[str]) -> Splice:
     written = text.source.line(text.number)[start:end]
     words = written[2:].rstrip().removesuffix("*/").rstrip() if written[1:2] == "*" else ""
     return text.within(start, end, f"#{words}")
+
+
+def _do_while(text: Broken) -> Slip | None:
+    """Return a loop that begins with do and has its condition below."""
+    if re.fullmatch(r"[ \t]*do[ \t]*[:{]?[ \t]*", text.line) is None:
+        return None
+    indent = indent_of(text.line)
+    for number in range(text.number + 1, len(text.code.lines) + 1):
+        row = text.code.line(number)
+        if row.strip() and indent_of(row) == indent:
+            if re.match(r"[ \t]*while\b", row) is None:
+                return None
+            wanted = text.source.line(number)[: len(row.rstrip())].strip().rstrip(";: \t") + ":"
+            start, end = text.source.start_of(text.number), text.source.end_of(text.number)
+            new = text.changed(Splice(start, end, indent + wanted), text.source.without(number))
+            return Slip("language", "do_while", text.number, text.line.strip(), wanted, new,
+                        other=number)  # fmt: skip
+    return None
 
 
 def _braces(text: Broken) -> Slip | None:
@@ -418,13 +464,44 @@ def _brace(text: Broken) -> Slip | None:
     written = text.source.line(text.number)
     if "f-string" not in text.fault.text and "'{' was never closed" not in text.fault.text:
         return None
+    if re.search(r"\b[rR]?[fF][rR]?['\"]", written) is None and "f-string" not in text.fault.text:
+        return None
     for match in list(re.finditer(r"f(['\"])[^'\"{}]*\{[^'\"{}]+(?=\1)", written))[:MOST_TRIES]:
         splice = text.within(match.end(), match.end(), "}")
         new = text.changed(splice)
         if new is not None:
             return text.slip("signs", "brace", written, splice, fixed=new)
     single = "single '}'" in text.fault.text
+    for sign in ("}", "{") if single else ():
+        for match in list(re.finditer(re.escape(sign * 2), written))[:MOST_TRIES]:
+            splice = text.within(match.start(), match.start() + 1, "")
+            new = text.changed(splice)
+            if new is not None:
+                return text.slip("signs", "brace_twice", written, splice, fixed=new)
     return text.slip("signs", "brace_alone" if single else "brace_wrong", written)
+
+
+CONSTRUCTOR = re.compile(
+    r"(?P<start>[ \t]+)(?P<head>(?:(?:def|function|public)[ \t]+)?(?:constructor|__construct|init)"
+    r"[ \t]*\((?P<given>[^()]*)\))[ \t]*[:{]?[ \t]*"
+)
+
+
+def _constructor(text: Broken) -> Slip | None:
+    """Return a constructor under its name of another language, without def."""
+    match = CONSTRUCTOR.fullmatch(text.line)
+    if match is None or re.search(r"\bdef[ \t]+__init__", text.code.text):
+        return None
+    given = text.source.line(text.number)[match.start("given") : match.end("given")].strip()
+    given = (
+        given if re.match(r"self\b", given) else ", ".join(["self", *([given] if given else [])])
+    )
+    end = len(text.line.rstrip())
+    splice = text.within(match.start("head"), end, f"def __init__({given}):")
+    new = text.changed(splice)
+    if new is None:
+        return None
+    return text.slip("language", "constructor", match["head"], splice, fixed=new)
 
 
 def _global(text: Broken) -> Slip | None:
@@ -438,6 +515,6 @@ def _global(text: Broken) -> Slip | None:
 
 
 LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
-    _conflict, _prose, _numbers, _brace, _global, _braces, _comment, _commas, _apostrophe, _quotes, _keys, open_bracket, tab, behind_colon, try_block,
-    *STATEMENT_LOOKS, *BLOCK_LOOKS, further_in, _other_sign, two_statements,
+    _conflict, _prose, *OUTPUT_LOOKS, _numbers, _brace, _global, _do_while, _constructor, _braces, _comment, _commas, _apostrophe, *QUOTE_LOOKS, _quotes, _keys, open_bracket, tab, behind_colon, try_block,
+    *TYPED_LOOKS, *STATEMENT_LOOKS, first_of_block, *BLOCK_LOOKS, further_in, _other_sign, *LATE_LOOKS, two_statements,
 )  # fmt: skip
