@@ -16,6 +16,7 @@ from grader.mistakes.recognised import OWN_ATTRIBUTE, Raised, RecognisedMistake,
 from grader.package.edit.tree import Replace
 from grader.package.source.commented import commented
 from grader.package.source.counter import targets_of
+from grader.package.source.hidden_def import HiddenDef, hidden_def
 from grader.package.source.module import Function
 from grader.package.source.names import last_part
 from grader.package.source.node import NodeSource
@@ -85,7 +86,19 @@ def _attribute(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
     name = match["name"]
     if not of_self(raised, match) or f"self.{name}" in _assigned(raised.source):
         return None
+    found = hidden_def(raised.source.module.text, name, raised.source.class_body)
+    if found is not None:
+        return _def(raised, name, found)
     return _raised(raised, rf"self\.{name}[ \t]*=(?!=)|def {name}\(")
+
+
+def _def(raised: Raised, name: str, found: HiddenDef) -> RecognisedMistake:
+    """Return the mistake of a method whose def is in a comment, or in a text in three quotes."""
+    mistake = raised.finding("commented_out", written=found.code, name=name)
+    words = {**mistake.words, "line": str(found.last), "wanted": str(found.first)}
+    variant = "text" if found.is_text else "def" if found.fixed is not None else "def_lines"
+    where = Where(file=raised.source.module.path, line=found.line)
+    return replace(mistake, where=where, variant=variant, words=words)
 
 
 def _assigned(source: NodeSource) -> set[str]:
@@ -114,9 +127,26 @@ KINDS = (
     _node(
         "commented_out",
         "file",
-        msg("A line that the node needs is a comment"),
+        msg("A line that the node needs is in a comment or in a text"),
         msg("Python does not run what is behind a # on the same line."),
         msg("Write {written} on a line of its own, without # before it."),
+        whys={
+            "text": msg("What is between three quotes is a text, and Python does not run it."),
+        },
+        fixes={
+            "def": msg(
+                "Write {written} on a line of its own, without # before it, and in the column of the "
+                "other methods: the lines below it are its block."
+            ),
+            "def_lines": msg(
+                "Write {written} on a line of its own, without # before it. Do the same with the "
+                "lines of its block, if they are comments too."
+            ),
+            "text": msg(
+                "Delete the three quotes in line {wanted} and in line {line}: the lines between them, "
+                "with {written}, are code."
+            ),
+        },
         raised={
             OWN_ATTRIBUTE: _attribute,
             NAME_ERROR: _name,
@@ -127,7 +157,7 @@ KINDS = (
             "run.exits_at_once": _ends,
             "run.constant_counter": _constant,
         },
-        fixed_by=(node_words.uncommented,),
+        fixed_by=(node_words.uncommented, node_words.shown_def),
         examples=(
             example(
                 "step_in_comment",

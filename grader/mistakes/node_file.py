@@ -366,6 +366,10 @@ KINDS = (
             "Encoding' and 'UTF-8'. If you save before you reopen, the text is lost."
         ),
         fixes={
+            "declared": msg(
+                "The file is UTF-8, but line {line} declares the encoding {found}. Delete that line: "
+                "Python expects UTF-8 without it."
+            ),
             "korean": msg(
                 "In VS Code, click the encoding (UTF-8) at the bottom right. Choose 'Reopen with "
                 "Encoding' first, and 'Korean (EUC-KR)': the text is readable again. Then click it "
@@ -375,6 +379,11 @@ KINDS = (
             "saved": msg(
                 "Save the file as UTF-8. In VS Code: click the encoding at the bottom right, then "
                 "choose 'Save with Encoding' and 'UTF-8'."
+            ),
+        },
+        whys={
+            "declared": msg(
+                "Python reads a source file in the encoding that a comment in line 1 or 2 declares."
             ),
         },
         link=links.PYTHON_SYNTAX,

@@ -27,7 +27,7 @@ KOREAN = "x = '안녕하세요'  # 1초마다 시간을 출력한다\n"
         ("# 毎秒表示します\n".encode("shift_jis"), ""),
         (KOREAN.encode("utf-16"), "saved"),
         (KOREAN.encode() + b"# \xfc\n", "saved"),
-        (b"# coding: utf-7\n", "saved"),
+        (b"# coding: utf-7\n", "declared"),
     ],
 )
 def test_the_encoding_is_recognised(found: bytes, kind: str) -> None:

@@ -8,6 +8,7 @@ from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.syntax import without_labels
 from grader.package.edit.files import Files
 from grader.package.edit.text import BOM, MOST_BYTES, read_source
+from grader.package.source.numbers_above import numbers_above
 from grader.package.source.python import SHEBANG, can_parse
 
 SCRIPT = re.compile(r"[#!\s]*(?:/|\b)(?:usr/|bin/|env\b)[\w/ .-]*python[\d.]*\s*", re.IGNORECASE)
@@ -42,6 +43,8 @@ def shebang(case: Case) -> Files | None:
     """Put the shebang on line 1: moved up, fixed, or added."""
     found = case.files.data(case.judged_path)
     found = without_labels(found) if found is not None else None
+    if found is not None:
+        found = b"".join(found.splitlines(keepends=True)[numbers_above(found) :])
     text = read_source(found)
     if found is None or text is None or text.mark or not found.strip():
         return None

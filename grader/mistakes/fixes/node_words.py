@@ -11,6 +11,7 @@ from grader.package.edit.text import Splice
 from grader.package.source.commented import commented
 from grader.package.source.commented import uncommented as uncommented_in
 from grader.package.source.counter import logged_counter, targets_of
+from grader.package.source.hidden_def import hidden_def
 from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, last_part
 from grader.package.source.node import NodeSource
@@ -150,6 +151,15 @@ def uncommented(case: Case) -> Files | None:
             new = uncommented_in(module.text, found)
             return case.with_data(module.path, new) if new is not None else None
     return None
+
+
+def shown_def(case: Case) -> Files | None:
+    """Make code of a def that is in a comment, or in a text in three quotes."""
+    node, name = case.node, str(case.finding.params.get("name", ""))
+    if node is None or not name:
+        return None
+    found = hidden_def(node.module.text, name, node.class_body)
+    return case.with_data(node.module.path, found.fixed) if found is not None else None
 
 
 DUNDERS = ("__init__", "__name__", "__main__")

@@ -7,6 +7,7 @@ import re
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import SourceText, Splice, indent_of, read_source
+from grader.package.source.other_encoding import declaration
 from grader.package.source.pasted import cleaned, labels_in
 from grader.package.source.python import PythonFault, parse_python
 from grader.package.source.slips import slip_of
@@ -35,7 +36,7 @@ def fault_of(found: bytes) -> PythonFault | None:
 
 
 def _fixed(case: Case, path: str) -> Files | None:
-    found = case.files.data(path)
+    found = _without_declaration(case.files.data(path))
     for _ in range(TRIES):
         fault = fault_of(found) if found is not None else None
         text = read_source(found)
@@ -45,6 +46,16 @@ def _fixed(case: Case, path: str) -> Files | None:
     if found is None or fault_of(found) is not None:
         return None
     return case.with_data(path, without_labels(found))
+
+
+def _without_declaration(found: bytes | None) -> bytes | None:
+    """Return UTF-8 without a comment that declares another encoding, if Python stops at that."""
+    fault = fault_of(found) if found is not None else None
+    declared = declaration(found) if found is not None else None
+    if found is None or fault is None or fault.kind != "encoding" or declared is None:
+        return found
+    rows = found.split(b"\n")
+    return b"\n".join(rows[: declared[0] - 1] + rows[declared[0] :])
 
 
 def _fixed_once(text: SourceText, found: bytes, fault: PythonFault) -> bytes | None:

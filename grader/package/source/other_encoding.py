@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import codecs
+import re
 
-KOREAN, OTHER = "korean", ""
+KOREAN, DECLARED, OTHER = "korean", "declared", ""
+DECLARATION = re.compile(rb"[ \t\f]*#.*?coding[:=][ \t]*(?P<name>[-\w.]+)")
 MOST_BYTES = 100_000
 ENOUGH = 0.9
 """The part of the characters that are not ASCII that must be Hangul: other text has few."""
@@ -13,9 +15,11 @@ ENOUGH = 0.9
 def kind_of_encoding(found: bytes) -> str:
     """Return `korean` for CP949 (or EUC-KR), "" for another 8-bit encoding.
 
-    `saved` is for what an editor opens rightly by itself (UTF-16 with a mark), for valid UTF-8 that
-    declares another encoding, and for UTF-8 with some other bytes in it.
+    `declared` is for valid UTF-8 that declares another encoding, `saved` for what an editor opens
+    rightly by itself (UTF-16 with a mark), and for UTF-8 with some other bytes in it.
     """
+    if declaration(found) is not None:
+        return DECLARED
     if found.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) or _decoded(found, "utf-8"):
         return "saved"
     text = _decoded(found, "cp949") or ""
@@ -28,6 +32,19 @@ def kind_of_encoding(found: bytes) -> str:
     # (two bytes of another encoding can look like one character of UTF-8, three hardly ever)
     kept = found.decode("utf-8", "ignore")
     return "saved" if any(sign >= "\u0800" for sign in kept) else OTHER
+
+
+def declaration(found: bytes) -> tuple[int, str] | None:
+    """Return the line with which UTF-8 declares another encoding, and that encoding's name."""
+    if _decoded(found, "utf-8") is None:
+        return None
+    for number, line in enumerate(found.split(b"\n")[:2], 1):
+        match = DECLARATION.match(line)
+        if match is not None:
+            name = match["name"].decode("ascii", "replace")
+            is_utf8 = name.lower().replace("_", "-") in ("utf-8", "utf8", "utf-8-sig", "u8")
+            return None if is_utf8 else (number, name)
+    return None
 
 
 def _decoded(found: bytes, encoding: str) -> str | None:

@@ -15,7 +15,8 @@ from grader.mistakes.slips import KINDS, description, words_of
 from grader.package.edit.text import read_source
 from grader.package.source.broken_python import Slip
 from grader.package.source.newer_python import SINCE, first_difference, with_older_quotes
-from grader.package.source.other_encoding import kind_of_encoding
+from grader.package.source.numbers_above import numbers_above
+from grader.package.source.other_encoding import declaration, kind_of_encoding
 from grader.package.source.pasted import WHOLE_LINES, Pasted, pasted_in
 from grader.package.source.python import SHEBANG, PythonFault, parse_python
 from grader.package.source.slips import slip_of
@@ -316,11 +317,14 @@ def _not_python(path: str, fault: PythonFault, found: bytes) -> Failed:
     if slip is not None:
         return _slip(path, text, fault.kind, slip)
     code = say("in: {code}", code=shown(fault.shown)) if fault.shown else ""
+    declared = declaration(found) if fault.kind == "encoding" else None
+    line, name = declared or (fault.line, "")
     return Failed(
         "source.not_utf8" if fault.kind == "encoding" else "source.syntax_error",
         expected=say("a file that Python can read"),
         actual=joined(text, code, by=", "),
-        where=Where(file=path, line=fault.line),
+        where=Where(file=path, line=line),
+        words={"line": str(line), "found": shown(name)},
         variant=kind_of_encoding(found) if fault.kind == "encoding" else fault.kind,
         params={"error": str(text), "kind": fault.kind},
     )
@@ -436,12 +440,19 @@ def _beside_empty(evidence: Evidence, path: str) -> str:
 
 def _no_shebang(evidence: Evidence, path: str, data: bytes, first: bytes) -> Failed:
     text = shown(first.decode("utf-8", "replace").strip()) or say("an empty line")
+    numbers = numbers_above(data)
+    if numbers:
+        alone = Slip("pasted", "number_lines", 1, "1", other=numbers)
+        return _pasted_first(path, alone)
     later = [n for n, line in enumerate(data.splitlines()[:20], 1) if line[:2] == b"#!" and n > 1]
     line: int | None = 1
     actual: str
+    within = b"#!/" in first[1:]  # behind a line number, or the sign of a patch
     slip = slip_of(data)
     pasted: Pasted | Slip | None = _above_shebang(data, later[0] if later else 2)
     if slip is not None and slip.variant == "around" and later and slip.line < later[0]:
+        pasted = slip
+    if slip is not None and within and slip.variant in ("patch", "numbers") and slip.line == 1:
         pasted = slip
     if pasted is not None:
         return _pasted_first(path, pasted)
