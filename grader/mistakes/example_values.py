@@ -107,7 +107,14 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "log.wrong_level": {"level": "warn"},
     "lab.not_installed": {"package": "turtlesim"},
-    "node.commented_out": {"written": "self.counter += 1"},
+    "node.commented_out": {"written": "self.counter += 1", "line": "24", "wanted": "20"},
+    "node.callback_no_self": {"wanted": f"def {CALLBACK}(self):"},
+    "node.callback_parameter": {
+        "wanted": f"def {CALLBACK}(self):",
+        "found": "msg",
+        "line": "20",
+    },
+    "node.setup_code": {"line": "40", "wanted": "62"},
     "node.main_missing": {"made": "MyNode", "found": "rest of your code"},
     "node.foreign_letter": {
         "name": "self.\u0441ounter",

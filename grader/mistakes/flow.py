@@ -107,6 +107,21 @@ def _ends(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+def _setup_code(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a call of setup in the node's file: it ends the program."""
+    module = suspect.source.entry
+    for statement in module.tree.body:
+        if not isinstance(statement, ast.Expr) or not isinstance(statement.value, ast.Call):
+            continue
+        if last_part(dotted(statement.value.func)) == "setup" and any(
+            given.arg in ("packages", "entry_points") for given in statement.value.keywords
+        ):
+            first, last = statement.lineno, statement.end_lineno or statement.lineno
+            found = suspect.finding("setup_code", statement)
+            return replace(found, words={**found.words, "line": str(first), "wanted": str(last)})
+    return None
+
+
 def _level(suspect: Suspect) -> RecognisedMistake | None:
     for call, name in suspect.source.calls:
         given = ast.unparse(call.args[-1]) if call.args else ""
@@ -348,6 +363,33 @@ KINDS = (
                 Replace(NODE, STEP_LINE, f"{STEP_LINE}        rclpy.shutdown()\n"),
                 fails="run.output",
                 blocks=("run.interrupt",),
+            ),
+        ),
+    ),
+    _node(
+        "setup_code",
+        "file",
+        msg("The node's file contains the code of setup.py"),
+        msg("setup() reads the words of the command line and ends the program."),
+        msg(
+            "Delete lines {line} to {wanted} in this file: setup() belongs only into setup.py, beside "
+            "package.xml. Delete the imports that only setup() needs, too."
+        ),
+        links.ENTRY_POINTS,
+        behind={"run.exits_at_once": _setup_code, "run.died_at_start": _setup_code},
+        fixed_by=(lines.deleted,),
+        examples=(
+            example(
+                "setup_in_node_file",
+                Replace(
+                    NODE,
+                    "if __name__ == '__main__':\n    main()\n",
+                    "if __name__ == '__main__':\n    main()\n\n"
+                    "from setuptools import find_packages, setup\n\n"
+                    "setup(\n    name='my_robot_controller',\n"
+                    "    packages=find_packages(exclude=['test']),\n)\n",
+                ),
+                fails="run.starts",
             ),
         ),
     ),
