@@ -51,6 +51,7 @@ def _with_line(found: RecognisedMistake, raised: Raised, method: Function) -> Re
     if not uses:
         return replace(found, variant="line", words=words)
     words |= {"found": uses[0].id, "line": str(min(use.lineno for use in uses))}
+    words["wanted"] = shown(def_after(text, method, change, has_body=False))
     return replace(found, variant="used", words=words)
 
 

@@ -49,3 +49,10 @@ def test_the_use_of_a_parameter_is_named(tmp_path: Path) -> None:
     assert f"In line {line_of(text, 'str(more)')}, write the value" in fix_of(found)
     assert "instead of more. Then write: def timer_callback(self):" in fix_of(found)
     assert patched(found, text, tmp_path) == ""
+
+
+def test_a_use_behind_the_colon_is_not_repeated() -> None:
+    text = changed((f"{DEF}{BODY}", f"def timer_callback(self, more): {INLINE}\n"),
+                   ("str(self.counter_)", "str(more)"))  # fmt: skip
+    found = raised(ONE, text, line_of(text, "rclpy.spin"))
+    assert fix_of(found).endswith("Then write: def timer_callback(self): …")

@@ -49,8 +49,11 @@ def uses_of(method: Function, names: set[str]) -> list[ast.Name]:
     return []
 
 
-def def_after(text: SourceText, method: Function, change: Splice) -> str:
-    """Return the line of a def after a change of its parameters, with a body on the same line."""
+def def_after(text: SourceText, method: Function, change: Splice, *, has_body: bool = True) -> str:
+    """Return the line of a def after a change of its parameters, with a body on the same line.
+
+    Without the body, … stands for it.
+    """
     start = text.span(method)[0]
     code = code_only(text.text)
     at, depth = start, 0
@@ -61,5 +64,8 @@ def def_after(text: SourceText, method: Function, change: Splice) -> str:
     if not re.search(r"[\r\n]", code[at : text.span(method.body[0])[0]]):
         first = method.body[0].lineno
         end = text.start_of(first) + len(code[text.start_of(first) : text.end_of(first)].rstrip())
+    ending = ""
+    if end > at + 1 and not has_body:
+        end, ending = at + 1, " …"
     row = text.text[start : change.start] + change.new + text.text[change.end : end]
-    return re.sub(r"[ \t]*[\r\n]+[ \t]*", " ", row)
+    return re.sub(r"[ \t]*[\r\n]+[ \t]*", " ", row) + ending
