@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import ast
 import re
+from bisect import bisect_left
 from dataclasses import dataclass
+from functools import lru_cache
 
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.broken_python import BLOCK, Broken, Slip
@@ -249,4 +251,10 @@ def _is_indented_below(text: Broken, width: int) -> bool:
 
 def _is_in_text(text: Broken, number: int) -> bool:
     """Whether a line begins inside of a text in three quotes."""
-    return len(TRIPLE.findall(text.code.text, 0, text.code.start_of(number))) % 2 == 1
+    places = _quotes_of(text.code.text)
+    return bisect_left(places, text.code.start_of(number)) % 2 == 1
+
+
+@lru_cache(maxsize=4)
+def _quotes_of(code: str) -> list[int]:
+    return [match.start() for match in TRIPLE.finditer(code)]
