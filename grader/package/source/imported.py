@@ -27,3 +27,14 @@ def full_name(module: Module, named: ast.AST) -> str:
         if written == bound or written.startswith((f"{bound}.", f"{bound}()")):
             return full + written.removeprefix(bound)
     return ""
+
+
+NODE = "rclpy.node.Node"
+
+
+def name_of_node(module: Module) -> str:
+    """Return the name by which a file knows the class Node; "" if it does not import it."""
+    found = [(bound, full) for bound, full, _ in imports(module)]
+    names = [bound for bound, full in found if full == NODE]
+    names += [f"{bound}.Node" for bound, full in found if full == "rclpy.node"]
+    return names[0] if names else ""

@@ -1,0 +1,79 @@
+"""The parameters that a node declares and reads."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import dataclass
+
+from grader.package.source.names import last_part
+from grader.package.source.node import NodeSource
+from grader.package.source.timer import Timer
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter in a call: its name as a string, and its default value if the call has one."""
+
+    call: ast.Call
+    written: ast.Constant
+    default: ast.expr | None = None
+
+    @property
+    def name(self) -> str:
+        """The parameter's name."""
+        return str(self.written.value)
+
+
+def declared(source: NodeSource) -> list[Parameter]:
+    """Return the parameters that the files declare by a name in quotes."""
+    found: list[Parameter] = []
+    for call, name in source.calls:
+        if last_part(name) == "declare_parameter":
+            default = _argument(call, 1, "value")
+            found += [Parameter(call, text, default) for text in _text(_argument(call, 0, "name"))]
+        elif last_part(name) == "declare_parameters":
+            given = _argument(call, 1, "parameters")
+            for entry in given.elts if isinstance(given, ast.List | ast.Tuple) else ():
+                parts = entry.elts if isinstance(entry, ast.Tuple) else []
+                default = parts[1] if len(parts) > 1 else None
+                found += [Parameter(call, text, default) for text in _text((*parts, None)[0])]
+    return found
+
+
+def declares_others(source: NodeSource) -> bool:
+    """Whether a call declares parameters whose names are not in it."""
+    calls = [c for c, name in source.calls if last_part(name).startswith("declare_parameter")]
+    return any(call not in {p.call for p in declared(source)} for call in calls)
+
+
+def read(source: NodeSource) -> list[Parameter]:
+    """Return the parameters that get_parameter reads by a name in quotes."""
+    calls = [call for call, name in source.calls if last_part(name) == "get_parameter"]
+    return [Parameter(call, text) for call in calls for text in _text(_argument(call, 0, "name"))]
+
+
+def is_period(source: NodeSource, timer: Timer, call: ast.Call) -> bool:
+    """Whether a timer's period is what a call of get_parameter returns, itself or in a variable."""
+    if timer.period is None:
+        return False
+    given = ast.unparse(timer.period)
+    if any(part is call for part in ast.walk(timer.period)):
+        return True
+    for node in source.own_nodes:
+        if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            inside = any(part is call for part in ast.walk(node.value))
+            if inside and given in {ast.unparse(t) for t in targets}:
+                return True
+    return False
+
+
+def _argument(call: ast.Call, place: int, name: str) -> ast.expr | None:
+    if place < len(call.args):
+        return call.args[place]
+    return next((k.value for k in call.keywords if k.arg == name), None)
+
+
+def _text(given: ast.expr | None) -> list[ast.Constant]:
+    is_text = isinstance(given, ast.Constant) and isinstance(given.value, str)
+    return [given] if isinstance(given, ast.Constant) and is_text else []
