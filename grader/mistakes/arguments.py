@@ -149,6 +149,25 @@ def _many_given(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
     return _only_self(raised, match["function"]) or found
 
 
+def _without_self(raised: Raised, taken: Function) -> RecognisedMistake | None:
+    """The method has no self: the object goes into its first parameter."""
+    first = taken.args.args[0].arg
+    read = [n for n in ast.walk(taken) if isinstance(n, ast.Name) and n.id == first]
+    given = [
+        call
+        for call, name in raised.source.calls
+        if name == f"self.{taken.name}" and raised.line in lines_of(call)
+    ]
+    if len(given) != 1 or not read or taken.decorator_list:
+        return None
+    if len(given[0].args) != len(taken.args.args) or given[0].keywords:
+        return None
+    params = {"name": f"{taken.name}({first}", "written": f"{taken.name}(self, {first}"}
+    found = raised.finding("arguments_many", at=taken, params=params)
+    words = {**found.words, "method": taken.name, "parameter": first}
+    return replace(found, variant="no_self", words=words)
+
+
 def _only_self(raised: Raised, function: str) -> RecognisedMistake | None:
     """The function is a method of the student's that takes only self."""
     owner, _, method = function.rpartition(".")
@@ -158,6 +177,8 @@ def _only_self(raised: Raised, function: str) -> RecognisedMistake | None:
         for m in found.body
         if found.name == owner and isinstance(m, Function) and m.name == method
     ]
+    if len(taken) == 1 and taken[0].args.args and taken[0].args.args[0].arg not in ("self", "this"):
+        return _without_self(raised, taken[0])
     if len(taken) != 1 or len(taken[0].args.args) != 1 or taken[0].args.vararg is not None:
         return None
     wanted = owner if method == "__init__" else method
@@ -419,9 +440,14 @@ KINDS = (
         whys={
             "only_self": msg(
                 "The def has only self in its brackets, which Python passes on its own."
-            )
+            ),
+            "no_self": msg(
+                "The def of {method} has no self. Python passes the object as the first argument, so "
+                "{parameter} gets the object, and the value of the call has no place."
+            ),
         },
         fixes={
+            "no_self": msg("Write self before {parameter} in this line: def {written}…"),
             "super": msg("Write super().__init__('{node_name}')."),
             "only_self": msg("Write {written} instead of {name}."),
         },

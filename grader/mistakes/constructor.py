@@ -15,7 +15,14 @@ from grader.mistakes.fixes import lines, node_life, node_scope, node_words
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import CLASS
-from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect, always
+from grader.mistakes.recognised import (
+    NAME_ERROR,
+    OWN_ATTRIBUTE,
+    Raised,
+    RecognisedMistake,
+    Suspect,
+    always,
+)
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
 from grader.package.edit.tree import Replace
@@ -23,6 +30,7 @@ from grader.package.source.counter import targets_of
 from grader.package.source.imported import full_name
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
+from grader.package.source.place import function_at
 
 NODES = ("rclpy.node.Node", "rclpy.Node")
 PRIVATE = r"AttributeError: '(?P<type>\w{1,120})' object has no attribute '_\w{1,120}'"
@@ -31,6 +39,14 @@ NO_NODE_NAME = r"(?<!\w)Node\.__init__\(\) missing 1 required positional argumen
 INIT_OF_NODE = msg(
     "Node.__init__ sets up what timers, the logger and publishers need. Your class must call it "
     "first, with the node's name."
+)
+NO_NODE = msg(
+    "A class is a node only if it inherits from rclpy's Node. {called} sets up a node: it needs "
+    "the methods and attributes of Node, and {name} does not inherit them."
+)
+NOT_IMPORTED = msg(
+    "The file does not import Node: add the line from rclpy.node import Node at the top of the file. "
+    "Then write: {written}"
 )
 SUPER = msg("Write super().__init__('{node_name}') as the first line of __init__.")
 
@@ -79,9 +95,38 @@ def _class_not_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake
 
 
 def _not_a_node(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    """The class, or the own class that it inherits from, does not inherit from Node."""
     del match
-    found = raised.source.node_class
-    return raised.finding("not_a_node", at=found, name=found.name if found else CLASS)
+    around = function_at(raised.module, raised.line)
+    found = raised.module.parents.get(around) if around is not None else None
+    if not isinstance(found, ast.ClassDef):
+        found = raised.source.node_class
+    if found is None:
+        return raised.finding("not_a_node", name=CLASS, written=f"class {CLASS}(Node):")
+    return _without_node(raised, node_life.root_of(raised.module, found))
+
+
+def _init_of_other(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Node.__init__ is called with self, by its name, in a class that is no Node."""
+    for found in raised.module.classes:
+        call = node_life.init_by_name(raised.module, found)
+        plain = all(dotted(base) == "object" for base in found.bases)
+        if call is None or not plain or found.name != match["type"]:
+            continue
+        if raised.line in lines_of(call):
+            called = f"{raised.module.text.code(call.func)}(…)"
+            mistake = _without_node(raised, found)
+            words = {**mistake.words, "called": called}
+            return replace(mistake, words=words, variant=f"{mistake.variant}_called".lstrip("_"))
+    return None
+
+
+def _without_node(raised: Raised, found: ast.ClassDef) -> RecognisedMistake:
+    """Name the class line as it should be, with Node by the name that the file gives it."""
+    module = raised.source.module_of(found)
+    written = node_life.derived(module, found)
+    mistake = raised.finding("not_a_node", at=found, name=found.name, written=written)
+    return replace(mistake, variant="" if node_life.known_base(module, found) else "import")
 
 
 def _underscores(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -302,14 +347,31 @@ KINDS = (
             "A class is a node only if it inherits from rclpy's Node. Without it, super() is "
             "Python's plain object, which takes no name."
         ),
-        msg("Write: class {name}(Node):"),
+        msg("Write: {written}"),
+        whys={
+            "called": NO_NODE,
+            "import_called": NO_NODE,
+        },
+        fixes={
+            "import": NOT_IMPORTED,
+            "import_called": NOT_IMPORTED,
+        },
         seen=r"TypeError: object\.__init__\(\) takes exactly one argument",
-        raised={r"object\.__init__\(\) takes exactly one argument": _not_a_node},
+        raised={
+            r"object\.__init__\(\) takes exactly one argument": _not_a_node,
+            OWN_ATTRIBUTE: _init_of_other,
+        },
         fixed_by=(node_life.base_class,),
         examples=(
             example(
                 "not_a_node",
                 Replace(NODE, "class MyFirstNode(Node)", "class MyFirstNode"),
+                fails="run.starts",
+            ),
+            example(
+                "object_and_init_of_node",
+                Replace(NODE, "class MyFirstNode(Node)", "class MyFirstNode(object)"),
+                Replace(NODE, "super().__init__(", "Node.__init__(self, "),
                 fails="run.starts",
             ),
         ),

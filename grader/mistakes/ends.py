@@ -17,6 +17,7 @@ from grader.mistakes.callback import never_ends_in
 from grader.mistakes.kind import Family
 from grader.mistakes.order import attribute_needed_early
 from grader.mistakes.recognised import OWN_ATTRIBUTE, Raised, RecognisedMistake, Suspect
+from grader.package.source.counter import starts_of
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
@@ -263,7 +264,8 @@ def _replaced(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     for node in raised.source.own_nodes:
         if isinstance(node, ast.Attribute) and node.attr == part:
             whole = dotted(node.value)
-            if whole in targets:
+            number = whole in starts_of(raised.source) and not raised.interfaces
+            if whole in targets and not number:
                 return raised.finding("field_replaced", at=targets[whole], name=f"{whole}.{part}")
     for whole, node in targets.items():
         value = node.value

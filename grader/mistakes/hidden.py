@@ -18,10 +18,30 @@ from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import logged_counter, targets_of
+from grader.package.source.imported import NODE as NODE_CLASS
+from grader.package.source.imported import full_name
 from grader.package.source.module import Function
-from grader.package.source.names import calls_in, dotted, last_part, own_name
-from grader.package.source.node import NodeSource
+from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.node import LOG_METHODS, NodeSource
 
+ALSO_OF_NODE = (
+    *("timers", "clients", "services", "publishers", "subscriptions", "guards", "waitables"),
+    *("context", "handle", "default_callback_group", "get_parameters", "declare_parameters"),
+    *("get_parameter_or", "get_parameters_by_prefix", "set_parameters", "has_parameter"),
+    *("undeclare_parameter", "describe_parameter", "describe_parameters", "get_parameter_type"),
+    *("get_parameter_types", "destroy_publisher", "destroy_subscription", "destroy_client"),
+    *("destroy_service", "destroy_rate", "get_node_names", "get_fully_qualified_name"),
+    *("count_publishers", "count_subscribers", "count_clients", "count_services", "add_waitable"),
+    *("remove_waitable", "create_guard_condition", "destroy_guard_condition"),
+    *("set_parameters_atomically", "add_on_set_parameters_callback", "resolve_topic_name"),
+    *("resolve_service_name", "get_topic_names_and_types", "get_service_names_and_types"),
+)
+"""Attributes and methods of Node that a node seldom uses."""
+MISSPELT = 0.85  # how like two names are of which one is the other with a typing mistake
+OF_LOGGER = (
+    *LOG_METHODS,
+    *("log", "name", "get_child", "get_name", "set_level", "get_effective_level", "is_enabled_for"),
+)
 RAISES = msg("This except catches the error and does not show it. Line {line} raises {error}.")
 LOG_OF_NUMBER = "            self.get_logger().info('Hello time: ' + self.counter_)\n"
 
@@ -93,23 +113,35 @@ def _with_attribute(
 ) -> RecognisedMistake:
     """Add the misspelt attribute in a try, if there is one: that is the hidden error."""
     source = suspect.source
-    own = source.attributes | set(source.methods)
-    plain = source.is_one_class and [dotted(b) for b in _bases(source)] in (
-        ["Node"],
-        ["rclpy.node.Node"],
-    )
     for part in (n for statement in body for n in ast.walk(statement)):
-        name = own_name(part)
-        if not plain or not isinstance(part, ast.Attribute) or not isinstance(part.ctx, ast.Load):
+        if not isinstance(part, ast.Attribute) or not isinstance(part.ctx, ast.Load):
             continue
-        if not name or name in own | {*OF_NODE, *NODE_METHODS} or name in _of_class(source):
-            continue
-        close = nearest(name, own)
+        close = _meant(source, part)
         if close:
-            params: dict[str, str | int] = {"name": name, "written": close, "line": part.lineno}
-            words = {**found.words, **params}
+            owner = dotted(part.value)
+            params: dict[str, str | int] = {"name": part.attr, "written": close}
+            params |= {"line": part.lineno, "object": owner}
+            pair = {"old": f"{owner}.{part.attr}", "new": f"{owner}.{close}"}
+            words = {**found.words, **params, **pair}
             return replace(found, params=params, words=words, variant="attribute")
     return found
+
+
+def _meant(source: NodeSource, part: ast.Attribute) -> str:
+    """Return the name that is meant by one that self, its logger or rclpy does not have."""
+    owner, name = dotted(part.value), part.attr
+    if owner == "self":
+        own = source.attributes | set(source.methods)
+        plain = source.is_one_class and [
+            full_name(source.module, base) for base in _bases(source)
+        ] == [NODE_CLASS]
+        known = own | {*OF_NODE, *NODE_METHODS, *ALSO_OF_NODE}
+        if not plain or name in known or name in _of_class(source):
+            return ""
+        return nearest(name, own) or nearest(name, NODE_METHODS, cutoff=MISSPELT)
+    if owner.endswith(".get_logger()"):
+        return "" if name in OF_LOGGER else nearest(name, LOG_METHODS, cutoff=0.7)
+    return ""
 
 
 def _bases(source: NodeSource) -> list[ast.expr]:
@@ -276,9 +308,8 @@ KINDS = (
         whys={"error": RAISES, "error_kept": RAISES},
         fixes={
             "attribute": msg(
-                "Write self.{written} instead of self.{name} on line {line}: no line sets "
-                "self.{name}, and this except hides the AttributeError. Then remove the except "
-                "(and its try)."
+                "Write {new} instead of {old} on line {line}: nothing defines {old}, and this except "
+                "hides the AttributeError. Then remove the except (and its try)."
             ),
             "error": msg(
                 "Remove this except and its try, and indent the lines of the try as far as the try "
@@ -289,9 +320,8 @@ KINDS = (
                 "traceback shows the line with the error."
             ),
             "attribute_kept": msg(
-                "Write self.{written} instead of self.{name} on line {line}: no line sets "
-                "self.{name}, and this except hides the AttributeError. Then write {narrower} "
-                "instead of {head} in line {row}."
+                "Write {new} instead of {old} on line {line}: nothing defines {old}, and this except "
+                "hides the AttributeError. Then write {narrower} instead of {head} in line {row}."
             ),
             "error_kept": msg(
                 "Write {narrower} instead of {head} in line {row}. Correct line {at} too: "

@@ -10,7 +10,7 @@ from grader.mistakes.fixes import node_order, node_scope, node_try
 from grader.mistakes.fixes.case import Case, Finding
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.files import Files
-from grader.package.source.names import calls_in, last_part
+from grader.package.source.names import calls_in, last_part, own_name
 from grader.package.source.node import NodeSource
 from grader.package.source.sure_errors import sure_error
 from grader.report.model import Where
@@ -39,7 +39,7 @@ def hidden_bodies(source: NodeSource, tried: ast.Try) -> list[list[ast.stmt]]:
 
     It runs the constructor if it creates the node, and the callback if it spins.
     """
-    bodies = [tried.body]
+    bodies = _with_called(source, tried, tried.body)
     if source.function_around(tried) is not source.main:
         return bodies
     name = source.node_class.name if source.node_class is not None else ""
@@ -48,7 +48,16 @@ def hidden_bodies(source: NodeSource, tried: ast.Try) -> list[list[ast.stmt]]:
     callback = source.callback if called & {*node_order.SPINS} else None
     run = [function for function in (start, callback) if function is not None]
     module = source.module_of(tried)
-    return [*bodies, *(f.body for f in run if source.module_of(f) is module)]
+    of_run = [f.body for f in run if source.module_of(f) is module]
+    return [*bodies, *(b for body in of_run for b in _with_called(source, tried, body))]
+
+
+def _with_called(source: NodeSource, tried: ast.Try, body: list[ast.stmt]) -> list[list[ast.stmt]]:
+    """Return some lines, and those of the node's methods that they call in any case."""
+    plain = [s for s in body if isinstance(s, ast.Expr | ast.Assign | ast.AugAssign)]
+    called = [source.method(own_name(c.func)) for s in plain for c, _ in calls_in(s)]
+    module = source.module_of(tried)
+    return [body, *(m.body for m in called if m is not None and module.has(m))]
 
 
 def corrected(case: Case) -> Files | None:

@@ -70,6 +70,10 @@ def main(args=None):
         pass
     rclpy.try_shutdown()
 """
+OWN_NAME = msg(
+    "This line imports {name} from {path}, a file of your own package. That file does not define "
+    "{name}; case matters."
+)
 CLOSE = msg("Write {close} instead of {name}.")
 
 
@@ -378,6 +382,13 @@ KINDS = (
         msg("Compare the name with the module's documentation."),
         links.RCLPY,
         close=CLOSE,
+        whys={"own": OWN_NAME, "own_close": OWN_NAME},
+        fixes={
+            "own": msg("Define {name} in {path}, or import another name from it."),
+            "own_close": msg(
+                "Write {close} instead of {name}, here and wherever this file uses it: {path} defines {close}."
+            ),
+        },
         seen=r"ImportError: cannot import name '(?P<name>\w{1,120})' from '(?P<module>[\w.]{1,200})'",
         raised={
             r"cannot import name '(?P<name>\w{1,120})' from '(?P<module>[\w.]{1,200})'": _no_name_in_module

@@ -13,7 +13,7 @@ from grader.mistakes.fixes import node_count, node_log, node_words
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
-from grader.package.source.names import dotted
+from grader.package.source.names import dotted, last_part
 
 
 def _arguments(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -24,9 +24,8 @@ def _arguments(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
     return raised.finding("logger_arguments", at=logs[0]) if logs else None
 
 
-def _not_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+def _not_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """get_logger lacks its (): where it is used, or where a variable or an attribute gets it."""
-    del match
     kept = raised.source.loggers
     used = [
         dotted(node.value)
@@ -40,7 +39,13 @@ def _not_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
             written = f"{name} = {ast.unparse(value)}()"
             words = {**found.words, "name": name, "written": written}
             return replace(found, variant="kept", words=words)
-    return raised.finding("logger_not_called")
+    on_line = [name for name in used if name]
+    if on_line and all(last_part(name) != "get_logger" for name in on_line):
+        return None  # (another function is not called)
+    found = raised.finding("logger_not_called")
+    name = next((n for n in on_line if last_part(n) == "get_logger"), "self.get_logger")
+    written = f"{name}().{match['name']}(…)"
+    return replace(found, words={**found.words, "logged": written})
 
 
 def _missing(suspect: Suspect) -> RecognisedMistake | None:
@@ -103,7 +108,7 @@ KINDS = (
         "logger",
         msg("The () after get_logger is missing"),
         msg("get_logger is a method: only calling it gives the logger."),
-        msg("Write self.get_logger().info(…)."),
+        msg("Write {logged}."),
         links.LOGGING,
         whys={
             "kept": msg(
@@ -115,7 +120,7 @@ KINDS = (
         seen=r"AttributeError: '(?:function|method)' object has no attribute "
         r"'(?:info|debug|warn|warning|error|fatal)'",
         raised={
-            r"'(?:function|method)' object has no attribute '(?:info|debug|warn|warning|error|fatal)'": _not_called
+            r"'(?:function|method)' object has no attribute '(?P<name>info|debug|warn|warning|error|fatal)'": _not_called
         },
         fixed_by=(node_log.logger_call,),
         examples=(

@@ -13,15 +13,24 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
+from grader.mistakes.constructor import lines_of
 from grader.mistakes.example import DEAD, NODE, example
-from grader.mistakes.fixes import lines, node_constructor, node_life, node_names, node_timer, rename
+from grader.mistakes.fixes import (
+    lines,
+    node_brackets,
+    node_constructor,
+    node_life,
+    node_names,
+    node_timer,
+    rename,
+)
 from grader.mistakes.imports import IMPORTS, RCLPY
 from grader.mistakes.kind import Family
 from grader.mistakes.order import spun_names
 from grader.mistakes.recognised import NAME_ERROR, OWN_ATTRIBUTE, Raised, RecognisedMistake, of_self
 from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import targets_of
+from grader.package.source.counter import starts_of, targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import LOG_METHODS
@@ -34,6 +43,10 @@ ATTRIBUTE = (
 
 MISSPELT = 0.85  # how like two names are of which one is the other with a typing mistake
 
+PROPERTY = msg(
+    "{method} is a property: it is read without (), so Python passes only self. A property cannot "
+    "have another parameter."
+)
 OF_ROS = ("spin", "spin_once", *NODE_METHODS)
 """Calls of ROS: an error that comes from inside of them is not about their own brackets."""
 
@@ -66,7 +79,7 @@ def _method_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake 
 
 
 def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    if not of_self(raised, match):
+    if not of_self(raised, match) or match["name"] in raised.module.functions:
         return None
     name, close = match["name"], _close_attribute(raised, match["name"])
     for timer in raised.source.timers:
@@ -191,6 +204,14 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         found = raised.finding("attribute_unknown", name=match["name"])
         return replace(found, variant="none" if match["type"] == "NoneType" else "module")
     own = f"self.{match['name']}"
+    if match["name"] in raised.module.functions and of_self(raised, match):
+        found = raised.finding("attribute_unknown", name=own, written=match["name"])
+        return replace(found, variant="function")
+    if match["type"] == "Parameter":
+        return _of_parameter(raised, match["name"])
+    if match["type"] in ("int", "float") and (plain := _number(raised, match["name"])):
+        found = raised.finding("attribute_unknown", name=f"{plain}.{match['name']}", written=plain)
+        return replace(found, variant="number")
     if match["type"] in raised.source.class_names and match["name"] in raised.source.attributes:
         code = f"{match['type']}.{match['name']}"
         found = raised.finding("attribute_unknown", name=code, written=own)
@@ -198,6 +219,25 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     suggested = re.search(r"Did you mean: '(\w{1,120})'", raised.error)
     close = suggested[1] if suggested and _is_written(raised, match["name"]) else ""
     return raised.finding("attribute_unknown", name=match["name"], close=close)
+
+
+def _of_parameter(raised: Raised, name: str) -> RecognisedMistake:
+    """What get_parameter returns has .value, and get_parameter_value() for the value's type."""
+    typed = name.endswith("_value") and name != "get_value"
+    written = f".get_parameter_value().{name}" if typed else ".value"
+    found = raised.finding("attribute_unknown", name=f".{name}", written=written)
+    if name.lower().startswith("get_param"):
+        return raised.finding("attribute_unknown", name=name)
+    return replace(found, variant="parameter")
+
+
+def _number(raised: Raised, attribute: str) -> str:
+    """Return what the line reads an attribute of, if it is an attribute of self that counts."""
+    statement = statement_at(raised.module, raised.line)
+    parts = [n for n in ast.walk(statement) if isinstance(n, ast.Attribute)] if statement else []
+    found = {dotted(part.value) for part in parts if part.attr == attribute}
+    name = found.pop() if len(found) == 1 else ""
+    return name if name in starts_of(raised.source) else ""
 
 
 def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
@@ -211,7 +251,37 @@ def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     foreign = match["function"].partition(".")[0] not in raised.source.known_classes
     if match["name"] == "self" and "." in match["function"]:
         return replace(found, variant="class")
-    return replace(found, variant="own") if function in own and not foreign else found
+    if function in own and not foreign:
+        return _of_own_method(raised, match) or replace(found, variant="own")
+    return found
+
+
+def _of_own_method(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """An own method or property has a parameter for which no call has a value."""
+    source, name, function = raised.source, match["name"], last_part(match["function"])
+    method = source.method(function)
+    if method is None or name not in [a.arg for a in method.args.args[1:]]:
+        return None
+    line, where = str(method.lineno), raised.where
+    params = {"name": name, "method": function, "line": line}
+    used = any(isinstance(n, ast.Name) and n.id == name for n in ast.walk(method))
+    calls = [c for c, called in source.calls if last_part(called) == function]
+    if [dotted(d) for d in method.decorator_list] in (["property"], ["cached_property"]):
+        variant = "property_used" if used else "property"
+    elif method.decorator_list:
+        return None
+    elif used or any(call.args or call.keywords for call in calls):
+        here = [call for call in calls if raised.line in lines_of(call)]
+        if len(here) != 1:
+            return None
+        params["called"] = f"{raised.module.text.code(here[0].func)}()"
+        found = raised.finding("argument_missing", params=params)
+        return replace(found, variant="own_call", where=where)
+    else:
+        variant = "own_unused"
+    if not used:
+        params["unused"] = "yes"
+    return replace(raised.finding("argument_missing", at=method, params=params), variant=variant)
 
 
 def _wanted(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -532,6 +602,23 @@ KINDS = (
         links.PYTHON_ERRORS,
         fixes={
             "own": msg("Pass a value for {name} where {function} is called."),
+            "own_call": msg(
+                "Write a value for {name} in the () of {called} on this line. Or remove {name} from "
+                "the def of {method} in line {line}."
+            ),
+            "own_unused": msg(
+                "Remove {name} from the parameters of {method} in this line: no line of {method} "
+                "uses it, and no call passes a value."
+            ),
+            "property": msg(
+                "Remove {name} from the parameters of {method} in this line: no line of {method} "
+                "uses it."
+            ),
+            "property_used": msg(
+                "Remove {name} from the parameters of {method} in this line, and read what {method} "
+                "needs from self. Or delete @property above it, and pass a value in a call: "
+                "self.{method}(…)."
+            ),
             "class": msg(
                 "This line uses the class itself. Create an object of it: write () after the name of "
                 "the class where the value comes from."
@@ -544,6 +631,8 @@ KINDS = (
             "spin": msg("Write rclpy.spin({node}): spin needs the node that was created."),
         },
         whys={
+            "property": PROPERTY,
+            "property_used": PROPERTY,
             "class": msg(
                 "{function} works on an object: Python passes the object as self. Nothing is passed "
                 "if the method is called on the class."
@@ -552,7 +641,7 @@ KINDS = (
         raised={
             r"TypeError: (?P<function>[\w.]{1,200})\(\) missing \d{1,3} required positional arguments?: '(?P<name>\w{1,120})'": _argument
         },
-        fixed_by=(node_life.spin, node_constructor.argument),
+        fixed_by=(node_life.spin, node_constructor.argument, node_brackets.without_parameter),
         examples=(
             example(
                 "init_wants_name",
@@ -564,6 +653,20 @@ KINDS = (
                 "init_wants_more",
                 Replace(NODE, "def __init__(self)", "def __init__(self, name)"),
                 fails="run.starts",
+            ),
+            example(
+                "property_with_parameter",
+                Replace(NODE, "str(self.counter_))", "self.number)"),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    @property\n"
+                    "    def number(self, start):\n"
+                    "        return str(self.counter_)\n\n"
+                    "    def timer_callback",
+                ),
+                fails="run.output",
+                blocks=DEAD,
             ),
             example(
                 "class_passed_to_function",
@@ -596,6 +699,15 @@ KINDS = (
         links.RCLPY,
         close=msg("Write {close} instead of {name}."),
         whys={
+            "function": msg(
+                "{written} is a function of the file, and no method of the class. It is called "
+                "without self."
+            ),
+            "parameter": msg(
+                "get_parameter returns an object of the type Parameter. Its value is in .value, or in "
+                "get_parameter_value()."
+            ),
+            "number": msg("{written} is a number, and a number has no such attribute."),
             "none": msg(
                 "A value on that line is None: nothing was assigned to it, or a function returned "
                 "nothing."
@@ -607,6 +719,9 @@ KINDS = (
         },
         fixes={
             "written": msg("Write {written} instead of {name}."),
+            "function": msg("Write {written} instead of {name}."),
+            "parameter": msg("Write {written} instead of {name} behind get_parameter(…)."),
+            "number": msg("Write {written} instead of {name}."),
             "none": msg("Find the line that should give it its value, and see what that does."),
             "module": msg("Compare the name, and remove what is called rclpy from your package."),
         },

@@ -16,6 +16,7 @@ from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
 from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
+from grader.package.source.imported import full_name, imports, name_of_node
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, last_part, own_name
 from grader.package.source.place import statement_at
@@ -63,12 +64,43 @@ def _no_base(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     for found in raised.module.classes:
         for base in found.bases:
             name = dotted(base)
-            if raised.line not in (found.lineno, base.lineno) or not _is_module(raised, name):
+            if raised.line not in (found.lineno, base.lineno) or not _is_module(raised, base):
                 continue
+            imported = _imported_as(raised, found, base)
+            if imported is not None:
+                return imported
             mistake = raised.finding("base_not_class", at=base, name=name, written="Node")
             known = "Node" in raised.module.imports
             return replace(mistake, variant="imported" if known else "")
     return None
+
+
+def _imported_as(raised: Raised, found: ast.ClassDef, base: ast.expr) -> RecognisedMistake | None:
+    """The base is the module rclpy.node under a name of the student's own, or by its full name."""
+    module, name = raised.module, dotted(base)
+    statement = next((s for bound, _, s in imports(module) if bound == name), None)
+    if full_name(module, base) != "rclpy.node" or not isinstance(
+        statement, ast.Import | ast.ImportFrom
+    ):
+        return None
+    parents = module.parents
+    uses = [
+        n for n in module.nodes if dotted(n) == name and isinstance(n, ast.Name | ast.Attribute)
+    ]
+    around = [parents.get(use) for use in uses]
+    as_module = [n for n in around if isinstance(n, ast.Attribute) and n.attr != "__init__"]
+    if len(statement.names) == 1 and name[:1].isupper() and not as_module:
+        alias = "" if name == "Node" else f" as {name}"
+        code, new = module.text.code(statement), f"from rclpy.node import Node{alias}"
+        mistake = raised.finding("base_not_class", at=statement, name=code, written=new)
+        words = {**mistake.words, "module": name, "type": found.name}
+        return replace(mistake, variant="module", words=words)
+    if isinstance(statement, ast.ImportFrom) and statement.names[0].asname is None:
+        return None
+    known = name_of_node(module)
+    written = known if known and not known.startswith(f"{name}.") else f"{name}.Node"
+    mistake = raised.finding("base_not_class", at=base, name=name, written=written)
+    return replace(mistake, variant="imported")
 
 
 def _own_base(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -81,8 +113,10 @@ def _own_base(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     return None
 
 
-def _is_module(raised: Raised, name: str) -> bool:
-    modules = {"rclpy", "rclpy.node", "rclpy.Node"}
+def _is_module(raised: Raised, base: ast.expr) -> bool:
+    name, modules = dotted(base), {"rclpy", "rclpy.node", "rclpy.Node"}
+    if full_name(raised.module, base) in modules:
+        return True
     for node in raised.module.nodes:
         if isinstance(node, ast.ImportFrom) and node.module == "rclpy":
             modules |= {a.asname or a.name for a in node.names if a.name.islower()}
@@ -290,18 +324,28 @@ KINDS = (
         ),
         links.NODES,
         whys={
+            "module": msg(
+                "This line gives the module rclpy.node the name {module}. The class {type} inherits "
+                "from {module}, which must be a class: the class Node in that module."
+            ),
             "itself": msg(
                 "The brackets of a class line contain the name of the base class. {name} is the "
                 "class that this line begins, so it does not exist yet."
-            )
+            ),
         },
         fixes={
             "imported": INSTEAD,
+            "module": msg("Write {written} instead of {name} in this line."),
             "itself": msg("Write {written} instead of {name} in the brackets."),
         },
         raised={NO_BASE: _no_base, NAME_ERROR: _own_base},
-        fixed_by=(node_objects.base,),
+        fixed_by=(node_objects.import_of_module, node_objects.base),
         examples=(
+            example(
+                "module_imported_as_node",
+                Replace(NODE, "from rclpy.node import Node", "import rclpy.node as Node"),
+                fails="run.starts",
+            ),
             example(
                 "base_is_module",
                 Replace(NODE, "from rclpy.node import Node", "from rclpy import node"),

@@ -14,7 +14,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, OWN_ATTRIBUTE, Raised, RecognisedMistake, of_self
 from grader.package.edit.tree import Replace
 from grader.package.source.module import Function
-from grader.package.source.names import called_name
+from grader.package.source.names import called_name, own_name
 from grader.package.source.place import function_at, method_above, statement_at
 
 NODE_METHODS = (
@@ -114,7 +114,16 @@ def _callback_outside(raised: Raised, match: re.Match[str]) -> RecognisedMistake
     at = raised.source.module.functions.get(name)
     if at is None or not of_self(raised, match):
         return None
+    if at.args.args and at.args.args[0].arg != "self" and _is_called(raised, name):
+        return None  # (a function for which self is too much)
     return raised.finding("callback_outside", at=at, name=name)
+
+
+def _is_called(raised: Raised, name: str) -> bool:
+    """Whether every use of a function through self is a call with arguments."""
+    uses = [n for n in raised.source.own_nodes if own_name(n) == name]
+    around = [raised.module.parents.get(use) for use in uses]
+    return all(isinstance(a, ast.Call) and a.func in uses and bool(a.args) for a in around)
 
 
 def _self_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:

@@ -206,7 +206,8 @@ def _not_number(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
         if match["type"] == "Parameter" and isinstance(value, ast.Call):
             code = raised.source.module_of(value).text.code(value)
             params = {"name": code, "written": f"{code}.value"}
-            return raised.finding("parameter_object", at=value, params=params)
+            found = raised.finding("parameter_object", at=value, params=params)
+            return replace(found, variant="written")
         if value is None or not number:
             return raised.finding("period_not_number", at=timer.call, type=match["type"])
         code = raised.source.module_of(value).text.code(value)
@@ -251,6 +252,24 @@ def _stopped(suspect: Suspect) -> RecognisedMistake | None:
         if name.endswith((".cancel", ".destroy_timer")):
             return suspect.finding("timer_cancelled", call)
     return None
+
+
+def _argument_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Complete the student's own call, if what is missing is known."""
+    del match
+    for timer in raised.source.timers:
+        if raised.line not in (None, *lines_of(timer.call)):
+            continue
+        period = repr(raised.assignment.output.period)
+        found = node_timer.completed(raised.source, timer, period)
+        if found is None:
+            return raised.finding("timer_argument_missing", at=timer.call)
+        code = " ".join(raised.source.module_of(timer.call).text.code(timer.call).split())
+        code = re.sub(r",? \)", ")", code.replace("( ", "("))
+        params = {"name": code, "written": found.written}
+        mistake = raised.finding("timer_argument_missing", at=timer.call, params=params)
+        return replace(mistake, variant="written")
+    return raised.finding("timer_argument_missing")
 
 
 def _milliseconds(suspect: Suspect) -> RecognisedMistake | None:
@@ -553,8 +572,9 @@ KINDS = (
         msg("An argument of create_timer is missing"),
         msg("create_timer takes the period first, then the callback."),
         TIMER,
+        fixes={"written": msg("Write {written} instead of {name}.")},
         seen=r"create_timer\(\) missing \d{1,3} required positional argument",
-        raised={r"create_timer\(\) missing": always("timer_argument_missing")},
+        raised={r"create_timer\(\) missing": _argument_missing},
         fixed_by=(node_timer.arguments,),
         examples=(
             example("period_missing", Replace(NODE, "(1.0, self", "(self"), fails="run.starts"),

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import ast
 import re
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
+from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import NODE, example
-from grader.mistakes.fixes import lines
+from grader.mistakes.fixes import lines, node_parameters
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
-from grader.package.source.names import dotted, last_part
+from grader.package.source.declared import Parameter, declared, declares_others
+from grader.package.source.names import called_name, calls_in, dotted, last_part
+from grader.package.source.place import place_of, statement_at
 
 UNDECLARED = r"ParameterNotDeclaredException: .*?: (?P<name>[\w.]{1,100})$"
 OTHER_TYPE = r"Expected <class '[\w.]*\.(?P<wanted>\w+)'>, got <class '[\w.]*?(?P<name>\w+)'>"
@@ -26,8 +30,58 @@ ENDS = ("create_publisher", "create_subscription", "create_service", "create_cli
 
 def _undeclared(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     """A parameter is used that the node has not declared."""
-    words = {**raised.words, "name": match["name"], "close": "", "type": ""}
-    return RecognisedMistake(kind="parameter.not_declared", words=words, where=raised.where)
+    name, source, module = match["name"], raised.source, raised.module
+    words = {**raised.words, "name": name, "close": "", "type": ""}
+    found = RecognisedMistake(kind="parameter.not_declared", words=words, where=raised.where)
+    parameter = node_parameters.reading(source, module, name, raised.line)
+    if parameter is None:
+        return found
+    found = replace(found, where=place_of(source, parameter.call))
+    known = {p.name: p for p in declared(source)}
+    if name in known:
+        return _declared_late(raised, found, parameter, known[name])
+    close = nearest(name, known, cutoff=0.7)
+    if close and not declares_others(source):
+        return _misspelt(raised, found, parameter, known[close])
+    declaration = node_parameters.declaration(source, raised.assignment, module, parameter)
+    if declaration is None:
+        return found
+    words |= {"written": declaration.written, "row": declaration.above.lineno}
+    variant = "above" if declaration.in_place else "start"
+    if "…" in declaration.written:
+        variant += "_open"
+    return replace(found, params={"parameter": name}, words=words, variant=variant)
+
+
+def _misspelt(
+    raised: Raised, found: RecognisedMistake, parameter: Parameter, known: Parameter
+) -> RecognisedMistake:
+    """The name that is read is nearly that of a declared parameter."""
+    code = raised.module.text.code(parameter.written)
+    written = f"{code[0]}{known.name}{code[-1]}" if code[:1] in "'\"" else repr(known.name)
+    params: dict[str, str] = {"name": code, "written": written}
+    words = {**found.words, **params, "row": known.call.lineno}
+    return replace(found, params=params, words=words, variant="misspelt")
+
+
+def _declared_late(
+    raised: Raised, found: RecognisedMistake, parameter: Parameter, known: Parameter
+) -> RecognisedMistake:
+    """The parameter is declared by another line, which runs later."""
+    source, line = raised.source, known.call.lineno
+    same = source.function_around(known.call) is source.function_around(parameter.call)
+    later = same and raised.module.has(known.call) and line > parameter.call.lineno
+    words = {**found.words, "row": line}
+    if not later:
+        owner = parameter.call.func
+        if known.default is not None and isinstance(owner, ast.Attribute):
+            code, of_known = raised.module.text.code, source.module_of(known.call).text.code
+            given = f"{code(parameter.written)}, {of_known(known.default)}"
+            words["written"] = f"{code(owner.value)}.declare_parameter({given})"
+            return replace(found, words=words, variant="elsewhere_known")
+        return replace(found, words=words, variant="elsewhere")
+    params = {"parameter": known.name, "late": str(line)}
+    return replace(found, params=params, words=words, variant="late")
 
 
 def _other_type(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
@@ -71,10 +125,22 @@ def _no_message(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
 
 
 def _parameter_object(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    """A Parameter is used as a number: name the call on this line that returns it."""
     del match
-    return raised.finding("parameter_object")
+    statement = statement_at(raised.module, raised.line)
+    calls = [call for call, _ in calls_in(statement)] if statement is not None else []
+    found = [c for c in calls if called_name(c) in ("get_parameter", "declare_parameter")]
+    if len(found) != 1:
+        return raised.finding("parameter_object")
+    code = " ".join(raised.module.text.code(found[0]).split())
+    found_call = raised.finding("parameter_object", name=code, written=f"{code}.value")
+    return replace(found_call, variant="written")
 
 
+ELSEWHERE = msg(
+    "A parameter exists from the line on that declares it. Line {row} declares '{name}', but it has "
+    "not run for this node when this line reads it."
+)
 NAMED = msg(
     "Nodes find each other by the name of the topic alone: a publisher and a subscription meet if "
     "their names are equal, to the letter."
@@ -140,10 +206,14 @@ KINDS = (
     _node(
         "parameter_object",
         "parameter",
-        msg(".value is missing after get_parameter"),
-        msg("get_parameter returns an object that has the name, the type and the value."),
+        msg(".value is missing behind a parameter"),
+        msg(
+            "get_parameter and declare_parameter return an object that has the name, the type and "
+            "the value."
+        ),
         msg("Write self.get_parameter('…').value."),
         links.PARAMETERS,
+        fixes={"written": msg("Write {written} instead of {name}.")},
         raised={OPERAND: _parameter_object},
         fixed_by=(lines.written,),
         examples=(
@@ -353,7 +423,76 @@ KINDS = (
         ),
         msg("Write self.declare_parameter('{name}', …) in __init__, with the default value."),
         close=msg("The name is '{name}', not '{close}'."),
+        whys={
+            "misspelt": msg(
+                "A node has only the parameters that it declares, by exactly that name: line {row} "
+                "declares {written}, and this line reads {name}."
+            ),
+            "late": msg(
+                "A parameter exists from the line on that declares it. Line {row} declares '{name}', "
+                "and it runs after this line."
+            ),
+            "elsewhere_known": ELSEWHERE,
+            "elsewhere": ELSEWHERE,
+        },
+        fixes={
+            "misspelt": msg("Write {written} instead of {name} in this line."),
+            "late": msg("Move line {row}, which declares '{name}', above this line."),
+            "elsewhere": msg(
+                "Declare '{name}' in __init__, before anything reads it: move line {row} there."
+            ),
+            "elsewhere_known": msg(
+                "Write this line in __init__, before anything reads the parameter: {written} Then "
+                "delete line {row}: a parameter can be declared once only."
+            ),
+            "above": msg("Write this line above line {row}: {written}"),
+            "above_open": msg(
+                "Write this line above line {row}, with the default value in the place of …: {written}"
+            ),
+            "start": msg("Write this line in __init__, above line {row}: {written}"),
+            "start_open": msg(
+                "Write this line in __init__, above line {row}, with the default value in the place of …: {written}"
+            ),
+        },
         raised={UNDECLARED: _undeclared},
+        fixed_by=(
+            lines.written,
+            node_parameters.moved_up,
+            node_parameters.declared_above,
+        ),
+        examples=(
+            example(
+                "parameter_not_declared",
+                Replace(
+                    NODE,
+                    "create_timer(1.0,",
+                    "create_timer(self.get_parameter('period').value,",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "parameter_misspelt",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0,",
+                    "        self.declare_parameter('period', 1.0)\n"
+                    "        period = self.get_parameter('periode').value\n"
+                    "        self.create_timer(period,",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "parameter_declared_late",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0,",
+                    "        period = self.get_parameter('period').value\n"
+                    "        self.declare_parameter('period', 1.0)\n"
+                    "        self.create_timer(period,",
+                ),
+                fails="run.starts",
+            ),
+        ),
     ),
     _parameter(
         "wrong_type",

@@ -13,6 +13,8 @@ from grader.base.nearest import nearest
 from grader.base.shown import shown
 from grader.mistakes.imports import MODULES, OTHER_PACKAGES
 from grader.mistakes.recognised import RecognisedMistake
+from grader.package.source.counter import targets_of
+from grader.package.source.module import Function
 from grader.package.source.node import read_module
 from grader.package.source.place import statement_at
 from grader.report.model import Where
@@ -22,6 +24,9 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 NO_MODULE = re.compile(r"No module named '(?P<name>\w{1,120}(?:\.\w{1,120}){0,9})'")
+OF_FILE = re.compile(
+    r"cannot import name '(?P<name>\w{1,120})' from '(?P<module>\w{1,120}(?:\.\w{1,120}){1,9})'"
+)
 NO_NAME = re.compile(r"cannot import name '(?P<name>\w{1,120})' from '(?P<module>\w{1,120})'")
 
 
@@ -34,6 +39,7 @@ def own_module(error: str, where: Where | None, evidence: Evidence) -> Recognise
         _without_package(error, where, evidence)
         or _of_package(error, where, evidence)
         or _not_handed_in(error, where, evidence)
+        or _not_in_file(error, where, evidence)
     )
 
 
@@ -174,5 +180,27 @@ def _not_handed_in(error: str, where: Where, evidence: Evidence) -> RecognisedMi
         params={"name": name, "close": close, "written": close} if close else {"name": name},
         words={"path": f"{path}.py", "there": there, "close": shown(close)},
         variant="close" if close else "elsewhere" if there else "",
+        where=where,
+    )
+
+
+def _not_in_file(error: str, where: Where, evidence: Evidence) -> RecognisedMistake | None:
+    """Return that a file of the own package does not define a name that the code imports."""
+    match = OF_FILE.search(error)
+    if match is None or match["module"].partition(".")[0] != evidence.assignment.folder:
+        return None
+    path, name = f"{match['module'].replace('.', '/')}.py", match["name"]
+    module = read_module(partial(data_of, evidence), path)
+    if module is None:
+        return None
+    tops = module.tree.body
+    known = {target for s in tops for target in targets_of(s) if "." not in target}
+    known |= {s.name for s in tops if isinstance(s, Function | ast.ClassDef)}
+    close = nearest(name, known, cutoff=0.6)
+    return RecognisedMistake(
+        kind="node.import_name",
+        params={"name": name, "close": close} if close else {"name": name},
+        words={"name": name, "close": close, "path": path},
+        variant="own_close" if close else "own",
         where=where,
     )

@@ -114,8 +114,8 @@ def test_an_except_of_main_gets_to_catch_only_what_ends_the_node(
     text = in_main(head, more, LOG.replace("self.counter_", "self.countr_"))
     found = look("run.ended_early", text)
     assert fix_of(found) == (
-        f"Write self.counter_ instead of self.countr_ on line {line_of(text, 'countr_')}: no line "
-        "sets self.countr_, and this except hides the AttributeError. Then write "
+        f"Write self.counter_ instead of self.countr_ on line {line_of(text, 'countr_')}: nothing "
+        "defines self.countr_, and this except hides the AttributeError. Then write "
         f"{narrower} instead of {head} in line {row}."
     )
     assert patched(found, text, tmp_path) == in_main(narrower, more)
@@ -145,3 +145,29 @@ def test_a_try_with_more_parts_stays(end: str) -> None:
     assert fix_of(look("run.no_lines", text)) == (
         f"Write except KeyboardInterrupt: instead of except Exception: in line {row}, {SHOWN}"
     )
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("self.get_loger().info", "self.get_logger().info"),
+        ("self.get_logger().inffo", "self.get_logger().info"),
+    ],
+)
+def test_a_hidden_misspelt_method_of_node_is_named(old: str, new: str, tmp_path: Path) -> None:
+    log = LOG.replace("self.get_logger().info", old)
+    text = in_main("except:", "", log)
+    found = look("run.ended_early", text)
+    wrong, right = old.removesuffix("().info"), new
+    right = right.removesuffix("().info") if wrong != old else right
+    assert fix_of(found).startswith(
+        f"Write {right} instead of {wrong} on line {line_of(text, old)}: nothing defines"
+    )
+    assert patched(found, text, tmp_path) == in_main("except KeyboardInterrupt:", "", LOG)
+
+
+@pytest.mark.parametrize("name", ["timers", "get_parameters([])"])
+def test_an_attribute_of_node_is_no_misspelt_one(name: str) -> None:
+    log = f"self.{name}\n        {LOG}"
+    found = look("run.ended_early", in_main("except:", "", log))
+    assert "instead of self." not in fix_of(found)

@@ -9,8 +9,10 @@ from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source import endless
+from grader.package.source.imported import NODE as NODE_CLASS
+from grader.package.source.imported import full_name, name_of_node
 from grader.package.source.module import Function, Module
-from grader.package.source.names import dotted, own_name
+from grader.package.source.names import calls_in, dotted
 from grader.package.source.node import NodeSource
 from grader.package.source.second_node import second_node
 from grader.package.source.spun_object import given_to_spin
@@ -50,23 +52,79 @@ def _binds(module: Module, name: str) -> bool:
     return False
 
 
+def root_of(module: Module, found: ast.ClassDef) -> ast.ClassDef:
+    """Return the class of the file that a class inherits from first of all, or itself."""
+    classes = {c.name: c for c in module.tree.body if isinstance(c, ast.ClassDef)}
+    seen = [found]
+    while len(seen[-1].bases) == 1:
+        other = classes.get(dotted(seen[-1].bases[0]))
+        if other is None or other in seen:
+            break
+        seen.append(other)
+    return seen[-1]
+
+
+def init_by_name(module: Module, found: ast.ClassDef) -> ast.Call | None:
+    """Return the call of Node.__init__(self, …) in a class, by the name that Node has there."""
+    for call, name in calls_in(found):
+        base, _, method = name.rpartition(".")
+        given = dotted(call.args[0]) if call.args else ""
+        if not base or method != "__init__" or given != "self":
+            continue
+        owner = call.func.value if isinstance(call.func, ast.Attribute) else call.func
+        if full_name(module, owner) == NODE_CLASS:
+            return call
+    return None
+
+
+def known_base(module: Module, found: ast.ClassDef) -> str:
+    """Return Node by the name that a class can use; "" if the file does not import it."""
+    call = init_by_name(module, found)
+    if call is not None and isinstance(call.func, ast.Attribute):
+        return dotted(call.func.value)
+    return name_of_node(module)
+
+
+def derived(module: Module, found: ast.ClassDef) -> str:
+    """Return the line of a class that inherits from Node too."""
+    code = module.text.code
+    others = [code(base) for base in found.bases if dotted(base) != "object"]
+    others += [f"{k.arg}={code(k.value)}" for k in found.keywords if k.arg]
+    bases = ", ".join([known_base(module, found) or "Node", *others])
+    return f"class {found.name}({bases}):"
+
+
 def base_class(case: Case) -> Files | None:
-    """Derive the class from Node, if it has no base class and creates a timer."""
-    node = case.node
-    node_class = node.node_class if node else None
-    timer = node.timer_call if node else None
-    if node is None or node_class is None or node_class.bases or timer is None:
+    """Derive the class from Node, by the name that the file gives it."""
+    module, line = case.module, case.finding.line
+    classes = module.classes if module is not None else []
+    found = next((c for c in classes if c.lineno == line), None)
+    if line is None and case.node is not None:
+        found = case.node.node_class
+    if module is None or found is None:
         return None
-    text = node.module.text
-    if own_name(timer.func) != "create_timer" or IMPORT not in text.text:
+    text, head = module.text, module.text.line(found.lineno)
+    plain = re.match(rf"\s*class\s+{re.escape(found.name)}\s*(\([^()#]*\))?\s*:", head)
+    if plain is None:
         return None
-    line = node_class.lineno
-    head = text.line(line)
-    name = f"class {node_class.name}"
-    if not head.startswith(name) or head[len(name) :].strip() not in (":", "():"):
+    start = text.start_of(found.lineno)
+    indent = indent_of(head)
+    splices = [Splice(start, start + plain.end(), indent + derived(module, found))]
+    if not known_base(module, found):
+        imported = import_below_rclpy(module)
+        if imported is None:
+            return None
+        splices.append(imported)
+    return case.changed(module, *splices)
+
+
+def import_below_rclpy(module: Module) -> Splice | None:
+    """Return the splice that imports Node below the import of rclpy; None if that is not certain."""
+    tops = [s for s in module.tree.body if isinstance(s, ast.Import)]
+    plain = [s for s in tops if s.names[0].name == "rclpy"]
+    if len(plain) != 1 or _binds(module, "Node"):
         return None
-    start = text.start_of(line) + len(name)
-    return case.changed(node.module, Splice(start, text.end_of(line), "(Node):"))
+    return module.text.before(plain[0].lineno + 1, IMPORT)
 
 
 def constructor(case: Case) -> Files | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 
+from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.node_life import IMPORT
 from grader.mistakes.fixes.rename import splices_of
@@ -40,6 +41,13 @@ def import_of_class(module: Module) -> Splice | None:
             return module.text.swap(statement, IMPORT)
     plain = [s for s in statements if isinstance(s, ast.Import) and s.names[0].name == "rclpy"]
     return module.text.before(plain[0].lineno + 1, IMPORT) if len(plain) == 1 else None
+
+
+def import_of_module(case: Case) -> Files | None:
+    """Import the class Node where its module is imported, or name it through the module."""
+    name, new = (str(case.finding.params.get(key, "")) for key in ("name", "written"))
+    plain = new.startswith("from ") or ("." in new and new.startswith(f"{name}."))
+    return lines.written(case) if plain else None
 
 
 def base(case: Case) -> Files | None:

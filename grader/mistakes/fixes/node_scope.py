@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 
 from grader.mistakes.fixes.case import Case
+from grader.mistakes.fixes.rename import splices_of
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.module import Function, Module
@@ -247,12 +248,11 @@ def hidden_attribute(case: Case) -> Files | None:
     name, close = (str(params.get(key, "")) for key in ("name", "written"))
     if node is None or not name or not close:
         return None
-    module = node.module_at(case.finding.file)
+    module, owner = node.module_at(case.finding.file), str(params.get("object", "self"))
     found = [
         n
         for n in module.nodes
-        if isinstance(n, ast.Attribute)
-        and own_name(n) == name
-        and module.text.code(n) == f"self.{name}"
+        if isinstance(n, ast.Attribute) and n.attr == name and dotted(n.value) == owner
     ]
-    return case.changed(module, *(module.text.swap(n, f"self.{close}") for n in found))
+    splices = splices_of(module, found, close)
+    return case.changed(module, *splices) if splices else None
