@@ -165,6 +165,8 @@ def _without_self(raised: Raised, taken: Function) -> RecognisedMistake | None:
     params = {"name": f"{taken.name}({first}", "written": f"{taken.name}(self, {first}"}
     found = raised.finding("arguments_many", at=taken, params=params)
     words = {**found.words, "method": taken.name, "parameter": first}
+    row = raised.source.module_of(taken).line(taken.lineno)
+    words["head"] = row.replace(params["name"], params["written"], 1)
     return replace(found, variant="no_self", words=words)
 
 
@@ -447,7 +449,7 @@ KINDS = (
             ),
         },
         fixes={
-            "no_self": msg("Write self before {parameter} in this line: def {written}…"),
+            "no_self": msg("Write self before {parameter} in this line: {head}"),
             "super": msg("Write super().__init__('{node_name}')."),
             "only_self": msg("Write {written} instead of {name}."),
         },

@@ -369,6 +369,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.arguments_many": {
         "name": "__init__",
         "written": "text(self, n",
+        "head": "def text(self, n):",
         "method": "text",
         "parameter": "n",
     },

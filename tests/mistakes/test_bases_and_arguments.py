@@ -352,7 +352,7 @@ def test_a_def_without_self_gets_it(tmp_path: Path) -> None:
     text = changed(call, ("    def timer_callback", method))
     error = "TypeError: MyFirstNode.make_text() takes 1 positional argument but 2 were given"
     found = raised(error, text, line_of(text, "info("))
-    assert fix_of(found) == "Write self before n in this line: def make_text(self, n…"
+    assert fix_of(found) == "Write self before n in this line: def make_text(self, n):"
     right = method.replace("(n)", "(self, n)", 1)
     assert patched(found, text, tmp_path) == changed(call, ("    def timer_callback", right))
 

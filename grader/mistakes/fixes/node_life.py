@@ -103,6 +103,10 @@ def base_class(case: Case) -> Files | None:
         found = case.node.node_class
     if module is None or found is None:
         return None
+    if any(full_name(module, base) == NODE_CLASS for base in found.bases):
+        return None
+    if root_of(module, found) is not found or (found.bases and "*" in module.imports):
+        return None
     text, head = module.text, module.text.line(found.lineno)
     plain = re.match(rf"\s*class\s+{re.escape(found.name)}\s*(\([^()#]*\))?\s*:", head)
     if plain is None:
