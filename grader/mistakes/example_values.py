@@ -209,6 +209,9 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.method_not_called": {"name": "setup", "call": "setup()", "line": "9"},
     "node.callback_never_ends": {"name": "while True"},
     "node.exits": {"name": "sys.exit()"},
+    "node.waits_at_end": {"name": "input()", "loop": "while", "line": "31-32"},
+    "node.timer_cancelled": {"name": "self.timer.cancel()"},
+    "node.two_timers": {"line": "12", "lines": "20", "loop": "for", "maker": "start"},
     "node.attribute_not_set": BARE_COUNTER,
     "node.compared_not_assigned": {
         "name": "self.counter",
@@ -384,7 +387,16 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.callback_repeats": {"name": "while"},
     "node.constructor_repeats": {"name": "while", "method": "run", "line": "12"},
     "node.second_node_spun": {"name": "node", "line": "12"},
-    "node.timer_again": {"name": "on_timer", "method": "say_hello"},
+    "node.timer_again": {
+        "name": "on_timer",
+        "method": "say_hello",
+        "maker": "start",
+        "line": "18",
+    },
+    "node.log_missing": {
+        "name": "say_hello",
+        "written": "node.get_logger().info(…)",
+    },
     "node.timer_after_spin": {"name": "node.start()", "line": "12"},
     "node.thread_for_timer": {"name": "run", "loop": "while", "line": "12"},
     "node.thread_goes_on": {"name": "run"},

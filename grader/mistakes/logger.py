@@ -14,6 +14,9 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.names import dotted, last_part
+from grader.package.source.module import Function
+from grader.package.source.names import called_name, calls_in, dotted
+from grader.package.source.node import NodeSource
 
 
 def _arguments(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -50,13 +53,63 @@ def _not_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
 
 def _missing(suspect: Suspect) -> RecognisedMistake | None:
     source, callback = suspect.source, suspect.source.callback
-    if callback is None or source.logs(callback) or source.prints(callback):
+    if callback is None:
+        return _missing_in_lambda(suspect)
+    if source.logs(callback) or source.prints(callback):
         return None
     for node in ast.walk(callback):
         target = node.targets[0] if isinstance(node, ast.Assign) else None
         if target is not None and dotted(target).endswith("get_logger().info"):
             return replace(suspect.finding("log_missing", target), variant="assigned")
-    return suspect.finding("log_missing", callback)
+    if _logs_further(source, callback):
+        return None
+    found = suspect.finding("log_missing", callback)
+    if callback in source.methods.values():
+        return found
+    owner = _node_in(source, callback)
+    words = {**found.words, "name": callback.name, "written": f"{owner}.get_logger().info(…)"}
+    return replace(found, words=words, variant="function" if owner else "function_only")
+
+
+def _logs_further(source: NodeSource, part: ast.AST) -> bool:
+    """Whether a part of the source calls something of the files that logs or prints."""
+    functions = [n for n in source.own_nodes if isinstance(n, Function)]
+    names = {called_name(call) for call, _ in calls_in(part)}
+    named = [f for f in functions if f.name in names and f is not part]
+    return any(source.logs(f) or source.prints(f) for f in named)
+
+
+def _node_in(source: NodeSource, function: Function) -> str:
+    """Return the name that the node has in a function which a timer calls; "" if it is unknown."""
+    around = source.function_around(function)
+    if around is not None and around in source.methods.values():
+        return "self"
+    for timer in source.timers:
+        given = timer.callback.args[1:] if isinstance(timer.callback, ast.Call) else []
+        for parameter, value in zip(function.args.args, given):
+            if dotted(value) in {"self", *source.node_variables}:
+                return parameter.arg
+    return ""
+
+
+def _missing_in_lambda(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a lambda as the callback that returns a text and does not log it."""
+    source = suspect.source
+    timer = source.timers[0] if len(source.timers) == 1 else None
+    given = timer.callback if timer is not None else None
+    if not isinstance(given, ast.Lambda) or source.logs(given) or source.prints(given):
+        return None
+    if not isinstance(given.body, ast.BinOp | ast.JoinedStr) or _logs_further(source, given):
+        return None
+    known = source.loggers_at(given)
+    code = source.module_of(given).text.code(given.body)
+    inside = source.function_around(given) in source.methods.values()
+    own = known[0] if known else "self.get_logger()" if inside else ""
+    if not own or "\n" in code:
+        return None
+    found = suspect.finding("log_missing", given)
+    words = {**found.words, "name": code, "written": f"{own}.info({code})"}
+    return replace(found, words=words, variant="lambda")
 
 
 def _debug(suspect: Suspect) -> RecognisedMistake | None:
@@ -184,8 +237,19 @@ KINDS = (
         msg("The timer calls the callback, but only what the callback logs is seen."),
         msg("Write self.get_logger().info(…) in the callback."),
         links.LOGGING,
-        whys={"assigned": msg("= replaces the method info by the text, and calls nothing.")},
-        fixes={"assigned": msg("Remove the = after info: the text stands in its ().")},
+        whys={
+            "assigned": msg("= replaces the method info by the text, and calls nothing."),
+            "lambda": msg(
+                "The timer calls this lambda. It returns a text, and nothing logs what a callback "
+                "returns."
+            ),
+        },
+        fixes={
+            "assigned": msg("Remove the = after info: the text stands in its ()."),
+            "function": msg("Write {written} in {name}."),
+            "function_only": msg("Call info(…) of the node's logger in {name}."),
+            "lambda": msg("Write {written} instead of {name}."),
+        },
         behind={"run.no_lines": _missing},
         fixed_by=(node_log.called,),
         examples=(

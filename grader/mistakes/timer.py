@@ -25,9 +25,12 @@ from grader.mistakes.recognised import (
 )
 from grader.mistakes.scope import creates_timer
 from grader.package.edit.tree import Replace
-from grader.package.source.names import calls_in, dotted, own_name
+from grader.package.source.counter import targets_of
+from grader.package.source.names import calls_in, dotted, last_part, own_name
+from grader.package.source.node import NodeSource
 from grader.package.source.period import origin_of
-from grader.package.source.place import function_at
+from grader.package.source.place import block_of, function_at
+from grader.package.source.until_ctrl_c import parts_until_ctrl_c
 
 LONG = 100.0  # seconds; a longer period was meant in milliseconds
 WORDS = ("timer", "callback", "on", "log", "hello", "say", "count", "counter", "tick", "time")
@@ -241,16 +244,27 @@ def _called_once(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _cancelled(suspect: Suspect) -> RecognisedMistake | None:
-    for call, name in suspect.source.calls:
-        if name.endswith(".cancel"):
-            return suspect.finding("timer_cancelled", call)
-    return None
+    return _stop_of_timer(suspect, ".cancel")
 
 
 def _stopped(suspect: Suspect) -> RecognisedMistake | None:
-    for call, name in suspect.source.calls:
-        if name.endswith((".cancel", ".destroy_timer")):
-            return suspect.finding("timer_cancelled", call)
+    return _stop_of_timer(suspect, ".cancel", ".destroy_timer", logs=False)
+
+
+def _stop_of_timer(suspect: Suspect, *endings: str, logs: bool = True) -> RecognisedMistake | None:
+    """Look for a call that stops a timer, and that can run before spin has ended.
+
+    With `logs`, no line came: then a callback that stops its timer must have one to be silent for.
+    """
+    source, callback = suspect.source, suspect.source.callback
+    early = parts_until_ctrl_c(source)
+    for call, name in source.calls:
+        if not name.endswith(endings) or call not in early or not _is_of_timer(source, call, name):
+            continue
+        inside = callback is not None and call in ast.walk(callback)
+        if logs and inside and callback is not None and not source.logs(callback):
+            continue
+        return _with_line(suspect, call, name)
     return None
 
 
@@ -270,6 +284,36 @@ def _argument_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake
         mistake = raised.finding("timer_argument_missing", at=timer.call, params=params)
         return replace(mistake, variant="written")
     return raised.finding("timer_argument_missing")
+
+
+def _is_of_timer(source: NodeSource, call: ast.Call, name: str) -> bool:
+    """Whether a call of cancel() stops a timer, as far as its names tell."""
+    owner = name.rpartition(".")[0]
+    if name.endswith(".destroy_timer") or "timer" in owner.lower():
+        return True
+    made = {timer.call for timer in source.timers}
+    if isinstance(call.func, ast.Attribute) and call.func.value in made:
+        return True
+    kept = [n for n in source.own_nodes if isinstance(n, ast.Assign | ast.AnnAssign)]
+    names = {last_part(target) for n in kept if n.value in made for target in targets_of(n)}
+    return last_part(owner) in names
+
+
+def _with_line(suspect: Suspect, call: ast.Call, name: str) -> RecognisedMistake:
+    """Say what to delete: only the .cancel() behind create_timer, else the line and its if."""
+    found = suspect.finding("timer_cancelled", call)
+    module = suspect.source.module_of(call)
+    statement = module.parents.get(call)
+    owner = call.func.value if isinstance(call.func, ast.Attribute) else None
+    if isinstance(owner, ast.Call):
+        return found  # (create_timer(…).cancel())
+    if not isinstance(statement, ast.Expr):
+        return replace(found, variant="other", words={**found.words, "name": f"{name}()"})
+    block, around = block_of(module, statement), module.parents.get(statement)
+    if len(block) > 1:
+        return replace(found, variant="line")
+    alone = isinstance(around, ast.If) and around.body == block and not around.orelse
+    return replace(found, variant="if" if alone else "alone")
 
 
 def _milliseconds(suspect: Suspect) -> RecognisedMistake | None:
@@ -665,8 +709,14 @@ KINDS = (
         msg("The timer is cancelled"),
         msg("cancel() stops a timer: it no longer calls its callback."),
         msg("Remove the .cancel()."),
+        fixes={
+            "line": msg("Delete this line."),
+            "if": msg("Delete this line and the if above it."),
+            "alone": msg("Write pass instead of this line."),
+            "other": msg("Remove {name} from this line."),
+        },
         behind={"run.no_lines": _cancelled, "run.stops": _stopped},
-        fixed_by=(node_timer.cancelled,),
+        fixed_by=(node_timer.cancelled, node_timer.without_cancel),
         examples=(
             example(
                 "timer_cancelled",

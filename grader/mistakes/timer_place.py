@@ -14,9 +14,14 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.after_spin import timer_after_spin
+from grader.package.source.counter import targets_of
 from grader.package.source.endless import calls_of_methods
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.node import NodeSource
+from grader.package.source.place import block_of
+from grader.package.source.timer import Timer
+from grader.package.source.until_ctrl_c import parts_until_ctrl_c
 
 
 def _again(suspect: Suspect) -> RecognisedMistake | None:
@@ -45,22 +50,32 @@ def _again(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _again_by_call(suspect: Suspect) -> RecognisedMistake | None:
-    """Look for a call of a method that only creates the timer, in that timer's own callback."""
+    """Look for a call of a method that creates the timer, in that timer's own callback."""
     source, callback = suspect.source, suspect.source.callback
-    timer = source.timers[0] if len(source.timers) == 1 else None
-    if timer is None or callback is None or timer.method != callback.name:
+    if callback is None or _ends_timers(callback):
         return None
-    maker = timer.function
-    if maker is None or maker is callback or source.methods.get(maker.name) is not maker:
-        return None
-    code = [s for s in maker.body if not _is_text(s)]
-    calls = [s for s in callback.body if isinstance(s, ast.Expr) and _calls(s.value, maker)]
-    made_first = any(
-        _calls(call, maker) for call, _ in source.calls if call not in ast.walk(callback)
-    )
-    if len(code) != 1 or len(calls) != 1 or not made_first or _ends_timers(callback):
-        return None
-    return suspect.finding("timer_again", calls[0], name=callback.name)
+    for timer in source.timers:
+        maker = timer.function
+        if maker is None or maker is callback or source.methods.get(maker.name) is not maker:
+            continue
+        code = [s for s in maker.body if not _is_text(s)]
+        calls = [s for s in callback.body if isinstance(s, ast.Expr) and _calls(s.value, maker)]
+        elsewhere = any(
+            _calls(call, maker) for call, _ in source.calls if call not in ast.walk(callback)
+        )
+        first = [t for t in source.timers if t is not timer and t.method == callback.name]
+        if timer.method != callback.name or len(calls) != 1 or not (elsewhere or first):
+            continue
+        if maker.name == "__init__" or _ends_timers(maker):
+            continue
+        found = suspect.finding("timer_again", calls[0], name=callback.name)
+        if len(code) == 1:
+            return found
+        words: dict[str, str | int] = {"maker": maker.name, "line": timer.call.lineno}
+        variant = "maker_first" if first else "maker"
+        params = {**found.params, **words}
+        return replace(found, params=params, words={**found.words, **words}, variant=variant)
+    return None
 
 
 def _calls(call: ast.expr, method: Function) -> bool:
@@ -101,10 +116,91 @@ def _in_callback(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _two(suspect: Suspect) -> RecognisedMistake | None:
-    timers = suspect.source.timers
-    return suspect.finding("two_timers", timers[1].call) if len(timers) > 1 else None
+    """Look for a second timer with the same callback, or with another one that logs."""
+    source, timers = suspect.source, suspect.source.timers
+    logging = [t for t in timers if _logs(source, t)]
+    if len(logging) > 1:
+        return _second(suspect, logging)
+    return _in_loop(suspect) or _made_by_calls(suspect)
 
 
+def _logs(source: NodeSource, timer: Timer) -> bool:
+    """Whether the callback of a timer logs, or calls a method that does; also if it is unknown."""
+    method = source.methods.get(timer.method)
+    if method is None:
+        return True
+    inner = [m for _, m in calls_of_methods(source, method)]
+    return any(source.logs(m) or source.prints(m) for m in (method, *inner))
+
+
+def _second(suspect: Suspect, timers: list[Timer]) -> RecognisedMistake:
+    """Name the timer that is too many: the second one, unless only that has the right period."""
+    first, second = timers[:2]
+    right = [suspect.output.period == t.seconds for t in (first, second)]
+    kept, other = (second, first) if right == [False, True] else (first, second)
+    found = suspect.finding("two_timers", other.call)
+    module = suspect.source.module_of(other.call)
+    statement = next((n for n in module.around(other.call) if isinstance(n, ast.stmt)), None)
+    same = suspect.source.module_of(kept.call) is module
+    if first.method != second.method or not same or statement is None or len(timers) > 2:
+        return found
+    words = {**found.words, "line": kept.call.lineno}
+    names = {last_part(name) for name in targets_of(statement)}
+    kept_statement = next((n for n in module.around(kept.call) if isinstance(n, ast.stmt)), None)
+    names -= {last_part(name) for name in targets_of(kept_statement)} if kept_statement else set()
+    uses = {
+        n.lineno
+        for n in suspect.source.all_nodes
+        if isinstance(n, ast.Attribute | ast.Name) and last_part(dotted(n)) in names
+    } - {statement.lineno}
+    if uses:
+        return replace(
+            found, words={**words, "lines": ", ".join(map(str, sorted(uses)))}, variant="used"
+        )
+    alone = len(block_of(module, statement)) == 1
+    return replace(found, words=words, variant="alone" if alone else "line")
+
+
+def _in_loop(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the only timer in a loop that creates it in each of its rounds."""
+    source, timers = suspect.source, suspect.source.timers
+    if len(timers) != 1:
+        return None
+    module = source.module_of(timers[0].call)
+    around = list(module.around(timers[0].call))
+    inside = next((n for n, part in enumerate(around) if isinstance(part, Function)), len(around))
+    loops = [part for part in around[:inside] if isinstance(part, ast.For | ast.While)]
+    if len(loops) != 1:
+        return None
+    found = suspect.finding("two_timers", timers[0].call)
+    word = "for" if isinstance(loops[0], ast.For) else "while"
+    words = {**found.words, "loop": word, "line": loops[0].lineno}
+    return replace(found, words=words, variant="loop")
+
+
+def _made_by_calls(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for two calls of the method that creates the timer."""
+    source, timers = suspect.source, suspect.source.timers
+    maker = timers[0].function if len(timers) == 1 else None
+    if maker is None or source.methods.get(maker.name) is not maker or maker.name == "__init__":
+        return None
+    early = parts_until_ctrl_c(source)
+    calls = [call for call, _ in source.calls if _calls(call, maker) and call in early]
+    if len(calls) != 2 or _ends_timers(maker):
+        return None
+    found = suspect.finding("two_timers", calls[1])
+    words = {**found.words, "maker": maker.name, "line": calls[0].lineno}
+    statement = source.module_of(calls[1]).parents.get(calls[1])
+    if isinstance(statement, ast.Expr):
+        others = len(block_of(source.module_of(calls[1]), statement)) - 1
+        return replace(found, words=words, variant="called_line" if others else "called")
+    return replace(found, words=words, variant="called")
+
+
+CALLED = msg(
+    "This line calls {maker}, and line {line} does so too. Each call creates a timer, and each timer "
+    "calls the callback on its own."
+)
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -121,7 +217,15 @@ KINDS = (
             "other": msg(
                 "Delete this line, and give {method} instead of {name} to the timer that calls "
                 "{name}."
-            )
+            ),
+            "maker": msg(
+                "This line calls {maker}, which creates a timer in each call. Move line {line}, "
+                "which creates it, from {maker} to the end of __init__."
+            ),
+            "maker_first": msg(
+                "This line calls {maker}, which creates a timer in each call. Delete line {line}, "
+                "which creates it: the timer that is created first goes on by itself."
+            ),
         },
         behind={
             "run.twice": _again,
@@ -138,6 +242,7 @@ KINDS = (
                     f"{STEP_LINE}        self.create_timer(1.0, self.timer_callback)  # next\n",
                 ),
                 fails="run.output",
+                also={"run.period": "node.timer_again"},
             ),
             example(
                 "timer_again_by_method",
@@ -151,6 +256,7 @@ KINDS = (
                     "    def timer_callback",
                 ),
                 fails="run.output",
+                also={"run.period": "node.timer_again"},
             ),
             example(
                 "timer_of_timer",
@@ -167,6 +273,7 @@ KINDS = (
                     "    def timer_callback",
                 ),
                 fails="run.output",
+                also={"run.period": "node.timer_again"},
             ),
         ),
     ),
@@ -254,11 +361,30 @@ KINDS = (
     _node(
         "two_timers",
         "timer",
-        msg("Two timers call the callback"),
+        msg("More than one timer calls the callback"),
         msg("Each timer calls its callback on its own: two timers make two lines at a time."),
         msg("Keep only one create_timer."),
+        whys={
+            "loop": msg(
+                "This line is in a {loop} (line {line}): each round creates one more timer, and "
+                "each timer calls the callback on its own."
+            ),
+            "called": CALLED,
+            "called_line": CALLED,
+        },
+        fixes={
+            "line": msg("Delete this line: line {line} creates the timer."),
+            "alone": msg("Write pass instead of this line: line {line} creates the timer."),
+            "used": msg(
+                "Delete this line, and what uses this timer (line {lines}): line {line} creates a "
+                "timer with the same callback."
+            ),
+            "loop": msg("Create the timer only once, without the {loop} of line {line}."),
+            "called": msg("Call {maker} only once, on line {line}."),
+            "called_line": msg("Delete this line: line {line} calls {maker}."),
+        },
         behind={"run.twice": _two},
-        fixed_by=(node_count.twice,),
+        fixed_by=(node_count.twice, timer_place.one_timer),
         examples=(
             example(
                 "two_timers",

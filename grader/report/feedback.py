@@ -28,6 +28,9 @@ OF_DETAIL: Mapping[Detail, Mapping[str, object]] = {  # what a level adds: the f
 }
 
 
+MISNAMED = "source.misnamed_node_file"
+
+
 def with_feedback(
     report: Report,
     detail: Detail,
@@ -110,9 +113,15 @@ def first_failure(checks: Sequence[CheckResult]) -> CheckResult | None:
 
 
 def most_stopping(failed: Sequence[CheckResult], checks: Sequence[CheckResult]) -> CheckResult:
-    """Return that check of some failed ones; see `first_failure`."""
+    """Return that check of some failed ones; see `first_failure`.
+
+    A file of another name comes before the entry point that names it: the entry follows the file.
+    """
     causes = [cause.id for c in checks if c.status == "skipped" for cause in roots(c, checks)]
-    return max(failed, key=lambda check: (not check.consequence_of, causes.count(check.id)))
+    found = max(failed, key=lambda check: (not check.consequence_of, causes.count(check.id)))
+    of_entry = found.where is not None and found.where.file == "setup.py"
+    named = [c for c in failed if any(m.id == MISNAMED for m in c.mistakes)]
+    return named[0] if of_entry and named else found
 
 
 def _with_detail(check: CheckResult, level: Detail, *, some_fail: bool) -> CheckResult:

@@ -20,7 +20,7 @@ from grader.publish.markdown import markdown
 from grader.report.detail import HINTS, Detail, Feedback, FeedbackRules
 from grader.report.feedback import first_failure, for_lab, with_feedback, without_hidden
 from grader.report.files import report_json
-from grader.report.model import CheckResult, Report, RunInfo, TopicPlot
+from grader.report.model import CheckResult, Mistake, Report, RunInfo, TopicPlot, Where
 from tests import processes, recorded
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
@@ -190,6 +190,17 @@ def test_a_failure_that_stops_others_is_the_first() -> None:
     assert first is not None
     assert first.id == "build.colcon"
     assert first_failure(samples.report().checks) is None
+
+
+def test_the_files_name_comes_before_the_entry_point_that_names_it() -> None:
+    named = samples.check("source.node_file", "failed")
+    named = named.model_copy(update={"mistakes": [Mistake(id="source.misnamed_node_file")]})
+    entry = samples.check("entry_point.mapping", "failed")
+    entry = entry.model_copy(update={"where": Where(file="setup.py", line=23)})
+    skipped = samples.check("run.starts", "skipped", blocked_by="entry_point.mapping")
+    first = first_failure(samples.report(named, entry, skipped).checks)
+    assert first is not None
+    assert first.id == "source.node_file"
 
 
 # --- real verdicts

@@ -29,6 +29,8 @@ class Timer:
     @property
     def _named(self) -> ast.expr | None:
         """The expression that names the callback, whether it is called or not."""
+        if isinstance(self.callback, ast.Call) and self.callback.args and not self.called:
+            return self.callback.args[0]  # partial(callback, …)
         return self.callback.func if isinstance(self.callback, ast.Call) else self.callback
 
     @property

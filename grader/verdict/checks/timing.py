@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import statistics
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     from grader.verdict.use import Use
 
 WALL_TOLERANCE, WALL_SLACK = 0.05, 0.02  # a share of the period, and seconds
+MOST_INSTANTS = 5  # of those whose lines are counted in a text
 LONGEST_CODE = 80  # characters of a calculation in a text
 
 
@@ -104,6 +106,11 @@ def _line_by_line(evidence: Evidence, wanted: float) -> Passed:
         if slow:
             actual = say("a line about every {period} s", period=f"{slow:.2f}")
             raise _wrong_period(evidence, expected, actual, seconds=slow)
+        if evidence.has_mistake(count, "node.timer_again"):
+            at_a_time = Counter(event.due for event in on_time).values()
+            shown = ", ".join(map(str, list(at_a_time)[:MOST_INSTANTS]))
+            actual = say("more and more lines at a time: {counts}, …", counts=shown)
+            raise _wrong_period(evidence, expected, actual, seconds=wanted)
         each = say(
             "{count} lines, each at its instant (to 1 ms of ROS time), none in between",
             count=len(on_time),

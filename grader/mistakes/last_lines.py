@@ -1,0 +1,152 @@
+"""Mistakes below spin: lines that wait, so that the program does not end after Ctrl+C."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import NODE, example
+from grader.mistakes.fixes import last_lines
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.package.edit.tree import Replace
+from grader.package.source.counter import targets_of
+from grader.package.source.endless import goes_on, sleeps_in
+from grader.package.source.module import Function
+from grader.package.source.names import called_name, dotted
+from grader.package.source.node import NodeSource
+from grader.package.source.place import block_of
+from grader.package.source.until_ctrl_c import SPINS, after_spin, parts_until_ctrl_c
+
+LONG = 3.0  # seconds; after a shorter sleep the program has ended when it is looked at
+ASKS = ("input", "sys.stdin.readline", "sys.stdin.read")
+
+
+def _waits(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a line that waits when spin has ended: it keeps the program from ending."""
+    source = suspect.source
+    for node in _late_nodes(source):
+        waits = _what_waits(source, node)
+        if waits:
+            return _told(suspect, node, waits)
+    return None
+
+
+def _late_nodes(source: NodeSource) -> Iterator[ast.AST]:
+    """Yield the parts of the lines after spin, and of the functions that only they call."""
+    early = parts_until_ctrl_c(source)
+    functions = {n.name: n for n in source.own_nodes if isinstance(n, Function)}
+    for statement in after_spin(source):
+        for node in ast.walk(statement):
+            yield node
+            called = functions.get(called_name(node)) if isinstance(node, ast.Call) else None
+            if called is not None and not early.intersection(called.body):
+                yield from (part for line in called.body for part in ast.walk(line))
+
+
+def _what_waits(source: NodeSource, node: ast.AST) -> str:
+    """Return the name of what waits in a part of the source; "" if it does not wait for long."""
+    if isinstance(node, ast.While):
+        spins = [n for n in ast.walk(node) if isinstance(n, ast.Call) and called_name(n) in SPINS]
+        return "while" if goes_on(node) and dotted(node.test) != "rclpy.ok()" and not spins else ""
+    if not isinstance(node, ast.Call):
+        return ""
+    name = dotted(node.func)
+    if name in ASKS:
+        return f"{name}()"
+    if node in sleeps_in(source, node) and node.args:
+        seconds = node.args[0].value if isinstance(node.args[0], ast.Constant) else None
+        long = isinstance(seconds, int | float) and seconds >= LONG
+        looped = any(isinstance(n, ast.For) for n in source.module_of(node).around(node))
+        return f"{name}()" if long or looped else ""
+    return ""
+
+
+def _told(suspect: Suspect, node: ast.AST, waits: str) -> RecognisedMistake | None:
+    """Say what is to be deleted: a line, its loop, or the line and those with its variable."""
+    source = suspect.source
+    module = source.module_of(node)
+    around = [node, *module.around(node)]
+    statement = next((n for n in around if isinstance(n, ast.stmt)), None)
+    function = next((n for n in around if isinstance(n, Function)), None)
+    if statement is None:
+        return None
+    late = {n for line in after_spin(source) for n in ast.walk(line)}
+    own = [part for part in around if part in late or function is not source.main]
+    loops = [part for part in own if isinstance(part, ast.While | ast.For)]
+    found = suspect.finding("waits_at_end", statement, name=waits)
+    if loops:
+        last = loops[-1].end_lineno or loops[-1].lineno
+        word = "while" if isinstance(loops[-1], ast.While) else "for"
+        words = {**found.words, "loop": word, "line": f"{loops[-1].lineno}-{last}"}
+        alone = len(block_of(module, loops[-1])) == 1
+        return replace(found, words=words, variant="loop_alone" if alone else "loop")
+    names = {name.partition(".")[0] for name in targets_of(statement)}
+    uses = sorted(
+        {
+            n.lineno
+            for n in ast.walk(function or module.tree)
+            if isinstance(n, ast.Name) and n.id in names and n.lineno != statement.lineno
+        }
+    )
+    if isinstance(statement, ast.Expr | ast.Assign) and not uses:
+        alone = len(block_of(module, statement)) == 1
+        return replace(found, variant="alone" if alone else "")
+    words = {**found.words, "line": ", ".join(map(str, uses))}
+    return replace(found, words=words, variant="used" if uses else "part")
+
+
+LOOP = msg(
+    "Ctrl+C ends the call that spins. Then the lines below it run, and the {loop} (line {line}) "
+    "waits: the program goes on."
+)
+_node = Family("node", links.EXECUTORS)
+KINDS = (
+    _node(
+        "waits_at_end",
+        "shutdown",
+        msg("A line below spin waits, so the program does not end"),
+        msg(
+            "Ctrl+C ends the call that spins. Then the lines below it run, and {name} in this line "
+            "waits: the program goes on."
+        ),
+        msg("Delete this line."),
+        links.EXECUTORS,
+        whys={"loop": LOOP, "loop_alone": LOOP},
+        fixes={
+            "alone": msg("Write pass instead of this line."),
+            "loop": msg("Delete the whole {loop} (line {line})."),
+            "loop_alone": msg("Write pass instead of the whole {loop} (line {line})."),
+            "used": msg("Delete this line, and what uses its value (line {line})."),
+            "part": msg("Remove {name} from this line."),
+        },
+        behind={"run.ignores_interrupt": _waits},
+        fixed_by=(last_lines.without_wait,),
+        examples=(
+            example(
+                "asks_after_spin",
+                Replace(
+                    NODE,
+                    "        rclpy.try_shutdown()\n",
+                    "        rclpy.try_shutdown()\n        input('Press Enter to close ...')\n",
+                ),
+                fails="run.interrupt",
+            ),
+            example(
+                "sleeps_on_after_spin",
+                Replace(NODE, "import rclpy\nfrom", "import time\nimport rclpy\nfrom"),
+                Replace(
+                    NODE,
+                    "        rclpy.try_shutdown()\n",
+                    "        rclpy.try_shutdown()\n"
+                    "    while True:\n"
+                    "        time.sleep(0.5)  # stay open\n",
+                ),
+                fails="run.interrupt",
+            ),
+        ),
+    ),
+)
