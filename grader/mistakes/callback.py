@@ -96,12 +96,19 @@ def _sleeps(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _never_ends(suspect: Suspect) -> RecognisedMistake | None:
-    callback = suspect.source.callback
-    found = never_ends_in(callback) if callback is not None else None
-    if found is None:
-        return None
-    name = "while" if isinstance(found, ast.While) else "input()"
-    return suspect.finding("callback_never_ends", found, name=name)
+    source, callback = suspect.source, suspect.source.callback
+    others = [source.methods[t.method] for t in source.timers if t.method in source.methods]
+    for method in dict.fromkeys([*([callback] if callback is not None else []), *others]):
+        found = never_ends_in(method)
+        if found is None:
+            continue
+        name = "while" if isinstance(found, ast.While) else "input()"
+        mistake = suspect.finding("callback_never_ends", found, name=name)
+        if method is callback:
+            return mistake
+        words = {**mistake.words, "method": method.name}
+        return replace(mistake, words=words, variant="other")
+    return None
 
 
 def never_ends_in(method: Function) -> ast.Call | ast.While | None:
@@ -224,6 +231,13 @@ KINDS = (
         msg("The timer can call a callback again only after it has returned."),
         msg("Remove {name} from {callback}: the timer does the repeating."),
         links.EXECUTORS,
+        whys={
+            "other": msg(
+                "A timer calls {method} too. A node runs one callback after another: as long as "
+                "{method} does not return, nothing calls {callback}."
+            )
+        },
+        fixes={"other": msg("Remove {name} from {method}: its timer does the repeating.")},
         behind={"run.no_lines": _never_ends, "run.stops": _never_ends},
         examples=(
             example(

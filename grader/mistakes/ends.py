@@ -313,6 +313,12 @@ def _stuck(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+def _spins_in_callback(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a callback that spins the node which calls it."""
+    found = _stuck(suspect)
+    return found if found is not None and found.kind == "node.spins_inside" else None
+
+
 def _word(node: ast.AST) -> str:
     return dotted(node.func) if isinstance(node, ast.Call) else "while"
 
@@ -476,7 +482,7 @@ KINDS = (
         BLOCKS,
         msg("Remove {name} from the callback: {function} spins the node."),
         links.EXECUTORS,
-        behind={"run.stuck": _stuck},
+        behind={"run.stuck": _stuck, "run.stops": _spins_in_callback},
     ),
     _node(
         "waits_for_service",

@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, example
-from grader.mistakes.fixes import last_lines
+from grader.mistakes.fixes import last_lines, lines
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.endless import goes_on, sleeps_in
 from grader.package.source.module import Function
-from grader.package.source.names import called_name, dotted
+from grader.package.source.names import called_name, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of
+from grader.package.source.thread_timers import row_ranges
 from grader.package.source.until_ctrl_c import SPINS, after_spin, parts_until_ctrl_c
 
 LONG = 3.0  # seconds; after a shorter sleep the program has ended when it is looked at
@@ -103,8 +105,139 @@ LOOP = msg(
     "Ctrl+C ends the call that spins. Then the lines below it run, and the {loop} (line {line}) "
     "waits: the program goes on."
 )
+
+
+def _started_again(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Look for the call of the entry function in its own lines below spin."""
+    del match
+    call = _own_call(raised.source)
+    if call is None:
+        return None
+    found = raised.finding("starts_again", at=call)
+    return replace(found, variant="alone" if _is_alone(raised.source, call) else "")
+
+
+def _starts_again(suspect: Suspect) -> RecognisedMistake | None:
+    call = _own_call(suspect.source)
+    if call is None:
+        return None
+    found = suspect.finding("starts_again", call)
+    return replace(found, variant="alone" if _is_alone(suspect.source, call) else "")
+
+
+def _is_alone(source: NodeSource, call: ast.Call) -> bool:
+    """Whether a block has nothing but the line of a call."""
+    module = source.module_of(call)
+    statement = next((n for n in module.around(call) if isinstance(n, ast.stmt)), None)
+    return statement is not None and len(block_of(module, statement)) == 1
+
+
+def _own_call(source: NodeSource) -> ast.Call | None:
+    main = source.main
+    for node in (n for line in after_spin(source) for n in ast.walk(line)):
+        if isinstance(node, ast.Call) and main is not None and dotted(node.func) == main.name:
+            return node
+    return None
+
+
+def _needs_ros(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Look for a line below spin that asks something of ROS, which Ctrl+C has shut down."""
+    del match
+    source = raised.source
+    late = {n for line in after_spin(source) for n in ast.walk(line)}
+    for call, name in source.calls:
+        if call in late and call.lineno == raised.line and last_part(name) in OF_ROS:
+            statement = next(
+                (n for n in source.module_of(call).around(call) if isinstance(n, ast.stmt)), None
+            )
+            if statement is None:
+                return None
+            found = raised.finding("needs_ros", at=call, name=f"{name}()")
+            rows = _uses(source, statement)
+            words = {**found.words, "line": row_ranges(tuple(rows))}
+            return replace(found, words=words, variant="used" if rows else "")
+    return None
+
+
+def _uses(source: NodeSource, statement: ast.stmt) -> list[int]:
+    """Return the lines that use what a statement assigns, with a loop that does nothing else."""
+    module, function = source.module_of(statement), source.function_around(statement)
+    names = {name.partition(".")[0] for name in targets_of(statement)} - {"self"}
+    rows: set[int] = set()
+    for node in ast.walk(function or module.tree):
+        used = isinstance(node, ast.Name) and node.id in names
+        if not used or not isinstance(node, ast.Name) or node.lineno == statement.lineno:
+            continue
+        own = next((n for n in module.around(node) if isinstance(n, ast.stmt)), None)
+        loop = module.parents.get(own) if own is not None else None
+        if isinstance(loop, ast.While | ast.For) and len(loop.body) == 1:
+            own = loop
+        if own is not None:
+            rows |= set(range(own.lineno, (own.end_lineno or own.lineno) + 1))
+    return sorted(rows)
+
+
+OF_ROS = (
+    *("create_rate", "create_publisher", "create_subscription", "create_service"),
+    *("create_client", "create_node", "Node"),
+)
 _node = Family("node", links.EXECUTORS)
 KINDS = (
+    _node(
+        "starts_again",
+        "shutdown",
+        msg("The program starts again after Ctrl+C"),
+        msg(
+            "Ctrl+C ends the call that spins. Then the lines below it run, and this line calls "
+            "{function} again."
+        ),
+        msg("Delete this line."),
+        links.EXECUTORS,
+        fixes={"alone": msg("Write pass instead of this line.")},
+        raised={"RecursionError": _started_again},
+        behind={"run.ignores_interrupt": _starts_again},
+        fixed_by=(lines.deleted,),
+        examples=(
+            example(
+                "main_calls_itself",
+                Replace(
+                    NODE,
+                    "        rclpy.try_shutdown()\n",
+                    "        rclpy.try_shutdown()\n        main()  # start again\n",
+                ),
+                fails="run.interrupt",
+            ),
+        ),
+    ),
+    _node(
+        "needs_ros",
+        "shutdown",
+        msg("A line below spin needs ROS, which Ctrl+C has shut down"),
+        msg(
+            "Ctrl+C ends the call that spins and shuts ROS down. The lines below it run only "
+            "after that, and then {name} raises an error."
+        ),
+        msg("Delete this line."),
+        links.EXECUTORS,
+        fixes={"used": msg("Delete this line, and what uses its value (line {line}).")},
+        raised={"the given context is not valid": _needs_ros},
+        examples=(
+            example(
+                "rate_after_spin",
+                Replace(
+                    NODE,
+                    "    finally:\n",
+                    "    rate = node.create_rate(1)\n"
+                    "    while rclpy.ok():\n"
+                    "        rate.sleep()\n"
+                    "    try:\n"
+                    "        pass\n"
+                    "    finally:\n",
+                ),
+                fails="run.interrupt",
+            ),
+        ),
+    ),
     _node(
         "waits_at_end",
         "shutdown",

@@ -97,7 +97,7 @@ def _cleans_up_first(suspect: Suspect) -> RecognisedMistake | None:
     early = node_order.early_cleanup(suspect.source)
     found = _cleanup(suspect.source)
     if early is None or found is None:
-        return _init_ends(suspect)
+        return _init_ends(suspect) or _by_method(suspect)
     return _with_later(suspect.source, suspect.finding("cleanup_early", early[0], name=found[0]))
 
 
@@ -140,6 +140,18 @@ def _in_init(source: NodeSource) -> tuple[ast.Expr, str] | None:
         if isinstance(statement, ast.Expr) and ends:
             return statement, f"{name}()"
     return None
+
+
+def _by_method(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a call of an own function, above spin, that always cleans up."""
+    source = suspect.source
+    called = node_order.cleanup_by_call(source)
+    if called is None:
+        return None
+    statement, function, name = called
+    words = {"method": function.name, "line": str(function.lineno)}
+    found = suspect.finding("cleanup_early", statement, name=f"{name}()")
+    return replace(found, words={**found.words, **words}, variant="method")
 
 
 def _init_ends_it(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -293,6 +305,10 @@ KINDS = (
             "several": msg(
                 "Move this line and the other lines that clean up ({line}) to the end of {function}, "
                 "below the line that spins."
+            ),
+            "method": msg(
+                "Move this line below the line that spins: it calls {method} (line {line}), which "
+                "cleans up."
             ),
             "in_init": msg(
                 "Delete this line. Clean up at the end of {function}, below the line that spins."

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
@@ -11,12 +12,14 @@ from grader.mistakes.example import NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_life
 from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import placeholder_values
-from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Edit, Replace, Write
+from grader.package.source.counter import targets_of
 from grader.package.source.endless import idle_loop
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.place import statement_at
 
+TWICE = "generator already executing|Executor is already spinning"
 SPUN = ("spin", "rclpy.spin", "rclpy.spin_once")
 EXITS = ("exit", "quit", "sys.exit", "os._exit")
 SPIN = msg("rclpy.spin(node) waits and calls the callbacks when they are due, until Ctrl+C.")
@@ -34,7 +37,24 @@ def _once_only(suspect: Suspect) -> RecognisedMistake | None:
 def _never_again(suspect: Suspect) -> RecognisedMistake | None:
     """The program goes on, so that a loop around spin_once has not ended."""
     found = _once_only(suspect)
-    return replace(found, variant="") if found is not None else None
+    if found is None:
+        return None
+    return replace(found, variant="goes_on" if found.variant == "loop" else "")
+
+
+def _by_loop(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a loop that calls the callback itself, beside spin_once."""
+    found, source = _never_again(suspect), suspect.source
+    names = {timer.method for timer in source.timers} - {""}
+    if found is None or found.variant != "goes_on":
+        return None
+    for call in source.calls_of("spin_once"):
+        for loop in source.module_of(call).around(call):
+            if isinstance(loop, ast.While) and any(
+                last_part(name) in names for _, name in calls_in(loop)
+            ):
+                return found
+    return None
 
 
 def _once(suspect: Suspect) -> RecognisedMistake | None:
@@ -53,6 +73,30 @@ def _once(suspect: Suspect) -> RecognisedMistake | None:
 
 def _in_while(suspect: Suspect, call: ast.Call) -> bool:
     return any(isinstance(n, ast.While) for n in suspect.source.module_of(call).around(call))
+
+
+def _spun_twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Look for a thread that spins beside a call of spin."""
+    del match
+    source = raised.source
+    threads = [
+        call
+        for call in source.calls_of("Thread")
+        for word in call.keywords
+        if word.arg == "target" and last_part(dotted(word.value)) == "spin"
+    ]
+    spins = source.calls_of("spin")
+    if len(threads) != 1 or len(spins) != 1:
+        return None
+    module = source.module_of(threads[0])
+    statement = statement_at(module, threads[0].lineno)
+    names = set(targets_of(statement)) if statement is not None else set()
+    function = source.function_around(threads[0]) or module.tree
+    uses = {n.lineno for n in ast.walk(function) if isinstance(n, ast.expr) and dotted(n) in names}
+    rows = ", ".join(map(str, sorted(uses - {threads[0].lineno})))
+    params = {"line": str(spins[0].lineno), "lines": rows}
+    found = raised.finding("spun_twice", at=threads[0], params=params)
+    return replace(found, variant="used" if rows else "")
 
 
 def _not_called(suspect: Suspect) -> RecognisedMistake | None:
@@ -117,8 +161,28 @@ def _sleep_loop(suspect: Suspect) -> RecognisedMistake | None:
         if node is not idle and isinstance(node, ast.While | ast.For):
             for call, name in calls_in(node):
                 if last_part(name) == "sleep":
-                    return suspect.finding("sleep_loop", call)
+                    found = suspect.finding("sleep_loop", call)
+                    return _spins_and_sleeps(suspect, node, found) or found
     return None
+
+
+def _spins_and_sleeps(
+    suspect: Suspect, loop: ast.While | ast.For, found: RecognisedMistake
+) -> RecognisedMistake | None:
+    """Look for a loop that only spins once and sleeps, beside a timer that does the work."""
+    calls = [s.value for s in loop.body if isinstance(s, ast.Expr)]
+    names = [dotted(call.func) for call in calls if isinstance(call, ast.Call)]
+    only = {last_part(name) for name in names} == {"spin_once", "sleep"}
+    once = next((name for name in names if last_part(name) == "spin_once"), "")
+    if not only or len(names) != len(loop.body) or not suspect.source.timers:
+        return None
+    owner = once.rpartition(".")[0]
+    node = placeholder_values(suspect.assignment, suspect.source)["node"]
+    wanted = f"{owner}.spin()" if owner in executors(suspect) else f"rclpy.spin({node})"
+    word = "while" if isinstance(loop, ast.While) else "for"
+    rows = f"{loop.lineno}-{loop.end_lineno or loop.lineno}"
+    words = {**found.words, "wanted": wanted, "line": rows, "loop": word}
+    return replace(found, kind="node.sleeps_beside_spin", words=words)
 
 
 def _nowhere(suspect: Suspect) -> RecognisedMistake | None:
@@ -241,6 +305,7 @@ def _loop(new: str = LOOPS) -> tuple[Edit, ...]:
     return IMPORT, no_timer, Replace(NODE, SPINS, new)
 
 
+WHOLE_LOOP = msg("Write {wanted} instead of the whole while loop around this line.")
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -346,12 +411,18 @@ KINDS = (
                 "spin_once handles one callback and returns. The loop around it must go on until "
                 "Ctrl+C, and this loop ended earlier."
             ),
+            "goes_on": msg(
+                "spin_once handles one callback and returns. The other lines of the loop around it "
+                "run in each round, not when a timer is due."
+            ),
         },
-        fixes={"loop": msg("Write {wanted} instead of the whole while loop around this line.")},
+        fixes={"loop": WHOLE_LOOP, "goes_on": WHOLE_LOOP},
         behind={
             "run.exits_at_once": _once_only,
             "run.never_spins": _never_again,
             "run.ended_early": _once,
+            "run.stops": _by_loop,
+            "run.by_hand": _by_loop,
         },
         fixed_by=(node_life.spin,),
         examples=(
@@ -500,6 +571,36 @@ KINDS = (
                 fails="run.starts",
             ),
         ),
+    ),
+    _node(
+        "sleeps_beside_spin",
+        "spin",
+        msg("The loop that spins also sleeps"),
+        msg(
+            "While this line sleeps, ROS cannot call the node's callbacks: the timer is late, and "
+            "ros2 param list gets no answer in that time. spin waits by itself until something is "
+            "due."
+        ),
+        msg("Write {wanted} instead of the whole {loop} loop (line {line})."),
+        links.EXECUTORS,
+    ),
+    _node(
+        "spun_twice",
+        "spin",
+        msg("A thread spins the node, and the program spins it too"),
+        msg(
+            "The thread that this line creates spins the node, and so does line {line}. Only one of "
+            "them can do that at a time: the other one stops with an error."
+        ),
+        msg("Delete this line: line {line} spins the node."),
+        links.EXECUTORS,
+        fixes={
+            "used": msg(
+                "Delete this line and the other lines of the thread (line {lines}): line {line} "
+                "spins the node."
+            )
+        },
+        raised={TWICE: _spun_twice},
     ),
     _node(
         "exits",

@@ -26,9 +26,10 @@ from grader.mistakes.recognised import (
 from grader.mistakes.scope import creates_timer
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
+from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part, own_name
 from grader.package.source.node import NodeSource
-from grader.package.source.period import origin_of
+from grader.package.source.period import origin_of, seconds_of
 from grader.package.source.place import block_of, function_at
 from grader.package.source.until_ctrl_c import parts_until_ctrl_c
 
@@ -95,10 +96,16 @@ def _negative(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
 def _zero(suspect: Suspect) -> RecognisedMistake | None:
     """The period is 0: the timer is due again at once."""
     for timer in suspect.source.timers:
-        if timer.period is not None and timer.seconds == 0:
-            code = suspect.source.module_of(timer.call).text.code(timer.period)
-            period = repr(suspect.output.period)
+        if timer.period is None or seconds_of(suspect.source, timer.period) != 0:
+            continue
+        value = node_timer.value_of(suspect.source, timer.period) or timer.period
+        code = suspect.source.module_of(value).text.code(value)
+        period = repr(suspect.output.period)
+        if value is timer.period and isinstance(value, ast.Constant):
             return suspect.finding("period_zero", timer.call, name=code, written=period)
+        found = suspect.finding("period_zero", value, name=code, written=period)
+        whole = any(isinstance(n, ast.FloorDiv) for n in ast.walk(value))
+        return replace(found, variant="whole" if whole else "elsewhere")
     return None
 
 
@@ -244,7 +251,7 @@ def _called_once(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _cancelled(suspect: Suspect) -> RecognisedMistake | None:
-    return _stop_of_timer(suspect, ".cancel")
+    return _stop_of_timer(suspect, ".cancel", ".destroy_timer")
 
 
 def _stopped(suspect: Suspect) -> RecognisedMistake | None:
@@ -305,15 +312,70 @@ def _with_line(suspect: Suspect, call: ast.Call, name: str) -> RecognisedMistake
     module = suspect.source.module_of(call)
     statement = module.parents.get(call)
     owner = call.func.value if isinstance(call.func, ast.Attribute) else None
+    destroyed = name.endswith(".destroy_timer")
     if isinstance(owner, ast.Call):
         return found  # (create_timer(…).cancel())
     if not isinstance(statement, ast.Expr):
         return replace(found, variant="other", words={**found.words, "name": f"{name}()"})
     block, around = block_of(module, statement), module.parents.get(statement)
     if len(block) > 1:
-        return replace(found, variant="line")
+        return replace(found, variant="destroyed" if destroyed else "line")
     alone = isinstance(around, ast.If) and around.body == block and not around.orelse
+    if destroyed and not alone:
+        return replace(found, variant="destroyed_alone")
     return replace(found, variant="if" if alone else "alone")
+
+
+def _not_started(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a timer that is created with autostart=False, and that nothing starts."""
+    source = suspect.source
+    if source.calls_of("reset"):
+        return None
+    for timer in source.timers:
+        for word in timer.call.keywords:
+            off = isinstance(word.value, ast.Constant) and word.value.value is False
+            if word.arg == "autostart" and off:
+                return suspect.finding("timer_not_started", word.value)
+    return None
+
+
+def _reset(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a callback of another, faster timer that resets the timer of the lines."""
+    source, callback = suspect.source, suspect.source.callback
+    if callback is None:
+        return None
+    slow = [t for t in source.timers if t.method == callback.name]
+    others = [t for t in source.timers if t.method != callback.name]
+    if len(slow) != 1:
+        return None
+    made = source.module_of(slow[0].call).parents.get(slow[0].call)
+    names = set(targets_of(made)) if made is not None else set()
+    for timer in others:
+        method = source.methods.get(timer.method)
+        for call, name in calls_in(method) if method is not None else ():
+            owner = name.removesuffix(".reset")
+            if owner != name and owner in names:
+                found = _with_line(suspect, call, name)
+                variant = "" if found.variant == "line" else "alone"
+                words = {**found.words, "name": f"{name}()", "method": timer.method}
+                return replace(found, kind="node.timer_reset", words=words, variant=variant)
+    return None
+
+
+def _only_if(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a condition that decides whether the only timer is created."""
+    source = suspect.source
+    timer = source.timers[0] if len(source.timers) == 1 else None
+    if timer is None or timer.function is None or timer.function.name != "__init__":
+        return None
+    for part in source.module_of(timer.call).around(timer.call):
+        if isinstance(part, Function):
+            return None
+        if isinstance(part, ast.If) and not part.orelse and len(part.body) == 1:
+            test = source.module_of(part).text.code(part.test)
+            params: dict[str, str | int] = {"name": test[:80], "line": part.lineno}
+            return suspect.finding("timer_if", timer.call, **params)
+    return None
 
 
 def _milliseconds(suspect: Suspect) -> RecognisedMistake | None:
@@ -355,6 +417,7 @@ def _by_hand(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+DESTROYED = msg("destroy_timer() removes a timer: it no longer calls its callback.")
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -642,6 +705,16 @@ KINDS = (
         msg("The period is 0"),
         msg("A timer with the period 0 is always due: it calls the callback without a pause."),
         msg("Write {written} instead of {name} in create_timer."),
+        whys={
+            "whole": msg(
+                "{name} is 0: // leaves out what is behind the point. A timer with the period 0 is "
+                "always due: it calls the callback without a pause."
+            )
+        },
+        fixes={
+            "whole": msg("Write {written} instead of {name} in this line."),
+            "elsewhere": msg("Write {written} instead of {name} in this line."),
+        },
         behind={"run.too_much_output": _zero, "run.wrong_period": _zero},
         fixed_by=(lines.written,),
         examples=(
@@ -706,11 +779,17 @@ KINDS = (
     _node(
         "timer_cancelled",
         "timer",
-        msg("The timer is cancelled"),
+        msg("The timer is stopped"),
         msg("cancel() stops a timer: it no longer calls its callback."),
         msg("Remove the .cancel()."),
+        whys={
+            "destroyed": DESTROYED,
+            "destroyed_alone": DESTROYED,
+        },
         fixes={
             "line": msg("Delete this line."),
+            "destroyed": msg("Delete this line."),
+            "destroyed_alone": msg("Write pass instead of this line."),
             "if": msg("Delete this line and the if above it."),
             "alone": msg("Write pass instead of this line."),
             "other": msg("Remove {name} from this line."),
@@ -745,6 +824,82 @@ KINDS = (
                     ),
                 ),
                 fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "timer_reset",
+        "timer",
+        msg("The timer begins again before its period has passed"),
+        msg(
+            "reset() begins the period of the timer again. Another timer calls {method}, so {name} "
+            "runs again and again, and the period does not come to its end."
+        ),
+        msg("Delete this line."),
+        fixes={"alone": msg("Write pass instead of this line.")},
+        behind={"run.no_lines": _reset},
+        fixed_by=(lines.deleted,),
+        examples=(
+            example(
+                "timer_reset_by_other_timer",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)\n",
+                    "        self.timer_ = self.create_timer(1.0, self.timer_callback)\n"
+                    "        self.create_timer(0.25, self.look_after)\n",
+                ),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def look_after(self):\n"
+                    "        self.timer_.reset()\n\n"
+                    "    def timer_callback",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "timer_not_started",
+        "timer",
+        msg("The timer is created, but not started"),
+        msg("With autostart=False a timer calls nothing until its reset() is called."),
+        msg("Delete autostart=False and the comma before it: the timer then starts by itself."),
+        behind={"run.no_lines": _not_started},
+        fixed_by=(node_timer.started,),
+        examples=(
+            example(
+                "timer_without_autostart",
+                Replace(NODE, "self.timer_callback)", "self.timer_callback, autostart=False)"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "timer_if",
+        "timer",
+        msg("The timer is only created if a condition is true"),
+        msg(
+            "This line only runs if {name} is true when the node is created (line {line}). Without "
+            "the timer nothing calls the callback."
+        ),
+        msg("Delete the if on line {line}, and indent this line as far as the if is indented now."),
+        behind={"run.no_lines": _only_if},
+        fixed_by=(node_timer.without_if,),
+        examples=(
+            example(
+                "timer_under_flag",
+                Replace(
+                    NODE,
+                    "        self.create_timer(",
+                    "        self.running = False\n"
+                    "        if self.running:\n"
+                    "            self.create_timer(",
+                ),
+                fails="run.output",
+                blocks=SILENT,
             ),
         ),
     ),

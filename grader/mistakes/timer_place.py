@@ -14,7 +14,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.after_spin import timer_after_spin
-from grader.package.source.counter import targets_of
+from grader.package.source.counter import logged_counter, targets_of
 from grader.package.source.endless import calls_of_methods
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
@@ -137,12 +137,15 @@ def _second(suspect: Suspect, timers: list[Timer]) -> RecognisedMistake:
     """Name the timer that is too many: the second one, unless only that has the right period."""
     first, second = timers[:2]
     right = [suspect.output.period == t.seconds for t in (first, second)]
+    if first.method != second.method:
+        right = [_counts(suspect.source, t) for t in (first, second)]
     kept, other = (second, first) if right == [False, True] else (first, second)
     found = suspect.finding("two_timers", other.call)
     module = suspect.source.module_of(other.call)
     statement = next((n for n in module.around(other.call) if isinstance(n, ast.stmt)), None)
     same = suspect.source.module_of(kept.call) is module
-    if first.method != second.method or not same or statement is None or len(timers) > 2:
+    unsure = first.method != second.method and right[0] == right[1]
+    if unsure or not same or statement is None or len(timers) > 2:
         return found
     words = {**found.words, "line": kept.call.lineno}
     names = {last_part(name) for name in targets_of(statement)}
@@ -159,6 +162,12 @@ def _second(suspect: Suspect, timers: list[Timer]) -> RecognisedMistake:
         )
     alone = len(block_of(module, statement)) == 1
     return replace(found, words=words, variant="alone" if alone else "line")
+
+
+def _counts(source: NodeSource, timer: Timer) -> bool:
+    """Whether the callback of a timer logs the counter itself."""
+    log, method = logged_counter(source), source.methods.get(timer.method)
+    return log is not None and method is not None and log[0] in ast.walk(method)
 
 
 def _in_loop(suspect: Suspect) -> RecognisedMistake | None:
@@ -376,8 +385,8 @@ KINDS = (
             "line": msg("Delete this line: line {line} creates the timer."),
             "alone": msg("Write pass instead of this line: line {line} creates the timer."),
             "used": msg(
-                "Delete this line, and what uses this timer (line {lines}): line {line} creates a "
-                "timer with the same callback."
+                "Delete this line, and what uses this timer (line {lines}): line {line} creates "
+                "the timer."
             ),
             "loop": msg("Create the timer only once, without the {loop} of line {line}."),
             "called": msg("Call {maker} only once, on line {line}."),

@@ -9,7 +9,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, SILENT, SPIN_UNTIL_CTRL_C, example
-from grader.mistakes.fixes import node_life, node_main, node_rename, node_setup
+from grader.mistakes.fixes import lines, node_life, node_main, node_rename, node_setup
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.spin import executors
@@ -141,6 +141,33 @@ def _call_missing(suspect: Suspect, function: Function) -> RecognisedMistake:
     return suspect.finding("method_not_called", place, name=name, call=call, line=line)
 
 
+def _other_node_spun(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a plain node that is spun where the node of the class is not."""
+    source = suspect.source
+    given = [c for c in source.calls_of("spin", "spin_once", "add_node") if c.args]
+    names = {dotted(call.args[0]) for call in given}
+    node = next(iter(source.node_variables)) if len(source.node_variables) == 1 else ""
+    plain = {
+        target
+        for n in source.all_nodes
+        if isinstance(n, ast.Assign)
+        and isinstance(n.value, ast.Call)
+        and called_name(n.value) in ("Node", "create_node")
+        for target in targets_of(n)
+    }
+    if (
+        not node
+        or len(given) != 1
+        or len(names) != 1
+        or not names < plain | {node}
+        or node in names
+    ):
+        return None
+    call, other = given[0], dotted(given[0].args[0])
+    params = {"name": other, "written": node}
+    return suspect.finding("other_node_spun", call, **params)
+
+
 def _main_at_import(suspect: Suspect) -> RecognisedMistake | None:
     function = suspect.function
     call = called_on_import(suspect.source.entry.tree, function.name) if function else None
@@ -170,7 +197,11 @@ def _daemon(suspect: Suspect) -> RecognisedMistake | None:
         target, daemon = given.get("target"), given.get("daemon")
         spins = target is not None and last_part(dotted(target)) in SPINS
         if spins and isinstance(daemon, ast.Constant) and daemon.value is True:
-            return suspect.finding("spin_in_daemon", call)
+            found = suspect.finding("spin_in_daemon", call)
+            owner = dotted(target).rpartition(".")[0] if target is not None else ""
+            if owner not in executors(suspect):
+                return found
+            return replace(found, words={**found.words, "name": owner}, variant="executor")
     return None
 
 
@@ -335,6 +366,7 @@ KINDS = (
         msg("A daemon thread spins the node, and nothing waits for it"),
         msg("When {function} comes to its end, the program ends, and its daemon threads with it."),
         msg("Call rclpy.spin({node}) in {function} itself, without the thread."),
+        fixes={"executor": msg("Call {name}.spin() in {function} itself, without the thread.")},
         behind={"run.exits_at_once": _daemon},
         examples=(
             example(
@@ -346,6 +378,31 @@ KINDS = (
                     "    threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()\n",
                 ),
                 fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "other_node_spun",
+        "spin",
+        msg("Another node is spun"),
+        msg(
+            "{name} is another node. Only the callbacks of the node that is spun are called, and "
+            "{written}, which has the timer, is not spun."
+        ),
+        msg("Write {written} instead of {name} in this line."),
+        behind={"run.no_lines": _other_node_spun, "run.never_spins": _other_node_spun},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "other_node_spun",
+                Replace(
+                    NODE,
+                    "    node = MyFirstNode()\n",
+                    "    node = MyFirstNode()\n    helper = rclpy.create_node('helper')\n",
+                ),
+                Replace(NODE, "rclpy.spin(node)", "rclpy.spin(helper)"),
+                fails="run.output",
+                blocks=SILENT,
             ),
         ),
     ),

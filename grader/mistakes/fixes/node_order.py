@@ -114,6 +114,27 @@ def early_cleanup(source: NodeSource) -> tuple[ast.Expr, ast.stmt] | None:
     return None
 
 
+def cleanup_by_call(source: NodeSource) -> tuple[ast.Expr, Function, str] | None:
+    """Return the statement above spin that calls an own function which always cleans up.
+
+    With the function, and the name of what it calls.
+    """
+    body = list(_always_run(source.main.body)) if source.main is not None else []
+    spins = [s for s in body if _calls(s, SPINS)]
+    own = {f.name: f for m in source.modules for f in m.tree.body if isinstance(f, Function)}
+    own |= source.methods
+    for statement in body[: body.index(spins[0])] if spins else []:
+        call = statement.value if isinstance(statement, ast.Expr) else None
+        function = own.get(last_part(dotted(call.func))) if isinstance(call, ast.Call) else None
+        if not isinstance(statement, ast.Expr) or function is None:
+            continue
+        always = [s for s in _always_run(function.body) if isinstance(s, ast.Expr)]
+        names = [name for s in always for _, name in calls_in(s) if last_part(name) in CLEANUP]
+        if names and not any(_calls(s, SPINS) for s in function.body):
+            return statement, function, names[0]
+    return None
+
+
 def _always_run(body: list[ast.stmt]) -> Iterator[ast.stmt]:
     """Yield the statements of a block in their order, with those in a try and in its finally."""
     for statement in body:

@@ -363,3 +363,40 @@ def without_cancel(case: Case) -> Files | None:
     node, line = case.node, case.finding.line
     made = node.calls_of("create_timer") if node is not None else []
     return lines.deleted(case) if all(call.lineno != line for call in made) else None
+
+
+def started(case: Case) -> Files | None:
+    """Delete autostart=False and the comma before it."""
+    timer = case.node.timer_call if case.node is not None else None
+    if case.node is None or timer is None or not timer.keywords:
+        return None
+    module, last = case.node.module_of(timer), timer.keywords[-1]
+    before = [*timer.args, *(word.value for word in timer.keywords[:-1])]
+    if last.arg != "autostart" or not before:
+        return None
+    end = max(module.text.span(part)[1] for part in before)
+    return case.changed(module, Splice(end, module.text.span(last.value)[1], ""))
+
+
+def without_if(case: Case) -> Files | None:
+    """Take the line that creates the timer out of its if."""
+    module, line = case.module, case.finding.line
+    around = (
+        list(module.around(case.node.timer_call))
+        if module and case.node and case.node.timer_call
+        else []
+    )
+    condition = next((part for part in around if isinstance(part, ast.If)), None)
+    if module is None or condition is None or len(condition.body) != 1 or condition.orelse:
+        return None
+    row = condition.body[0]
+    if row.lineno != condition.lineno + 1 or row.lineno != line or row.lineno != row.end_lineno:
+        return None
+    text = module.text
+    new = indent_of(text.line(condition.lineno)) + text.line(row.lineno).strip()
+    return case.changed(
+        module,
+        text.before(condition.lineno, new),
+        text.without(condition.lineno),
+        text.without(row.lineno),
+    )

@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted
 from grader.package.source.node import NodeSource
@@ -94,6 +95,31 @@ def number_in(value: ast.expr | None) -> float | None:
 def is_right(seconds: float | None, wanted: float) -> bool:
     """Whether a period is the wanted one."""
     return seconds is not None and math.isclose(seconds, wanted, rel_tol=CLOSE)
+
+
+def seconds_of(source: NodeSource, period: ast.expr, steps: int = MOST_STEPS) -> float | None:
+    """Return the value of a period, also of a calculation with names; None if it is not known."""
+    number = number_in(period)
+    if number is not None or steps < 1:
+        return number
+    if isinstance(period, ast.BinOp) and isinstance(period.op, ast.Mult | ast.Div | ast.FloorDiv):
+        left = seconds_of(source, period.left, steps - 1)
+        right = seconds_of(source, period.right, steps - 1)
+        if left is None or right is None:
+            return None
+        if isinstance(period.op, ast.Mult):
+            return left * right
+        if right == 0:
+            return None
+        return left // right if isinstance(period.op, ast.FloorDiv) else left / right
+    if isinstance(period, ast.Call) and dotted(period.func) in ("int", "float"):
+        inner = seconds_of(source, period.args[0], steps - 1) if len(period.args) == 1 else None
+        return float(int(inner)) if inner is not None and dotted(period.func) == "int" else inner
+    name = dotted(period)
+    kinds = ast.Assign | ast.AnnAssign
+    sets = [s for s in source.own_nodes if isinstance(s, kinds) and name in targets_of(s)]
+    value = sets[0].value if name and len(sets) == 1 else None
+    return seconds_of(source, value, steps - 1) if value is not None else None
 
 
 class _Search:

@@ -15,6 +15,7 @@ from grader.base.yaml_model import broken
 from grader.course.assignment import Count
 from grader.package.source.counter import logged_counter, wrapped_at
 from grader.package.source.remarks import remarks_on
+from grader.package.source.time_limit import time_limit
 from grader.report.model import Where
 from grader.run.observer import without_tracebacks
 from grader.verdict.checks.declare import Parameters, kind
@@ -128,8 +129,27 @@ def _line_by_line(evidence: Evidence, wanted: Count, expected: str) -> Passed:
             say("There are other lines besides the count; the exercise does not ask for them.")
         )
     advice += _begins_again(evidence)
+    advice += _ends_later(evidence)
     lines = say("{count} lines: {shown}, …", count=len(numbers), shown=shown)
     return Passed(actual=lines, advice=advice)
+
+
+def _ends_later(evidence: Evidence) -> list[Message]:
+    """Return what ends the node after a time that is longer than the run."""
+    source = source_of_node(evidence)
+    found = time_limit(source) if source is not None else None
+    if found is None:
+        return []
+    call, code, spin = found
+    return [
+        say(
+            "The node does not run until Ctrl+C: {code} in line {line} ends it after a while. Write "
+            "{spin} instead.",
+            code=code,
+            line=call.lineno,
+            spin=spin,
+        )
+    ]
 
 
 def _begins_again(evidence: Evidence) -> list[Message]:
