@@ -368,10 +368,14 @@ def _only_if(suspect: Suspect) -> RecognisedMistake | None:
     timer = source.timers[0] if len(source.timers) == 1 else None
     if timer is None or timer.function is None or timer.function.name != "__init__":
         return None
+    if source.callback is not None and not source.logs(source.callback):
+        return None  # (that is a reason too)
     for part in source.module_of(timer.call).around(timer.call):
         if isinstance(part, Function):
             return None
         if isinstance(part, ast.If) and not part.orelse and len(part.body) == 1:
+            if isinstance(part.test, ast.Constant) or dotted(part.test).endswith("ok()"):
+                return None
             test = source.module_of(part).text.code(part.test)
             params: dict[str, str | int] = {"name": test[:80], "line": part.lineno}
             return suspect.finding("timer_if", timer.call, **params)

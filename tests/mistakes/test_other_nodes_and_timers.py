@@ -178,3 +178,21 @@ def test_the_program_that_starts_itself_again_is_found() -> None:
         assert found is not None
         assert found.kind == "node.starts_again"
         assert fix_of(found) == "Delete this line."
+
+
+def test_a_clean_up_for_later_is_not_told_as_early() -> None:
+    later = "\n    def prepare(self):\n        atexit.register(lambda: self.destroy_node())\n"
+    text = changed((STEP, STEP + later), (NODE, f"{NODE}    node.prepare()\n"))
+    assert look("run.no_lines", text) is None
+
+
+@pytest.mark.parametrize("test", ["True", "rclpy.ok()"])
+def test_a_condition_that_is_true_is_not_why_there_is_no_timer(test: str) -> None:
+    assert look("run.no_lines", changed((TIMER, f"        if {test}:\n    {TIMER}"))) is None
+
+
+def test_a_callback_without_a_log_comes_before_a_condition() -> None:
+    edits = (TIMER, f"        if self.on:\n    {TIMER}"), (f"        {LOG}\n", "")
+    found = look("run.no_lines", changed(*edits))
+    assert found is not None
+    assert found.kind == "node.log_missing"

@@ -128,8 +128,9 @@ def cleanup_by_call(source: NodeSource) -> tuple[ast.Expr, Function, str] | None
         function = own.get(last_part(dotted(call.func))) if isinstance(call, ast.Call) else None
         if not isinstance(statement, ast.Expr) or function is None:
             continue
-        always = [s for s in _always_run(function.body) if isinstance(s, ast.Expr)]
-        names = [name for s in always for _, name in calls_in(s) if last_part(name) in CLEANUP]
+        always = [s.value for s in _always_run(function.body) if isinstance(s, ast.Expr)]
+        called = [dotted(value.func) for value in always if isinstance(value, ast.Call)]
+        names = [name for name in called if last_part(name) in CLEANUP]
         if names and not any(_calls(s, SPINS) for s in function.body):
             return statement, function, names[0]
     return None
