@@ -24,6 +24,7 @@ from grader.package.source.thread_timers import row_ranges
 from grader.package.source.until_ctrl_c import SPINS, after_spin, parts_until_ctrl_c
 
 LONG = 3.0  # seconds; after a shorter sleep the program has ended when it is looked at
+FOREVER = ("wait", "pause")
 ASKS = ("input", "sys.stdin.readline", "sys.stdin.read")
 
 
@@ -57,8 +58,8 @@ def _what_waits(source: NodeSource, node: ast.AST) -> str:
     if not isinstance(node, ast.Call):
         return ""
     name = dotted(node.func)
-    if name in ASKS:
-        return f"{name}()"
+    if name in ASKS or (called_name(node) in FOREVER and not (node.args or node.keywords)):
+        return f"{called_name(node)}()"
     if node in sleeps_in(source, node) and node.args:
         seconds = node.args[0].value if isinstance(node.args[0], ast.Constant) else None
         long = isinstance(seconds, int | float) and seconds >= LONG

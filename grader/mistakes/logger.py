@@ -15,7 +15,7 @@ from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Su
 from grader.package.edit.tree import Replace
 from grader.package.source.names import dotted, last_part
 from grader.package.source.module import Function
-from grader.package.source.names import called_name, calls_in, dotted
+from grader.package.source.names import called_name, calls_in, dotted, own_name
 from grader.package.source.node import NodeSource
 
 
@@ -99,6 +99,11 @@ def _missing_in_lambda(suspect: Suspect) -> RecognisedMistake | None:
     given = timer.callback if timer is not None else None
     if not isinstance(given, ast.Lambda) or source.logs(given) or source.prints(given):
         return None
+    method = (
+        source.methods.get(own_name(given.body.func)) if isinstance(given.body, ast.Call) else None
+    )
+    if method is not None and not (source.logs(method) or source.prints(method)):
+        return None if _logs_further(source, method) else suspect.finding("log_missing", method)
     if not isinstance(given.body, ast.BinOp | ast.JoinedStr) or _logs_further(source, given):
         return None
     known = source.loggers_at(given)

@@ -26,6 +26,7 @@ from grader.mistakes.recognised import (
 from grader.mistakes.scope import creates_timer
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
+from grader.package.source.endless import calls_of_methods
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part, own_name
 from grader.package.source.node import NodeSource
@@ -261,15 +262,18 @@ def _stopped(suspect: Suspect) -> RecognisedMistake | None:
 def _stop_of_timer(suspect: Suspect, *endings: str, logs: bool = True) -> RecognisedMistake | None:
     """Look for a call that stops a timer, and that can run before spin has ended.
 
-    With `logs`, no line came: then a callback that stops its timer must have one to be silent for.
+    With `logs`, no line came: then the callback must have one to be silent for.
     """
     source, callback = suspect.source, suspect.source.callback
     early = parts_until_ctrl_c(source)
     for call, name in source.calls:
         if not name.endswith(endings) or call not in early or not _is_of_timer(source, call, name):
             continue
-        inside = callback is not None and call in ast.walk(callback)
-        if logs and inside and callback is not None and not source.logs(callback):
+        if logs and callback is not None and not _logs(source, callback):
+            return None  # (that is a reason too)
+        function = source.function_around(call)
+        again = [t for t in source.timers if t.function is function and t.call.lineno > call.lineno]
+        if again:
             continue
         return _with_line(suspect, call, name)
     return None
@@ -291,6 +295,12 @@ def _argument_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake
         mistake = raised.finding("timer_argument_missing", at=timer.call, params=params)
         return replace(mistake, variant="written")
     return raised.finding("timer_argument_missing")
+
+
+def _logs(source: NodeSource, callback: Function) -> bool:
+    """Whether a callback logs, or calls a method that does."""
+    inner = [method for _, method in calls_of_methods(source, callback)]
+    return any(source.logs(m) or source.prints(m) for m in (callback, *inner))
 
 
 def _is_of_timer(source: NodeSource, call: ast.Call, name: str) -> bool:
@@ -368,7 +378,7 @@ def _only_if(suspect: Suspect) -> RecognisedMistake | None:
     timer = source.timers[0] if len(source.timers) == 1 else None
     if timer is None or timer.function is None or timer.function.name != "__init__":
         return None
-    if source.callback is not None and not source.logs(source.callback):
+    if source.callback is not None and not _logs(source, source.callback):
         return None  # (that is a reason too)
     for part in source.module_of(timer.call).around(timer.call):
         if isinstance(part, Function):

@@ -189,3 +189,34 @@ def test_a_method_that_creates_the_timer_again_is_named(first: str) -> None:
     fix = fix_of(found)
     assert "This line calls start" in fix
     assert f"line {len(text[: text.rindex('self.create_timer')].splitlines())}" in fix
+
+
+@pytest.mark.parametrize(
+    ("first", "method"),
+    [
+        ("signal.signal(signal.SIGINT, self.stop)", "self.timer_.cancel()"),
+        ("self.context.on_shutdown(self.stop)", "self.timer_.cancel()"),
+        ("self.stop()", f"self.timer_.cancel()\n{KEPT[1].rstrip()}"),
+    ],
+)
+def test_a_timer_that_is_stopped_later_or_made_anew_is_not_why(first: str, method: str) -> None:
+    stop = f"\n    def stop(self, *other):\n        {method}\n"
+    text = changed((TIMER, f"{KEPT[1]}        {first}\n"), (STEP, STEP + stop))
+    found = look("run.no_lines", text)
+    assert found is None or found.kind != "node.timer_cancelled"
+
+
+@pytest.mark.parametrize("waits", ["threading.Event().wait()", "signal.pause()"])
+def test_what_waits_for_ever_below_spin_is_named(waits: str) -> None:
+    found = look("run.ignores_interrupt", changed((LAST, f"{LAST}    {waits}\n")))
+    assert found is not None
+    assert found.kind == "node.waits_at_end"
+
+
+def test_a_method_that_a_lambda_calls_is_told_to_log() -> None:
+    found = look(
+        "run.no_lines",
+        changed(("self.timer_callback)", "lambda: self.timer_callback())"), (LOG, "pass")),
+    )
+    assert found is not None
+    assert found.kind == "node.log_missing"

@@ -10,6 +10,7 @@ from grader.package.source.names import called_name, calls_in, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of
 
+LATER = ("signal", "on_shutdown", "register")
 SPINS = ("spin", "spin_once", "spin_until_future_complete")
 
 
@@ -48,7 +49,8 @@ def parts_until_ctrl_c(source: NodeSource) -> set[ast.AST]:
     while waiting:
         own = set(_own_nodes(waiting.pop())) - late
         found |= own
-        names = {_name_of(node) for node in own}
+        kept = {part for node in own for part in _kept_for_later(node)}
+        names = {_name_of(node) for node in own - kept}
         new = [f for f in functions if f.name in names and f not in reached]
         reached |= set(new)
         waiting += new
@@ -62,6 +64,11 @@ def _own_nodes(part: ast.AST) -> Iterator[ast.AST]:
         yield node
         if not isinstance(node, Function):
             waiting += ast.iter_child_nodes(node)
+
+
+def _kept_for_later(node: ast.AST) -> list[ast.expr]:
+    """Return the arguments of a call that keeps them for the end of the program."""
+    return node.args if isinstance(node, ast.Call) and called_name(node) in LATER else []
 
 
 def _name_of(node: ast.AST) -> str:
