@@ -13,9 +13,8 @@ from grader.mistakes.fixes import node_count, node_log, node_words
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
-from grader.package.source.names import dotted, last_part
 from grader.package.source.module import Function
-from grader.package.source.names import called_name, calls_in, dotted, own_name
+from grader.package.source.names import called_name, calls_in, dotted, last_part, own_name
 from grader.package.source.node import NodeSource
 
 
