@@ -237,8 +237,8 @@ def _logged_in(source: NodeSource, callback: Function) -> tuple[ast.Call, str] |
     return None
 
 
-def wrapped_at(source: NodeSource) -> tuple[ast.stmt, int] | None:
-    """Return the statement that makes the logged counter begin again (`% 60`), and that number."""
+def wrapped_at(source: NodeSource) -> tuple[ast.stmt | ast.expr, int] | None:
+    """Return what makes the logged counter begin again (`% 60`, `if n == 60`), and that number."""
     logged = logged_counter(source)
     name = logged[1] if logged is not None else ""
     for statement in changes_of(source, name) if name else ():
@@ -251,4 +251,27 @@ def wrapped_at(source: NodeSource) -> tuple[ast.stmt, int] | None:
         number = limit.value if isinstance(limit, ast.Constant) else None
         if type(number) is int:
             return statement, number
+        around = source.module_of(statement).parents.get(statement)
+        plain = isinstance(around, ast.If) and isinstance(value, ast.Constant)
+        reached = _reached(around, name) if isinstance(around, ast.If) and plain else None
+        if reached is not None:
+            return statement, reached
+    for part in parts_of_callback(source) if name else ():
+        for node in (n for call in source.logs(part) for n in ast.walk(call)):
+            rest = isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mod)
+            limit = node.right if isinstance(node, ast.BinOp) and rest else None
+            number = limit.value if isinstance(limit, ast.Constant) else None
+            if isinstance(node, ast.BinOp) and type(number) is int and dotted(node.left) == name:
+                return node, number
     return None
+
+
+def _reached(around: ast.If, name: str) -> int | None:
+    """Return the number that a counter has to reach for a condition: `n == 60`, `n >= 60`."""
+    test = around.test
+    if not isinstance(test, ast.Compare) or len(test.ops) != 1 or dotted(test.left) != name:
+        return None
+    limit = test.comparators[0]
+    number = limit.value if isinstance(limit, ast.Constant) else None
+    reached = type(number) is int and isinstance(test.ops[0], ast.Eq | ast.GtE)
+    return number if reached and isinstance(number, int) else None
