@@ -62,6 +62,7 @@ from grader.mistakes import (
     tutorial,
     values,
     which_node,
+    worked_out,
 )
 from grader.mistakes.example import Example
 from grader.mistakes.fixes.case import Finding, Fix
@@ -116,6 +117,7 @@ CATALOGUE: Mapping[str, Kind] = MappingProxyType(
             counter_passed,
             counter_anew,
             colour_codes,
+            worked_out,
             counter,
             counter_start,
             logged_text,

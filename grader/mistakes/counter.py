@@ -9,11 +9,12 @@ from dataclasses import dataclass, replace
 from grader.base.i18n.message import Value, joined, msg, say
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, LOG_LINE, NODE, STEP_LINE, example
-from grader.mistakes.fixes import lines, node_count, node_log, node_words
+from grader.mistakes.fixes import lines, node_count, node_log, node_words, node_worked_out
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import placeholder_values
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.mistakes.worked_out import INSTEAD, first_of, worked_out
 from grader.package.edit.files import Files
 from grader.package.edit.text import SourceText
 from grader.package.edit.tree import Replace
@@ -30,6 +31,8 @@ from grader.package.source.number_forms import number_forms
 from grader.package.source.place import function_at, place_of, statement_at
 from grader.report.model import Where
 
+SUM = ast.Add | ast.Sub
+MOST_CODE = 80  # characters of a piece of code that a text shows
 COUNTER = msg(
     "An attribute (self.…) keeps its value from one callback to the next; a name without self. is "
     "gone when the function ends."
@@ -42,7 +45,10 @@ OTHER_FORM = msg(
     "{form} sets the form in which the number is written. Without it, Python writes the plain "
     "integer."
 )
-ONE_PIECE = msg("Write {written} instead of {name}.")
+MODULO = msg(
+    "% {form} gives the rest of a division by {form}: after the numbers below {form} comes 0 again."
+)
+ONE_PIECE = INSTEAD
 MORE_PIECES = msg("Write {written} instead of {name}. Write also: {others}.")
 
 
@@ -236,9 +242,27 @@ def _place_of_text(suspect: Suspect) -> Where:
 
 
 def _f_prefix(suspect: Suspect) -> RecognisedMistake | None:
+    string = _string_of(suspect)
+    if string is not None and _holds_values(suspect.text):
+        code = suspect.source.module_of(string).text.code(string)
+        if code[:1] in ("'", '"'):
+            found = suspect.finding("f_prefix", string, name=code, written=f"f{code}")
+            return replace(found, variant="written" if len(code) <= MOST_CODE else "")
     if not re.search(r"\{[A-Za-z_][\w.]{0,80}\}", suspect.text):
         return None
-    return suspect.finding("f_prefix", _string_of(suspect) or _place_of_text(suspect))
+    return suspect.finding("f_prefix", string or _place_of_text(suspect))
+
+
+def _holds_values(text: str) -> bool:
+    """Whether what a text has in braces is Python code that reads a name."""
+    try:
+        parsed = ast.parse(f"f{text!r}", mode="eval").body
+    except (SyntaxError, ValueError):
+        return False
+    values = [n.value for n in ast.walk(parsed) if isinstance(n, ast.FormattedValue)]
+    return bool(values) and all(
+        any(isinstance(n, ast.Name) for n in ast.walk(value)) for value in values
+    )
 
 
 def _f_in_quotes(suspect: Suspect) -> RecognisedMistake | None:
@@ -257,14 +281,14 @@ def _f_in_quotes(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _string_of(suspect: Suspect) -> ast.Constant | None:
-    """Return the string of the callback that is the logged text, if it is the only one."""
+    """Return the string that is the logged text: the only one of the callback, or of the files."""
     callback = suspect.source.callback
-    found = [
-        n
-        for n in (ast.walk(callback) if callback is not None else ())
-        if isinstance(n, ast.Constant) and n.value == suspect.text
-    ]
-    return found[0] if len(found) == 1 else None
+    of_callback = list(ast.walk(callback)) if callback is not None else []
+    for nodes in (of_callback, suspect.source.own_nodes):
+        found = [n for n in nodes if isinstance(n, ast.Constant) and n.value == suspect.text]
+        if found:
+            return found[0] if len(found) == 1 else None
+    return None
 
 
 def _value_forgotten(suspect: Suspect) -> RecognisedMistake | None:
@@ -440,6 +464,13 @@ def _reset_if(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+def _modulo(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a rest of a division, after which the counter starts again."""
+    found = worked_out("counter_reset", "modulo", variant="modulo")(suspect)
+    deleted = found is not None and not found.params["written"]
+    return replace(found, variant="modulo_line") if found is not None and deleted else found
+
+
 def _in_text(suspect: Suspect) -> RecognisedMistake | None:
     """The line shows the counter's name: the name is part of the string."""
     counter = str(placeholder_values(suspect.assignment, suspect.source)["counter"])
@@ -518,14 +549,21 @@ def _added_instead(case: Case) -> Files | None:
 
 def _adds_twice(suspect: Suspect) -> RecognisedMistake | None:
     counter, step = counter_in(suspect), suspect.output.step
-    if counter is None or len(counter.added) < 2:
+    added = [n for n in counter.added if isinstance(n.op, SUM)] if counter is not None else []
+    if counter is None or len(added) < 2:
         return None
-    return suspect.finding("adds_twice", counter.added[1], name=counter.name, step=step)
+    return suspect.finding("adds_twice", added[1], name=counter.name, step=step)
+
+
+_added_elsewhere = worked_out("adds_twice", "doubled", variant="line")
+_step_worked_out = worked_out("other_step", "step", variant="written")
 
 
 def _other_step(suspect: Suspect) -> RecognisedMistake | None:
     counter, step = counter_in(suspect), suspect.output.step
     for node in counter.added if counter is not None else ():
+        if not isinstance(node.op, SUM):
+            continue
         added = isinstance(node.op, ast.Add) and isinstance(node.value, ast.Constant)
         if not added or getattr(node.value, "value", 1) != step:
             name = counter.name if counter else ""
@@ -745,9 +783,10 @@ KINDS = (
         msg("Python replaces {{…}} with a value only in a string that begins with f."),
         msg("Write an f before the first quote: {f_string}"),
         links.PYTHON_STRINGS,
+        fixes={"written": msg("Write an f before the first quote: {written}")},
         seen=r"^\[[A-Z]{4,5}\] \[\d{1,12}\.\d{9}\] \[[^\]\n]{1,100}\]: [^\n{]{0,200}\{self\.\w{1,60}\}",
         behind={"run.wrong_text": _f_prefix},
-        fixed_by=(node_log.f_prefix,),
+        fixed_by=(node_log.f_prefix, lines.written),
         examples=(
             example(
                 "f_prefix_missing",
@@ -966,6 +1005,8 @@ KINDS = (
             "helper": msg(
                 "{callback} calls {function}, and each call sets {name} to {value} again."
             ),
+            "modulo": MODULO,
+            "modulo_line": MODULO,
         },
         fixes={
             "local": msg(
@@ -978,9 +1019,11 @@ KINDS = (
                 "not. Delete the call of {function} from {callback}, or the line that sets {name} "
                 "if {function} has other work to do for {callback}."
             ),
+            "modulo": INSTEAD,
+            "modulo_line": msg("Delete this line: the counter never starts again."),
         },
-        behind={"run.constant_counter": _reset, "run.wrong_step": _reset_if},
-        fixed_by=(node_count.kept, node_count.moved),
+        behind={"run.constant_counter": _reset, "run.wrong_step": first_of(_reset_if, _modulo)},
+        fixed_by=(node_worked_out.change("modulo"), node_count.kept, node_count.moved),
         examples=(
             example(
                 "counter_reset",
@@ -1071,8 +1114,14 @@ KINDS = (
         msg("The counter is increased more than once in the callback"),
         msg("Each += counts."),
         msg("Keep only one {name} += {step}."),
-        behind={"run.wrong_step": _adds_twice},
-        fixed_by=(node_count.twice,),
+        fixes={
+            "line": msg("Delete line {line} ({name}): another line adds to the counter already.")
+        },
+        behind={
+            "run.wrong_step": first_of(_adds_twice, _added_elsewhere),
+            "run.wrong_start": _added_elsewhere,
+        },
+        fixed_by=(node_count.twice, node_worked_out.change("doubled")),
         examples=(
             example(
                 "adds_in_helper_too",
@@ -1097,8 +1146,12 @@ KINDS = (
         msg("A different number is added to the counter"),
         msg("The number after += is what each line increases by."),
         msg("Write {name} += {step}"),
-        behind={"run.wrong_step": _other_step},
-        fixed_by=(node_count.by,),
+        fixes={"written": INSTEAD},
+        behind={
+            "run.wrong_step": first_of(_other_step, _step_worked_out),
+            "run.constant_counter": _step_worked_out,
+        },
+        fixed_by=(node_count.by, node_worked_out.change("step")),
         examples=(
             example(
                 "counts_by_two",

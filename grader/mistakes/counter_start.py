@@ -9,9 +9,10 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.counter import Counter, counter_in
 from grader.mistakes.example import LOG_LINE, NODE, STEP_LINE, example
-from grader.mistakes.fixes import node_count
+from grader.mistakes.fixes import node_count, node_worked_out
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.mistakes.worked_out import INSTEAD, change_of, first_of, worked_out
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import (
     adds_to,
@@ -44,6 +45,21 @@ def _before_log(suspect: Suspect, added: ast.stmt, counter: Counter) -> Recognis
     written = suspect.source.module_of(added).text.code(added)
     words = {**found.words, "written": written[:80], "line": str(counter.logged.lineno)}
     return replace(found, words=words)
+
+
+def _added_before(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for an addition before a call that logs, or in a function before its return."""
+    change = change_of(suspect, "before", "returned")
+    if change is None:
+        return None
+    found = suspect.finding("adds_before_log", change.at, name=change.name)
+    if change.sort == "before":
+        words = {**found.words, "written": change.name, "line": change.written}
+        return replace(found, words=words)
+    around = suspect.source.function_around(change.at)
+    function = around.name if around is not None else ""
+    words = {**found.words, "written": change.written, "function": function}
+    return replace(found, words=words, variant="returned")
 
 
 def _grows_before_log(callback: Function, counter: Counter) -> ast.stmt | None:
@@ -115,8 +131,14 @@ KINDS = (
             "Move this line ({written}) below line {line}, which logs: log first, and then count. "
             "Then the first line shows {start}."
         ),
-        behind={"run.wrong_start": _adds_before_log},
-        fixed_by=(node_count.start,),
+        fixes={
+            "returned": msg(
+                "{function} adds to {name} before it returns the number. Keep the old value "
+                "first, and return that: {written}"
+            )
+        },
+        behind={"run.wrong_start": first_of(_adds_before_log, _added_before)},
+        fixed_by=(node_count.start, node_worked_out.change("before", "returned")),
         examples=(
             example(
                 "adds_before_logging",
@@ -152,8 +174,13 @@ KINDS = (
         msg("The counter starts at a different number"),
         msg("The first line shows the first value of the counter."),
         msg("Write on that line: {name} = {start}"),
-        behind={"run.wrong_start": _starts_elsewhere},
-        fixed_by=(node_count.start,),
+        fixes={"written": INSTEAD},
+        behind={
+            "run.wrong_start": first_of(
+                _starts_elsewhere, worked_out("starts_elsewhere", "first", variant="written")
+            )
+        },
+        fixed_by=(node_count.start, node_worked_out.change("first")),
         examples=(
             example(
                 "starts_at_one",

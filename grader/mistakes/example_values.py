@@ -391,6 +391,13 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.log_if": {"name": "self.counter < 5"},
     "node.count_if": {"name": "self.counter", "text": "self.counter > 0"},
     "node.ends_in_callback": {"name": "rclpy.shutdown()"},
+    "node.as_code": {
+        "name": "repr(str(self.counter))",
+        "written": "str(self.counter)",
+        "form": "repr()",
+    },
+    "node.text_changed": {"name": "text.upper()", "written": "text", "form": ".upper()"},
+    "node.number_changed": {"name": "self.counter + 1", "written": "self.counter"},
     "node.level_set": {"name": "set_level", "level": "WARN"},
     "node.callback_repeats": {"name": "while"},
     "node.constructor_repeats": {"name": "while", "method": "run", "line": "12"},

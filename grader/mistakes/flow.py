@@ -21,6 +21,7 @@ from grader.mistakes.example import (
 from grader.mistakes.fixes import lines, node_loops, node_try
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.mistakes.worked_out import worked_out
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import logged_counter, targets_of
 from grader.package.source.names import calls_in, dotted, last_part
@@ -28,6 +29,7 @@ from grader.package.source.place import function_at, statement_at
 
 ENDS = ("destroy_node", "rclpy.shutdown", "rclpy.try_shutdown")
 LEVELS = ("set_level", "set_logger_level")
+NUMBERS = {"30": "WARN", "40": "ERROR", "50": "FATAL"}  # the levels that hide lines
 
 
 def _blocks(suspect: Suspect) -> Iterator[ast.stmt]:
@@ -126,8 +128,9 @@ def _level(suspect: Suspect) -> RecognisedMistake | None:
     for call, name in suspect.source.calls:
         given = ast.unparse(call.args[-1]) if call.args else ""
         hides = re.search(r"\b(?:WARN|WARNING|ERROR|FATAL)\b", given)
-        if last_part(name) in LEVELS and hides:
-            return suspect.finding("level_set", call, name=last_part(name), level=hides[0])
+        level = hides[0] if hides else NUMBERS.get(given, "")
+        if last_part(name) in LEVELS and level:
+            return suspect.finding("level_set", call, name=last_part(name), level=level)
     return None
 
 
@@ -282,7 +285,13 @@ KINDS = (
         msg("A condition decides whether the line is logged"),
         msg("The line is logged only while the condition {name} is true."),
         msg("Remove this if, and indent the lines below it as far as the if is indented now."),
-        behind={"run.no_lines": _logs_if, "run.stops": _logs_if, "run.wrong_start": _logs_if},
+        behind={
+            "run.no_lines": _logs_if,
+            "run.stops": _logs_if,
+            "run.wrong_start": _logs_if,
+            "run.wrong_step": worked_out("log_if", "condition"),
+            "run.wrong_period": worked_out("log_if", "condition"),
+        },
         fixed_by=(lines.unwrapped,),
         examples=(
             example(
@@ -294,6 +303,12 @@ KINDS = (
                 "logs_after_the_first",
                 Replace(NODE, LOG_LINE, f"        if self.counter_ > 0:\n    {LOG_LINE}"),
                 fails="run.output",
+            ),
+            example(
+                "logs_each_second",
+                Replace(NODE, LOG_LINE, f"        if self.counter_ % 2 == 0:\n    {LOG_LINE}"),
+                fails="run.output",
+                also={"run.period": "node.log_if"},
             ),
             example(
                 "logs_never",
@@ -403,6 +418,16 @@ KINDS = (
         behind={"run.no_lines": _level},
         fixed_by=(lines.deleted,),
         examples=(
+            example(
+                "level_set_to_number",
+                Replace(
+                    NODE,
+                    "        self.counter_ = 0\n",
+                    "        self.counter_ = 0\n        self.get_logger().set_level(30)\n",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
             example(
                 "level_set_to_warn",
                 Replace(

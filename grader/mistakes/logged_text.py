@@ -9,10 +9,12 @@ from collections.abc import Iterator
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import LOG, NODE, example
-from grader.mistakes.fixes import lines
+from grader.mistakes.fixes import lines, node_worked_out
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.mistakes.worked_out import first_of, worked_out
 from grader.package.edit.tree import Replace
+from grader.package.source.one_change import logged_lines
 
 ALIKE = 0.7
 
@@ -22,6 +24,8 @@ def _elsewhere(suspect: Suspect) -> RecognisedMistake | None:
     before, _, after = suspect.output.text.partition("{n}")
     if after or not before.strip():
         return None
+    if suspect.lines and logged_lines(suspect.source) is not None:
+        return None  # (no other text of a string gives the required lines)
     found = list(_near(suspect, before))
     logged = {n for call in suspect.source.own_logs for n in ast.walk(call)}
     if len(found) != 1 or found[0] in logged:
@@ -32,6 +36,21 @@ def _elsewhere(suspect: Suspect) -> RecognisedMistake | None:
         return None
     written = f"{code[0]}{before}{code[0]}"
     return suspect.finding("text_elsewhere", found[0], name=code, written=written)
+
+
+def _worked_out(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the string to change; not in a sum or an f-string that the only log call gets."""
+    call = suspect.source.log_call
+    given = call.args[0] if call is not None else None
+    plain = isinstance(given, ast.JoinedStr | ast.Constant)
+    if isinstance(given, ast.BinOp) and isinstance(given.op, ast.Add):
+        ends = [p for p in (given.left, given.right) if isinstance(p, ast.Constant)]
+        plain = isinstance(given.left, ast.Constant | ast.BinOp) and bool(ends)
+    found = worked_out("text_elsewhere", "text")(suspect)
+    at = found.where.line if found is not None and found.where is not None else None
+    if found is not None and "\\n" in str(found.params["name"]):
+        return found
+    return None if plain and call is not None and at == call.lineno else found
 
 
 def _near(suspect: Suspect, wanted: str) -> Iterator[ast.Constant]:
@@ -55,8 +74,8 @@ KINDS = (
         msg("A string that is logged differs from the required text"),
         msg("The text is compared character by character: case, spaces and punctuation count."),
         msg("Write {written} instead of {name}."),
-        behind={"run.wrong_text": _elsewhere},
-        fixed_by=(lines.written,),
+        behind={"run.wrong_text": first_of(_worked_out, _elsewhere)},
+        fixed_by=(lines.written, node_worked_out.change("text")),
         examples=(
             example(
                 "text_in_attribute",

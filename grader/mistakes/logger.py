@@ -8,14 +8,16 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import DEAD, NODE, SILENT, example
-from grader.mistakes.fixes import node_count, node_log, node_words
+from grader.mistakes.example import DEAD, LOG, NODE, SILENT, example
+from grader.mistakes.fixes import lines, node_count, node_log, node_words, node_worked_out
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Suspect
+from grader.mistakes.worked_out import INSTEAD, first_of, worked_out
 from grader.package.edit.tree import Replace
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, calls_in, dotted, last_part, own_name
-from grader.package.source.node import NodeSource
+from grader.package.source.node import LOG_METHODS, NodeSource
+from grader.package.source.printed import as_log, imitates_record, writes_line
 
 
 def _arguments(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -117,10 +119,45 @@ def _missing_in_lambda(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _debug(suspect: Suspect) -> RecognisedMistake | None:
-    callback = suspect.source.callback
-    logs = suspect.source.logs(callback) if callback is not None else []
+    source = suspect.source
+    callback = source.callback
+    logs = source.logs(callback) if callback is not None else []
     debug = [log for log in logs if dotted(log.func).endswith(".debug")]
-    return suspect.finding("debug_level", debug[0]) if debug else None
+    if debug:
+        return suspect.finding("debug_level", debug[0])
+    # (in a lambda or a helper, of a logger that a parameter is; the only line that is logged)
+    found = _methods_of_loggers(source)
+    if len(found) != 1 or found[0].attr != "debug":
+        return None
+    module = source.module_of(found[0])
+    name = module.text.code(found[0])
+    written = f"{name.removesuffix('debug')}info"
+    mistake = suspect.finding("debug_level", found[0], name=name, written=written)
+    return replace(mistake, variant="written")
+
+
+def _methods_of_loggers(source: NodeSource) -> list[ast.Attribute]:
+    """Return where the files name a method of a logger, called or not."""
+    loggers = {*source.loggers, *_parameters_for_loggers(source)}
+    return [
+        node
+        for node in source.own_nodes
+        if isinstance(node, ast.Attribute)
+        and node.attr in LOG_METHODS
+        and (dotted(node.value) in loggers or dotted(node.value).endswith("get_logger()"))
+    ]
+
+
+def _parameters_for_loggers(source: NodeSource) -> set[str]:
+    """Return the parameters of the node's methods that get a logger in a call."""
+    found: set[str] = set()
+    for call, _ in source.calls:
+        method = source.methods.get(own_name(call.func))
+        names = [given.arg for given in method.args.args[1:]] if method is not None else []
+        for name, value in zip(names, call.args):
+            if dotted(value) in source.loggers or dotted(value).endswith("get_logger()"):
+                found.add(name)
+    return found
 
 
 def _twice(suspect: Suspect) -> RecognisedMistake | None:
@@ -141,7 +178,37 @@ def _printed(suspect: Suspect) -> RecognisedMistake | None:
         for given in call.args:
             if isinstance(given, ast.Call) and dotted(given.func) == "print":
                 return replace(suspect.finding("print_used", given), variant="inside")
-    return suspect.finding("print_used", prints[0]) if prints else None
+    if not prints:
+        return None
+    written = as_log(suspect.source, prints[0])
+    if written is None or suspect.source.own_logs:
+        return suspect.finding("print_used", prints[0])
+    code = suspect.source.module_of(prints[0]).text.code(prints[0])
+    found = suspect.finding("print_used", prints[0], name=code, written=written)
+    return replace(found, variant="written")
+
+
+def _written(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a line that is written without print()."""
+    source = suspect.source
+    prints = any(name == "print" for _, name in source.calls)
+    return None if prints or source.own_logs else _imitated(suspect)
+
+
+def _imitated(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the only call that writes a text that begins as a log record does."""
+    calls = [call for call, _ in suspect.source.calls]
+    found = [call for call in calls if imitates_record(call)]
+    found = found or [call for call in calls if writes_line(call)]
+    if len(found) != 1:
+        return None
+    call = found[0]
+    written = as_log(suspect.source, call)
+    if written is None:
+        return suspect.finding("written_without_logger", call)
+    code = suspect.source.module_of(call).text.code(call)
+    mistake = suspect.finding("written_without_logger", call, name=code, written=written)
+    return replace(mistake, variant="written")
 
 
 def _left_out(*options: str) -> FromSource:
@@ -329,8 +396,9 @@ KINDS = (
         msg("By default, records of level DEBUG are neither shown nor published."),
         msg("Write self.get_logger().info(…) instead of .debug(…)."),
         links.LOGGING,
+        fixes={"written": INSTEAD},
         behind={"run.no_lines": _debug},
-        fixed_by=(node_log.level,),
+        fixed_by=(node_log.level, lines.written),
         examples=(
             example(
                 "logged_as_debug",
@@ -348,10 +416,12 @@ KINDS = (
         msg("Each call of the logger writes its own line."),
         msg("Keep only one self.get_logger().info(…) in the callback."),
         links.LOGGING,
-        behind={"run.twice": _twice},
+        fixes={"line": msg("Delete line {line}: another call writes the same line.")},
+        behind={"run.twice": first_of(_twice, worked_out("logs_twice", "logged", variant="line"))},
         fixed_by=(
             node_count.twice,
             node_log.only_logged,
+            node_worked_out.change("logged"),
         ),
         examples=(
             example(
@@ -395,11 +465,15 @@ KINDS = (
             "inside": msg(
                 "print() writes the text to this terminal and returns None, so the logger gets "
                 "None instead of the text."
-            )
+            ),
         },
-        fixes={"inside": msg("Remove print( and its ): give the text itself to the logger.")},
+        fixes={
+            "inside": msg("Remove print( and its ): give the text itself to the logger."),
+            "written": INSTEAD,
+        },
         behind={"run.print_not_logger": _printed},
         fixed_by=(
+            node_log.printed_to_log,
             node_log.without_print,
             node_log.logger,
             node_log.only_logged,
@@ -414,6 +488,54 @@ KINDS = (
                     NODE,
                     "'Hello time: ' + str(self.counter_)",
                     "print('Hello time: ' + str(self.counter_))",
+                ),
+                fails="run.logger",
+            ),
+        ),
+    ),
+    _node(
+        "written_without_logger",
+        "logger",
+        msg("A line is written to the terminal without the logger"),
+        msg(
+            "The logger itself adds the level, the time and the node's name, and sends the record "
+            "to /rosout as well."
+        ),
+        msg("Give only the text after the name to the logger: self.get_logger().info(…)"),
+        links.LOGGING,
+        fixes={"written": INSTEAD},
+        behind={"run.faked_log": _imitated, "run.print_not_logger": _written},
+        fixed_by=(node_log.printed_to_log,),
+        examples=(
+            example(
+                "record_printed",
+                Replace(NODE, "import rclpy\n", "import time\n\nimport rclpy\n"),
+                Replace(
+                    NODE,
+                    LOG,
+                    "text = 'Hello time: ' + str(self.counter_)\n"
+                    "        print(f'[INFO] [{time.time():.9f}] [my_first_node]: {text}', flush=True)",
+                ),
+                fails="run.logger",
+            ),
+            example(
+                "printed_in_log_form",
+                Replace(NODE, "import rclpy\nfrom", "import sys\nimport time\nimport rclpy\nfrom"),
+                Replace(
+                    NODE,
+                    "self.get_logger().info('Hello time: ' + str(self.counter_))",
+                    "print(f'[INFO] [{time.time():.9f}] [my_first_node]: Hello time: {self.counter_}', file=sys.stderr, flush=True)",
+                ),
+                fails="run.logger",
+            ),
+            example(
+                "written_to_stdout",
+                Replace(NODE, "import rclpy\n", "import sys\n\nimport rclpy\n"),
+                Replace(
+                    NODE,
+                    LOG,
+                    "sys.stdout.write('Hello time: ' + str(self.counter_) + '\\n')\n"
+                    "        sys.stdout.flush()",
                 ),
                 fails="run.logger",
             ),

@@ -95,12 +95,14 @@ class Suspect:
     """A source with a known symptom, and its assignment.
 
     If a line of the output is wrong, `text` is that line and `place` is where it was logged.
+    `lines` are the lines of the output that came, none if they are not known.
     """
 
     source: NodeSource
     assignment: Assignment
     text: str = ""
     place: Where | None = None
+    lines: tuple[str, ...] = ()
 
     @property
     def output(self) -> Output:

@@ -415,18 +415,6 @@ KINDS = (
         RECORD,
         LOG,
         links.LOGGING,
-        examples=(
-            example(
-                "printed_in_log_form",
-                Replace(NODE, "import rclpy\nfrom", "import sys\nimport time\nimport rclpy\nfrom"),
-                Replace(
-                    NODE,
-                    "self.get_logger().info('Hello time: ' + str(self.counter_))",
-                    "print(f'[INFO] [{time.time():.9f}] [my_first_node]: Hello time: {self.counter_}', file=sys.stderr, flush=True)",
-                ),
-                fails="run.logger",
-            ),
-        ),
     ),
     _run(
         "erased",

@@ -122,7 +122,9 @@ def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedM
     if symptom == "run.wrong_node_name" and source.super_init is not None:
         diagnosis.where = place_of(source, source.super_init)
     text = str(diagnosis.mistakes[0].params.get("text", ""))
-    return behind_symptom(symptom, Suspect(source, evidence.assignment, text, diagnosis.where))
+    lines = tuple(event.text for event in evidence.run.watch.counted)
+    suspect = Suspect(source, evidence.assignment, text, diagnosis.where, lines)
+    return behind_symptom(symptom, suspect)
 
 
 def _raised(error: str, where: Where | None, evidence: Evidence) -> RecognisedMistake | None:

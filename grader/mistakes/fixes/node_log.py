@@ -101,6 +101,17 @@ def logger(case: Case) -> Files | None:
     return case.changed(node.module, node.module.text.swap(prints[0].func, f"{logger}.info"))
 
 
+def printed_to_log(case: Case) -> Files | None:
+    """Write the call of the logger that the finding gives instead of the call that prints."""
+    name, new = (str(case.finding.params.get(key, "")) for key in ("name", "written"))
+    node, module = case.node, case.module
+    if node is None or module is None or not name or not new or node.own_logs:
+        return None
+    calls = [n for n in node.all_nodes if isinstance(n, ast.Call) and module.has(n)]
+    found = [n for n in calls if n.lineno == case.finding.line and module.text.code(n) == name]
+    return case.changed(module, module.text.swap(found[0], new)) if len(found) == 1 else None
+
+
 def called(case: Case) -> Files | None:
     """Call the logger's method instead of replacing it."""
     module, line = case.module, case.finding.line

@@ -91,6 +91,8 @@ def _in_f_string(module: Module, node: ast.JoinedStr, names: set[str]) -> Iterat
     first, code = module.text.span(node)[0], module.text.code(node)
     for match in IN_F_STRING.finditer(code):
         value = match["value"]
+        if match["form"].startswith(":="):
+            continue
         if any(re.search(rf"(?<![\w.]){re.escape(n)}(?!\w)", value) for n in names):
             new = f"{{{value.strip()}}}"
             yield _piece(module, node, match[0], new, match["form"], first + match.start())

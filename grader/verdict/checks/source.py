@@ -440,20 +440,11 @@ def _beside_empty(evidence: Evidence, path: str) -> str:
 
 def _no_shebang(evidence: Evidence, path: str, data: bytes, first: bytes) -> Failed:
     text = shown(first.decode("utf-8", "replace").strip()) or say("an empty line")
-    numbers = numbers_above(data)
-    if numbers:
-        alone = Slip("pasted", "number_lines", 1, "1", other=numbers)
-        return _pasted_first(path, alone)
     later = [n for n, line in enumerate(data.splitlines()[:20], 1) if line[:2] == b"#!" and n > 1]
     line: int | None = 1
     actual: str
-    within = b"#!/" in first[1:]  # behind a line number, or the sign of a patch
     slip = slip_of(data)
-    pasted: Pasted | Slip | None = _above_shebang(data, later[0] if later else 2)
-    if slip is not None and slip.variant == "around" and later and slip.line < later[0]:
-        pasted = slip
-    if slip is not None and within and slip.variant in ("patch", "numbers") and slip.line == 1:
-        pasted = slip
+    pasted = _pasted_above(data, slip, later)
     if pasted is not None:
         return _pasted_first(path, pasted)
     if first[:3] == b"\xef\xbb\xbf":
@@ -486,6 +477,19 @@ def _no_shebang(evidence: Evidence, path: str, data: bytes, first: bytes) -> Fai
         variant=variant if mistake == "source.crlf" or variant == "first_sign" else "",
         words=words,
     )
+
+
+def _pasted_above(data: bytes, slip: Slip | None, later: list[int]) -> Pasted | Slip | None:
+    """Return what was pasted above or in front of the shebang; `later`: the lines that have one."""
+    numbers = numbers_above(data)
+    if numbers:
+        return Slip("pasted", "number_lines", 1, "1", other=numbers)
+    within = b"#!/" in data.partition(b"\n")[0][1:]  # behind a line number, or a patch's sign
+    if slip is not None and slip.variant == "around" and later and slip.line < later[0]:
+        return slip
+    if slip is not None and within and slip.variant in ("patch", "numbers") and slip.line == 1:
+        return slip
+    return _above_shebang(data, later[0] if later else 2)
 
 
 def _above_shebang(data: bytes, line: int) -> Pasted | None:

@@ -1,0 +1,129 @@
+"""Mistakes that are found by working out which one change gives the required lines."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import NODE, example
+from grader.mistakes.fixes import node_worked_out
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import FromSource, RecognisedMistake, Suspect
+from grader.package.edit.tree import Replace
+from grader.package.source.one_change import Change, changes, logged_lines, wanted_lines
+
+LONGEST = 120  # characters of a piece of code that a text shows
+INSTEAD = msg("Write {written} instead of {name}.")
+
+
+def change_of(suspect: Suspect, *sorts: str) -> Change | None:
+    """Return the change of one of these sorts after which the node logs the required lines.
+
+    None if the code does not log the lines that came, or if no change is known.
+    """
+    seen = list(suspect.lines)
+    before = logged_lines(suspect.source) if seen else None
+    common = min(len(seen), len(before or ()))
+    if before is None or not common or before[:common] != seen[:common]:
+        return None
+    output = suspect.output
+    wanted = wanted_lines(output.line, output.start, output.step)
+    found = changes(suspect.source, wanted, *sorts)
+    short = [change for change in found if len(change.name) + len(change.written) <= LONGEST]
+    return short[0] if short else None
+
+
+def worked_out(slug: str, *sorts: str, variant: str = "") -> FromSource:
+    """Return a function that finds `node.slug` where a change of these sorts corrects the lines."""
+
+    def found(suspect: Suspect) -> RecognisedMistake | None:
+        change = change_of(suspect, *sorts)
+        if change is None:
+            return None
+        mistake = suspect.finding(slug, change.at, name=change.name, written=change.written)
+        words = {**mistake.words, "form": change.form, "line": str(change.at.lineno)}
+        shown = "equals" if change.form == "=" else variant
+        return replace(mistake, words=words, variant=shown)
+
+    return found
+
+
+def first_of(*looks: FromSource) -> FromSource:
+    """Return a function that finds what the first of these functions finds."""
+
+    def found(suspect: Suspect) -> RecognisedMistake | None:
+        return next(filter(None, (look(suspect) for look in looks)), None)
+
+    return found
+
+
+_node = Family("node", links.PYTHON_STRINGS)
+KINDS = (
+    _node(
+        "as_code",
+        "text",
+        msg("A value is written as Python code"),
+        msg("{form} writes a value as Python code has it: a text is in quotes."),
+        INSTEAD,
+        whys={"equals": msg("= in the braces also writes the code that is before it.")},
+        behind={"run.wrong_text": worked_out("as_code", "code")},
+        fixed_by=(node_worked_out.change("code"),),
+        examples=(
+            example(
+                "number_with_quotes",
+                Replace(NODE, "str(self.counter_)", "repr(str(self.counter_))"),
+                fails="run.output",
+            ),
+            example(
+                "equals_in_braces",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "f'Hello time: {self.counter_=}'",
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "text_changed",
+        "text",
+        msg("A method changes the text before it is logged"),
+        msg("{form} returns another text than the one that it is called on."),
+        INSTEAD,
+        behind={"run.wrong_text": worked_out("text_changed", "method")},
+        fixed_by=(node_worked_out.change("method"),),
+        examples=(
+            example(
+                "text_in_capitals",
+                Replace(
+                    NODE,
+                    "('Hello time: ' + str(self.counter_))",
+                    "(('Hello time: ' + str(self.counter_)).upper())",
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "number_changed",
+        "counter",
+        msg("The line shows the result of an operation, not the counter"),
+        msg("{name} does not give the number that the line has to show."),
+        INSTEAD,
+        behind={
+            "run.wrong_start": worked_out("number_changed", "operation"),
+            "run.wrong_step": worked_out("number_changed", "operation"),
+            "run.wrong_text": worked_out("number_changed", "operation"),
+        },
+        fixed_by=(node_worked_out.change("operation"),),
+        examples=(
+            example(
+                "one_more_in_text",
+                Replace(NODE, "str(self.counter_)", "str(self.counter_ + 1)"),
+                fails="run.output",
+            ),
+        ),
+    ),
+)
