@@ -110,6 +110,17 @@ def alive(mark: str) -> list[str]:
     return found
 
 
+def wait_until_alive(mark: str) -> None:
+    """Wait until a process has `mark` in its command line; fail if none gets it.
+
+    While a process replaces its program, its command line is empty for a moment.
+    """
+    deadline = time.monotonic() + GONE_SECONDS
+    while not alive(mark):
+        assert time.monotonic() < deadline, mark
+        time.sleep(0.02)
+
+
 def wait_until_asleep(pid: int) -> None:
     """Wait until a process' first thread sleeps in the kernel, where every signal wakes it.
 

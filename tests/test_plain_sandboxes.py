@@ -112,7 +112,7 @@ def test_without_a_sandbox_every_process_still_ends(ros_jazzy: Ros) -> None:
         outcome = opened.run(["bash", "-c", f"read < <({escaped}); pwd"], seconds=10)
         folder = Path(opened.workspace).parent.parent
         assert outcome.output.decode().strip() == opened.workspace
-        assert processes.alive(mark) != []
+        processes.wait_until_alive(mark)
     assert processes.alive(mark) == []
     assert not folder.exists()
 

@@ -159,7 +159,11 @@ POINTS = """\
         (f"    install_requires=[{ENTRY}],\n)\n", 14, "it is in install_requires"),
         (f"    keywords=[\n        {ENTRY}\n    ],\n)\n", 15, "it is in keywords"),
         (f"    console_scripts=[{ENTRY}],\n)\n", 14, "outside of entry_points"),
-        (f")\nentry_points = {{'console_scripts': [{ENTRY}]}}\n", 15, "outside of setup()"),
+        (
+            f")\nentry_points = {{'console_scripts': [{ENTRY}]}}\n",
+            15,
+            "setup() does not get entry_points",
+        ),
         (
             f"    keywords=[{ENTRY}],\n    entry_points={{'console_scripts': []}},\n)\n",
             14,
@@ -178,7 +182,7 @@ def test_an_entry_in_the_wrong_place_is_named_and_moved(
     plan = fix_files(take_in(bench.root, package=NAME, node_file="my_first_node.py"), ASSIGNMENT)
     assert plan.left == ()
     fixed = (plan.new.data("setup.py") or b"").decode()
-    assert fixed.count("'console_scripts': [") == 1 + ("outside of setup" in words)
+    assert fixed.count("'console_scripts': [") == 1 + ("does not get" in words)
 
 
 def test_an_entry_of_gui_scripts_is_there_but_in_another_group(bench: Bench) -> None:

@@ -75,7 +75,11 @@ def _assigned(raised: Raised, named: ast.expr) -> ast.expr | None:
     """Return what a variable or an attribute gets in the only line that assigns to it."""
     name, function = dotted(named), function_at(raised.module, raised.line)
     among = raised.source.own_nodes if "." in name else ast.walk(function or raised.module.tree)
-    found = [n.value for n in among if isinstance(n, ast.Assign) and name in targets_of(n)]
+    found = [
+        n.value
+        for n in among
+        if isinstance(n, ast.Assign | ast.AnnAssign) and name in targets_of(n)
+    ]
     return found[0] if len(found) == 1 else None
 
 
