@@ -198,6 +198,8 @@ def _written(suspect: Suspect) -> RecognisedMistake | None:
 def _imitated(suspect: Suspect) -> RecognisedMistake | None:
     """Look for the only call that writes a text that begins as a log record does."""
     calls = [call for call, _ in suspect.source.calls]
+    if any(_publishes_records(call) for call in calls):
+        return None  # (what is written to the terminal is only half of it)
     found = [call for call in calls if imitates_record(call)]
     found = found or [call for call in calls if writes_line(call)]
     if len(found) != 1:
@@ -209,6 +211,13 @@ def _imitated(suspect: Suspect) -> RecognisedMistake | None:
     code = suspect.source.module_of(call).text.code(call)
     mistake = suspect.finding("written_without_logger", call, name=code, written=written)
     return replace(mistake, variant="written")
+
+
+def _publishes_records(call: ast.Call) -> bool:
+    """Return whether a call makes a publisher of /rosout, the topic of the logger."""
+    given = [*call.args, *(keyword.value for keyword in call.keywords)]
+    texts = [value.value for value in given if isinstance(value, ast.Constant)]
+    return last_part(dotted(call.func)) == "create_publisher" and "/rosout" in texts
 
 
 def _left_out(*options: str) -> FromSource:

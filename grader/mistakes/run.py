@@ -415,6 +415,12 @@ KINDS = (
         RECORD,
         LOG,
         links.LOGGING,
+        fixes={
+            "published": msg(
+                "Remove the publisher of /rosout, and what it publishes. The logger publishes its "
+                "records there itself: self.get_logger().info(…)"
+            )
+        },
     ),
     _run(
         "erased",

@@ -41,6 +41,7 @@ def logger(use: Use[Logged]) -> Passed:
                 "{node} has a second publisher on /rosout: who made the records cannot be told",
                 node=run.doubled,
             ),
+            variant="published",
             where=line_of(use.evidence, events[0].record),
         )
     gone = run.ended_by_itself or bool(run.watch.missing)
