@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.counter import counter_in
+from grader.mistakes.counted import counter_in
 from grader.mistakes.example import DEAD, LOG, NODE, SILENT, STEP_LINE, example
 from grader.mistakes.fixes import node_words
 from grader.mistakes.kind import Family

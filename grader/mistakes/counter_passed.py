@@ -6,7 +6,7 @@ import ast
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.counter import counter_in
+from grader.mistakes.counted import counter_in
 from grader.mistakes.example import NODE, STEP_LINE, example
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.counter import Counter, counter_in
+from grader.mistakes.counted import Counter, counter_in
 from grader.mistakes.example import LOG_LINE, NODE, STEP_LINE, example
 from grader.mistakes.fixes import node_count, node_worked_out
 from grader.mistakes.kind import Family

@@ -1,4 +1,4 @@
-"""Mistakes in creating the timer, and in what it calls."""
+"""Mistakes in whether and how long the timer runs: none, stopped, reset, under a condition."""
 
 from __future__ import annotations
 
@@ -7,71 +7,22 @@ import re
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
-from grader.base.nearest import nearest
 from grader.mistakes import links
-from grader.mistakes.constructor import lines_of
-from grader.mistakes.example import DEAD, NODE, SILENT, example
+from grader.mistakes.example import NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_scope, node_timer
 from grader.mistakes.kind import Family
 from grader.mistakes.order import attribute_needed_early
-from grader.mistakes.recognised import (
-    NAME_ERROR,
-    OWN_ATTRIBUTE,
-    Raised,
-    RecognisedMistake,
-    Suspect,
-    always,
-    of_self,
-)
+from grader.mistakes.recognised import NAME_ERROR, OWN_ATTRIBUTE, Raised, RecognisedMistake, Suspect
 from grader.mistakes.scope import creates_timer
+from grader.mistakes.timer_period import TIMER
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.endless import calls_of_methods
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part, own_name
 from grader.package.source.node import NodeSource
-from grader.package.source.period import origin_of, seconds_of
 from grader.package.source.place import block_of, function_at
 from grader.package.source.until_ctrl_c import parts_until_ctrl_c
-
-LONG = 100.0  # seconds; a longer period was meant in milliseconds
-WORDS = ("timer", "callback", "on", "log", "hello", "say", "count", "counter", "tick", "time")
-"""Words that names of callbacks have; of two names, one with fewer of them is misspelt."""
-
-REAL_NUMBER = (
-    r"float\(\) argument must be .{1,60}not '(?P<type>\w{1,120})'"
-    r"|must be real number, not (?P<old>\w{1,120})"
-)
-CALLABLE = ("method", "function")
-CALLED = msg(
-    "create_timer takes the period in seconds and the callback itself, and calls it later. With () "
-    "after its name the callback runs now, and its result (None) is passed instead."
-)
-TIMER = msg("Write create_timer({period}, self.{callback})")
-
-
-def _called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    del match
-    called = [timer for timer in raised.source.timers if timer.called]
-    return raised.finding("callback_called", at=called[0].call) if called else None
-
-
-def _called_with(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """The callback is called with arguments where the timer is created."""
-    for timer in raised.source.timers:
-        if timer.called and timer.method == match["name"] and raised.line == timer.call.lineno:
-            return raised.finding("callback_called", at=timer.call)
-    return None
-
-
-def _called_early(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """The callback runs in __init__, before the line that sets what it needs."""
-    early = attribute_needed_early(raised, match)
-    inside = list(ast.walk(early.needs)) if early is not None else []
-    for timer in raised.source.timers:
-        if timer.called and timer.call in inside:
-            return raised.finding("callback_called", at=timer.call)
-    return None
 
 
 def _by_hand_early(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -83,151 +34,12 @@ def _by_hand_early(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
     return None
 
 
-def _negative(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    del match
-    for timer in raised.source.timers:
-        if timer.period is None or raised.line not in (None, timer.call.lineno):
-            continue
-        code = raised.source.module_of(timer.call).text.code(timer.period)
-        period = repr(raised.assignment.output.period)
-        return raised.finding("period_negative", at=timer.call, name=code, written=period)
-    return None
-
-
-def _zero(suspect: Suspect) -> RecognisedMistake | None:
-    """The period is 0: the timer is due again at once."""
-    for timer in suspect.source.timers:
-        if timer.period is None or seconds_of(suspect.source, timer.period) != 0:
-            continue
-        value = node_timer.value_of(suspect.source, timer.period) or timer.period
-        code = suspect.source.module_of(value).text.code(value)
-        period = repr(suspect.output.period)
-        if value is timer.period and isinstance(value, ast.Constant):
-            return suspect.finding("period_zero", timer.call, name=code, written=period)
-        found = suspect.finding("period_zero", value, name=code, written=period)
-        whole = any(isinstance(n, ast.FloorDiv) for n in ast.walk(value))
-        return replace(found, variant="whole" if whole else "elsewhere")
-    return None
-
-
-def _in_quotes(suspect: Suspect) -> RecognisedMistake | None:
-    """Look for a text of the class that contains the line of the timer."""
-    if suspect.source.timers:
-        return None
-    for node in suspect.source.own_nodes:
-        value = node.value if isinstance(node, ast.Expr) else None
-        if isinstance(value, ast.Constant) and "self.create_timer(" in str(value.value):
-            return suspect.finding("timer_in_quotes", value)
-    return None
-
-
-def _calls_back_at_once(suspect: Suspect) -> RecognisedMistake | None:
-    for timer in suspect.source.timers:
-        if timer.called:
-            return suspect.finding("callback_called", timer.call)
-    return None
-
-
-def _is_callback(raised: Raised, match: re.Match[str]) -> bool:
-    """Whether the missing attribute is what a timer calls."""
-    name = match["name"]
-    return of_self(raised, match) and any(t.method == name for t in raised.source.timers)
-
-
-def _inside_init(raised: Raised, name: str) -> ast.FunctionDef | None:
-    init = raised.source.methods.get("__init__")
-    for node in ast.walk(init) if init else ():
-        if isinstance(node, ast.FunctionDef) and node.name == name:
-            return node
-    return None
-
-
-def _callback_in_init(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    name = match["name"]
-    at = _inside_init(raised, name) if _is_callback(raised, match) else None
-    return raised.finding("callback_in_init", at=at, name=name) if at is not None else None
-
-
-def _callback_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    if not _is_callback(raised, match):
-        return None
-    name, methods = match["name"], raised.source.methods
-    close = nearest(name, [m for m in methods if m != "__init__"])
-    if close and _known_words(name) > _known_words(close):
-        found = raised.finding("callback_misspelt", at=methods[close], name=close, close=name)
-        return replace(found, variant="definition")
-    found = raised.finding("callback_misspelt", name=name, close=close)
-    return replace(found, variant="", words={**found.words, "callback": close or name})
-
-
-def _known_words(name: str) -> int:
-    return sum(part in WORDS for part in name.lower().split("_"))
-
-
 def _outside_init(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if match["name"] != "self" or not creates_timer(raised):
         return None
     return (
         None if function_at(raised.module, raised.line) else raised.finding("timer_at_class_level")
     )
-
-
-def _dot_for_comma(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """A number and the next argument have a dot between them."""
-    row = raised.module.line(raised.line)
-    found = re.search(rf"(?P<number>\d+\.\d*|\d+)\.[ \t]*(?P<next>{match['name']})\b", row)
-    if found is None:
-        return None
-    written = f"{found['number']}, {found['next']}"
-    return raised.finding("dot_for_comma", name=found[0], written=written)
-
-
-def _no_self_dot(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    name = match["name"]
-    if all(timer.method != name for timer in raised.source.timers):
-        return None
-    if name not in raised.source.methods:
-        return None
-    function = function_at(raised.module, raised.line)
-    inside = any(function in found.body for found in raised.module.classes)
-    variables = raised.source.node_variables
-    if function is not None and not inside and len(variables) == 1:
-        written = f"{min(variables)}.{name}"
-        found = raised.finding("callback_without_self_dot", name=name, written=written)
-        return replace(found, variant="outside")
-    return raised.finding("callback_without_self_dot", name=name)
-
-
-def _swapped(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    kind = match.groupdict().get("type")
-    if not raised.source.timers or kind not in (None, *CALLABLE):
-        return None
-    return raised.finding("timer_arguments_swapped")
-
-
-def _not_number(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """The period is something else than a number: mostly a tuple, because of a comma."""
-    if match["type"] in CALLABLE:
-        return None
-    for timer in raised.source.timers:
-        if timer.period is None or raised.line not in (None, *lines_of(timer.call)):
-            continue
-        value = node_timer.value_of(raised.source, timer.period)
-        number = node_timer.number_of(value)
-        if match["type"] == "Parameter" and isinstance(value, ast.Call):
-            code = raised.source.module_of(value).text.code(value)
-            params = {"name": code, "written": f"{code}.value"}
-            found = raised.finding("parameter_object", at=value, params=params)
-            return replace(found, variant="written")
-        if value is None or not number:
-            return raised.finding("period_not_number", at=timer.call, type=match["type"])
-        code = raised.source.module_of(value).text.code(value)
-        params = {"name": code, "written": number, "type": match["type"]}
-        found = raised.finding("period_not_number", at=value, params=params)
-        return replace(
-            found, variant="decimal" if "." not in code and "," in code[:-1] else "comma"
-        )
-    return None
 
 
 def _missing(suspect: Suspect) -> RecognisedMistake | None:
@@ -277,24 +89,6 @@ def _stop_of_timer(suspect: Suspect, *endings: str, logs: bool = True) -> Recogn
             continue
         return _with_line(suspect, call, name)
     return None
-
-
-def _argument_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """Complete the student's own call, if what is missing is known."""
-    del match
-    for timer in raised.source.timers:
-        if raised.line not in (None, *lines_of(timer.call)):
-            continue
-        period = repr(raised.assignment.output.period)
-        found = node_timer.completed(raised.source, timer, period)
-        if found is None:
-            return raised.finding("timer_argument_missing", at=timer.call)
-        code = " ".join(raised.source.module_of(timer.call).text.code(timer.call).split())
-        code = re.sub(r",? \)", ")", code.replace("( ", "("))
-        params = {"name": code, "written": found.written}
-        mistake = raised.finding("timer_argument_missing", at=timer.call, params=params)
-        return replace(mistake, variant="written")
-    return raised.finding("timer_argument_missing")
 
 
 def _logs(source: NodeSource, callback: Function) -> bool:
@@ -392,18 +186,6 @@ def _only_if(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
-def _milliseconds(suspect: Suspect) -> RecognisedMistake | None:
-    given = suspect.source.timers[0].period
-    value = node_timer.value_of(suspect.source, given) if given is not None else None
-    origin = origin_of(suspect.source, given)
-    if value is None and origin is not None and origin.calculation is None:
-        value = origin.number  # (the default of a parameter, or a constant of the class)
-    number = value.value if isinstance(value, ast.Constant) else None
-    if not isinstance(number, int | float) or not number >= LONG > suspect.output.period:
-        return None
-    return suspect.finding("period_milliseconds", value, written=f"{number:g}")
-
-
 def _other_callback(suspect: Suspect) -> RecognisedMistake | None:
     source, callback = suspect.source, suspect.source.callback
     timer = source.timers[0]
@@ -432,6 +214,8 @@ def _by_hand(suspect: Suspect) -> RecognisedMistake | None:
 
 
 DESTROYED = msg("destroy_timer() removes a timer: it no longer calls its callback.")
+
+
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -455,309 +239,6 @@ KINDS = (
                     "\n    self.create_timer(1.0, self.timer_callback)\n",
                 ),
                 fails="run.starts",
-            ),
-        ),
-    ),
-    _node(
-        "callback_called",
-        "timer",
-        msg("create_timer gets a call instead of the callback"),
-        CALLED,
-        msg("Remove the () after the callback's name: create_timer({period}, self.{callback})"),
-        seen=r"TypeError: 'NoneType' object is not callable"
-        r"|UnboundLocalError: .{0,60}'arg_name'",
-        raised={
-            "'NoneType' object is not callable|'arg_name'|is not a callable object": _called,
-            r"TypeError: \w{1,120}\.(?P<name>\w{1,120})\(\) takes": _called_with,
-            OWN_ATTRIBUTE: _called_early,
-        },
-        behind={"run.by_hand": _calls_back_at_once},
-        fixed_by=(node_timer.callback,),
-        examples=(
-            example(
-                "brackets_behind_callback",
-                Replace(NODE, "self.timer_callback)", "self.timer_callback())"),
-                fails="run.output",
-                also={"run.period": "node.callback_called"},
-                blocks=("run.interrupt",),
-                note="one line at once, then 'NoneType' object is not callable",
-            ),
-            example(
-                "callback_called_with_self",
-                Replace(NODE, "self.timer_callback)", "self.timer_callback(self))"),
-                fails="run.starts",
-            ),
-            example(
-                "callback_called_before_counter",
-                Replace(NODE, "        self.counter_ = 0\n", ""),
-                Replace(
-                    NODE,
-                    "self.timer_callback)\n",
-                    "self.timer_callback())\n        self.counter_ = 0\n",
-                ),
-                fails="run.starts",
-            ),
-        ),
-    ),
-    _node(
-        "callback_in_init",
-        "timer",
-        msg("The callback is indented into __init__"),
-        msg("A function inside __init__ is not a method of the class, so self does not have it."),
-        msg(
-            "Indent def {callback}(self): as far as def __init__, and move its lines to the left "
-            "by as much."
-        ),
-        links.PYTHON_CLASSES,
-        raised={OWN_ATTRIBUTE: _callback_in_init},
-        fixed_by=(node_scope.out_of_init,),
-        examples=(
-            example(
-                "callback_inside_init",
-                Replace(NODE, "    def timer_callback(self)", "        def timer_callback(self)"),
-                Replace(
-                    NODE,
-                    (
-                        '        """Say hello once; the timer calls this for as long as the node spins."""\n'
-                        "        self.get_logger().info('Hello time: ' + str(self.counter_))\n"
-                        "        self.counter_ += 1\n"
-                    ),
-                    (
-                        "            self.get_logger().info('Hello time: ' + str(self.counter_))\n"
-                        "            self.counter_ += 1\n"
-                    ),
-                ),
-                fails="run.starts",
-            ),
-        ),
-    ),
-    _node(
-        "callback_misspelt",
-        "timer",
-        msg("The callback's name is misspelt"),
-        msg("create_timer needs the method's exact name."),
-        TIMER,
-        fixes={"definition": msg("Write def {close}(self): instead of def {name}(self):")},
-        raised={OWN_ATTRIBUTE: _callback_misspelt},
-        fixed_by=(node_scope.definition, node_timer.callback),
-        examples=(
-            example(
-                "callback_misspelt",
-                Replace(
-                    NODE,
-                    "self.create_timer(1.0, self.timer_callback)",
-                    "self.create_timer(1.0, self.timer_calback)",
-                ),
-                fails="run.starts",
-            ),
-            example(
-                "definition_misspelt",
-                Replace(NODE, "def timer_callback(self)", "def timer_callbak(self)"),
-                fails="run.starts",
-            ),
-        ),
-    ),
-    _node(
-        "dot_for_comma",
-        "timer",
-        msg("There is a dot where a comma belongs"),
-        msg(
-            "A comma separates the arguments of a call. Behind a dot, Python looks for an attribute."
-        ),
-        msg("Write {written} instead of {name}."),
-        links.PYTHON_ERRORS,
-        raised={
-            r"'(?:float|int)' object has no attribute '(?P<name>\w{1,120})'": _dot_for_comma,
-        },
-        fixed_by=(lines.written,),
-        examples=(
-            example(
-                "dot_for_comma",
-                Replace(NODE, "create_timer(1.0, self", "create_timer(1.0. self"),
-                fails="run.starts",
-            ),
-        ),
-    ),
-    _node(
-        "callback_without_self_dot",
-        "timer",
-        msg("self. is missing before the callback"),
-        msg("A method is reached through its object: self.name."),
-        TIMER,
-        links.PYTHON_CLASSES,
-        fixes={"outside": msg("Write {written} instead of {name}: there is no self here.")},
-        raised={NAME_ERROR: _no_self_dot},
-        fixed_by=(lines.written, node_timer.callback),
-        examples=(
-            example(
-                "timer_in_main_without_node",
-                Replace(NODE, "        self.create_timer(1.0, self.timer_callback)\n", ""),
-                Replace(
-                    NODE,
-                    "    node = MyFirstNode()\n",
-                    "    node = MyFirstNode()\n    node.create_timer(1.0, timer_callback)\n",
-                ),
-                fails="run.starts",
-            ),
-            example(
-                "callback_without_self_dot",
-                Replace(NODE, "self.timer_callback", "timer_callback"),
-                fails="run.starts",
-            ),
-        ),
-    ),
-    _node(
-        "period_not_number",
-        "timer",
-        msg("The period is not a number"),
-        msg("create_timer takes the period first: a number of seconds, such as {period}."),
-        TIMER,
-        whys={
-            "comma": msg("A comma at the end of a value makes a tuple of it, and not a number."),
-            "decimal": msg(
-                "A decimal number has a point in Python. With a comma it is a tuple, and not a "
-                "number."
-            ),
-        },
-        fixes={
-            "comma": msg("Delete the comma after {written} on this line."),
-            "decimal": msg("Write {written} instead of {name}."),
-        },
-        seen=r"float\(\) argument must be a string or a real number, not '(?P<type>tuple)'",
-        raised={REAL_NUMBER: _not_number},
-        fixed_by=(lines.written,),
-        examples=(
-            example(
-                "period_is_tuple",
-                Replace(
-                    NODE,
-                    "        self.create_timer(1.0,",
-                    "        self.period_ = 1.0,\n        self.create_timer(self.period_,",
-                ),
-                fails="run.starts",
-            ),
-            example(
-                "period_with_comma",
-                Replace(
-                    NODE,
-                    "        self.create_timer(1.0,",
-                    "        period = 1,0\n        self.create_timer(period,",
-                ),
-                fails="run.starts",
-            ),
-            example(
-                "period_in_list",
-                Replace(NODE, "create_timer(1.0,", "create_timer([1.0],"),
-                fails="run.starts",
-            ),
-        ),
-    ),
-    _node(
-        "timer_arguments_swapped",
-        "timer",
-        msg("The arguments of create_timer are swapped"),
-        msg("create_timer takes the period first, then the callback."),
-        TIMER,
-        seen=r"float\(\) argument must be a string or a real number, not '(?:method|function)'",
-        raised={
-            REAL_NUMBER: _swapped,
-            r"float\(\) argument must be|not '?(?:method|function)'?": _swapped,
-        },
-        fixed_by=(node_timer.arguments,),
-        examples=(
-            example(
-                "timer_arguments_swapped",
-                Replace(NODE, "1.0, self.timer_callback", "self.timer_callback, 1.0"),
-                fails="run.starts",
-            ),
-        ),
-    ),
-    _node(
-        "period_text",
-        "timer",
-        msg("The period is a string"),
-        msg("The period is a number of seconds: no quotes, no unit."),
-        TIMER,
-        seen=r"ValueError: could not convert string to float: (?P<text>'[^'\n]{0,60}')",
-        raised={
-            r"could not convert string to float: (?P<text>'[^'\n]{0,60}')": always("period_text")
-        },
-        fixed_by=(node_timer.period,),
-        examples=(
-            example("period_as_text", Replace(NODE, "(1.0,", "('1.0s',"), fails="run.starts"),
-        ),
-    ),
-    _node(
-        "timer_argument_missing",
-        "timer",
-        msg("An argument of create_timer is missing"),
-        msg("create_timer takes the period first, then the callback."),
-        TIMER,
-        fixes={"written": msg("Write {written} instead of {name}.")},
-        seen=r"create_timer\(\) missing \d{1,3} required positional argument",
-        raised={r"create_timer\(\) missing": _argument_missing},
-        fixed_by=(node_timer.arguments,),
-        examples=(
-            example("period_missing", Replace(NODE, "(1.0, self", "(self"), fails="run.starts"),
-        ),
-    ),
-    _node(
-        "period_negative",
-        "timer",
-        msg("The period is negative"),
-        msg("The period is the time from one call of the callback to the next, in seconds."),
-        msg("Write {written} instead of {name}."),
-        raised={"timer period must be non-negative": _negative},
-        fixed_by=(lines.written,),
-        examples=(
-            example("period_negative", Replace(NODE, "(1.0,", "(-1.0,"), fails="run.starts"),
-        ),
-    ),
-    _node(
-        "period_zero",
-        "timer",
-        msg("The period is 0"),
-        msg("A timer with the period 0 is always due: it calls the callback without a pause."),
-        msg("Write {written} instead of {name} in create_timer."),
-        whys={
-            "whole": msg(
-                "{name} is 0: // leaves out what is behind the point. A timer with the period 0 is "
-                "always due: it calls the callback without a pause."
-            )
-        },
-        fixes={
-            "whole": msg("Write {written} instead of {name} in this line."),
-            "elsewhere": msg("Write {written} instead of {name} in this line."),
-        },
-        behind={"run.too_much_output": _zero, "run.wrong_period": _zero},
-        fixed_by=(lines.written,),
-        examples=(
-            example(
-                "period_zero",
-                Replace(NODE, "create_timer(1.0,", "create_timer(0,"),
-                fails="run.output",
-                blocks=("run.spins", *DEAD),
-            ),
-        ),
-    ),
-    _node(
-        "timer_in_quotes",
-        "timer",
-        msg("The line that creates the timer is in quotes"),
-        msg("Lines between three quotes are a text for the reader. Python does not run them."),
-        msg("Remove the three quotes before and after the line with create_timer."),
-        behind={"run.no_lines": _in_quotes},
-        fixed_by=(node_timer.without_quotes,),
-        examples=(
-            example(
-                "timer_in_three_quotes",
-                Replace(
-                    NODE,
-                    "        self.create_timer(1.0, self.timer_callback)",
-                    '        """\n        self.create_timer(1.0, self.timer_callback)\n        """',
-                ),
-                fails="run.output",
-                blocks=SILENT,
             ),
         ),
     ),
@@ -912,30 +393,6 @@ KINDS = (
                     "        if self.running:\n"
                     "            self.create_timer(",
                 ),
-                fails="run.output",
-                blocks=SILENT,
-            ),
-        ),
-    ),
-    _node(
-        "period_milliseconds",
-        "timer",
-        msg("The period is written in milliseconds"),
-        msg("create_timer takes seconds: {written} is {written} seconds."),
-        TIMER,
-        behind={"run.no_lines": _milliseconds},
-        fixed_by=(node_timer.period,),
-        examples=(
-            example(
-                "period_in_milliseconds",
-                Replace(NODE, "(1.0,", "(1000.0,"),
-                fails="run.output",
-                blocks=SILENT,
-            ),
-            example(
-                "constant_in_milliseconds",
-                Replace(NODE, "\n\nclass MyFirstNode", "PERIOD = 1000\n\n\nclass MyFirstNode"),
-                Replace(NODE, "(1.0,", "(PERIOD,"),
                 fails="run.output",
                 blocks=SILENT,
             ),

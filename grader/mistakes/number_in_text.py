@@ -1,0 +1,618 @@
+"""Mistakes in how the number gets into the text: +, f-strings, %, format()."""
+
+from __future__ import annotations
+
+import ast
+import re
+from dataclasses import replace
+
+from grader.base.i18n.message import Value, joined, msg, say
+from grader.mistakes import links
+from grader.mistakes.counted import counter_in, text_added
+from grader.mistakes.example import DEAD, NODE, example
+from grader.mistakes.fixes import lines, node_log, node_words
+from grader.mistakes.kind import Family
+from grader.mistakes.placeholders import placeholder_values
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.mistakes.worked_out import INSTEAD
+from grader.package.edit.text import SourceText
+from grader.package.edit.tree import Replace
+from grader.package.source.counter import starts_of, targets_of
+from grader.package.source.names import called_name, dotted
+from grader.package.source.number_forms import number_forms
+from grader.package.source.place import place_of, statement_at
+from grader.report.model import Where
+
+MOST_CODE = 80  # characters of a piece of code that a text shows
+FLOAT_STEP = msg("An integer and a number with a decimal point make one with a point.")
+FLOAT_START = msg("{form} is a number with a decimal point, so each sum with it is one too.")
+OTHER_FORM = msg(
+    "{form} sets the form in which the number is written. Without it, Python writes the plain "
+    "integer."
+)
+ONE_PIECE = INSTEAD
+MORE_PIECES = msg("Write {written} instead of {name}. Write also: {others}.")
+
+
+def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    statement = statement_at(raised.module, raised.line)
+    if isinstance(statement, ast.Assign) and text_added(statement):
+        return None
+    for node in raised.module.nodes:
+        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Add):
+            continue
+        if raised.line not in range(node.lineno, (node.end_lineno or node.lineno) + 1):
+            continue
+        if (sum_of := _number_added_last(node, raised.module.text)) is not None:
+            name, written, variant = sum_of
+            found = raised.finding("str_plus_int", name=name, written=written)
+            return replace(found, variant=variant)
+        operand = next((part for part in (node.right, node.left) if _may_be_number(part)), None)
+        if operand is not None:
+            text = raised.module.text
+            number = operand
+            if isinstance(operand, ast.Call) and len(operand.args) == 1:
+                number = operand.args[0] if dotted(operand.func) in ("int", "float") else operand
+            written = f"str({text.code(number)})"
+            return raised.finding("str_plus_int", name=text.code(operand), written=written)
+    counter = str(raised.words["counter"])
+    return raised.finding("str_plus_int", name=counter, written=f"str({counter})")
+
+
+def _number_added_last(node: ast.BinOp, text: SourceText) -> tuple[str, str, str] | None:
+    """Return the end of a sum of a text, a value and a number, what to write for it, and a variant.
+
+    As in `'%d' % n + 1`, `'n: ' + str(n) + 1` ("late": the value is text when the number is added)
+    and `'n: ' + n + 1`. None if the sum has another form or more than one line.
+    """
+    made, number = node.left, text.code(node.right)
+    if not _is_literal(node.right) or "\n" in text.code(node):
+        return None
+    if isinstance(made, ast.BinOp) and isinstance(made.op, ast.Mod):
+        if isinstance(made.right, ast.Tuple | ast.Dict) or text.plain_string(made.left) is None:
+            return None
+        return (
+            text.code_between(made.right, node.right),
+            f"({text.code(made.right)} + {number})",
+            "late",
+        )
+    if isinstance(made, ast.BinOp) and isinstance(made.op, ast.Add):
+        made = made.right
+        if isinstance(made, ast.Name | ast.Attribute):
+            whole = text.code_between(made, node.right)
+            return whole, f"str({whole})", ""
+    if not isinstance(made, ast.Call) or len(made.args) != 1 or made.keywords:
+        return None
+    if called_name(made) not in ("str", "format"):
+        return None
+    start, (_, end) = text.span(made)[0], text.span(made.args[0])
+    written = f"{text.text[start:end]} + {number})"
+    return text.code_between(made, node.right), written, "late"
+
+
+def _is_literal(part: ast.expr) -> bool:
+    return isinstance(part, ast.Constant) and type(part.value) in (int, float)
+
+
+def _may_be_number(part: ast.expr) -> bool:
+    """Whether an operand of + is not a text for certain, nor itself a sum."""
+    text = isinstance(part, ast.JoinedStr | ast.BinOp)
+    text = text or (isinstance(part, ast.Constant) and isinstance(part.value, str))
+    return not text and not (isinstance(part, ast.Call) and dotted(part.func) == "str")
+
+
+def _place_of_text(suspect: Suspect) -> Where:
+    where = suspect.place
+    return where if where is not None and where.line else place_of(suspect.source, None)
+
+
+def _f_prefix(suspect: Suspect) -> RecognisedMistake | None:
+    string = _string_of(suspect)
+    if string is not None and _holds_values(suspect.text):
+        code = suspect.source.module_of(string).text.code(string)
+        if code[:1] in ("'", '"'):
+            found = suspect.finding("f_prefix", string, name=code, written=f"f{code}")
+            return replace(found, variant="written" if len(code) <= MOST_CODE else "")
+    if not re.search(r"\{[A-Za-z_][\w.]{0,80}\}", suspect.text):
+        return None
+    return suspect.finding("f_prefix", string or _place_of_text(suspect))
+
+
+def _holds_values(text: str) -> bool:
+    """Whether what a text has in braces is Python code that reads a name."""
+    try:
+        parsed = ast.parse(f"f{text!r}", mode="eval").body
+    except (SyntaxError, ValueError):
+        return False
+    values = [n.value for n in ast.walk(parsed) if isinstance(n, ast.FormattedValue)]
+    return bool(values) and all(
+        any(isinstance(n, ast.Name) for n in ast.walk(value)) for value in values
+    )
+
+
+def _f_in_quotes(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a whole f-string in the quotes of another string."""
+    string = _string_of(suspect)
+    if string is None or not re.fullmatch(r"[fF](['\"])[^'\"]*\{.*\1", suspect.text):
+        return None
+    try:
+        inner = ast.parse(suspect.text, mode="eval").body
+    except (SyntaxError, ValueError):
+        return None
+    if not isinstance(inner, ast.JoinedStr):
+        return None
+    code = suspect.source.module_of(string).text.code(string)
+    return suspect.finding("f_in_quotes", string, name=code, written=suspect.text)
+
+
+def _string_of(suspect: Suspect) -> ast.Constant | None:
+    """Return the string that is the logged text: the only one of the callback, or of the files."""
+    callback = suspect.source.callback
+    of_callback = list(ast.walk(callback)) if callback is not None else []
+    for nodes in (of_callback, suspect.source.own_nodes):
+        found = [n for n in nodes if isinstance(n, ast.Constant) and n.value == suspect.text]
+        if found:
+            return found[0] if len(found) == 1 else None
+    return None
+
+
+def _value_forgotten(suspect: Suspect) -> RecognisedMistake | None:
+    match = re.search(r"%[dis]|\{0?\}", suspect.text)
+    if match is None:
+        return None
+    by = "% {counter}" if match[0].startswith("%") else ".format({counter})"
+    counter = placeholder_values(suspect.assignment, suspect.source)["counter"]
+    written = by.format(counter=counter)
+    other = _other_format(suspect, match[0])
+    place = other if other is not None else _place_of_text(suspect)
+    found = suspect.finding("value_forgotten", place, name=match[0], written=written)
+    return replace(found, variant="other_format" if other is not None else "")
+
+
+def _other_format(suspect: Suspect, sign: str) -> ast.Call | None:
+    """Return the call of .format() on a text with %, which .format() leaves as it is."""
+    if not sign.startswith("%"):
+        return None
+    for node in suspect.source.own_nodes:
+        called = node.func if isinstance(node, ast.Call) else None
+        text = called.value if isinstance(called, ast.Attribute) else None
+        given = text.value if isinstance(text, ast.Constant) else None
+        if isinstance(node, ast.Call) and called_name(node) == "format" and given == suspect.text:
+            return node
+    return None
+
+
+def _no_value(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The call of format on the line has fewer values than its text has places."""
+    del match
+    statement = statement_at(raised.module, raised.line)
+    for call in ast.walk(statement) if statement is not None else ():
+        if isinstance(call, ast.Call) and called_name(call) == "format" and not call.args:
+            written = f".format({raised.words['counter']})"
+            return raised.finding("value_forgotten", at=call, name="{}", written=written)
+    return None
+
+
+def _without_number(suspect: Suspect) -> RecognisedMistake | None:
+    without = suspect.output.text.replace("{n}", "").split()
+    if suspect.text.split() != without and not _constant_text(suspect):
+        return None
+    return suspect.finding("text_without_number", _place_of_text(suspect))
+
+
+def _constant_text(suspect: Suspect) -> bool:
+    """Whether the callback logs the first line of the output as it is."""
+    call = suspect.source.log_call
+    given = call.args[0] if call is not None else None
+    return isinstance(given, ast.Constant) and given.value == suspect.output.line(
+        suspect.output.start
+    )
+
+
+def _always_first(suspect: Suspect) -> RecognisedMistake | None:
+    call = suspect.source.log_call
+    return suspect.finding("text_without_number", call) if _constant_text(suspect) else None
+
+
+def _tuple(suspect: Suspect) -> RecognisedMistake | None:
+    """The line is a tuple of the text and the number."""
+    if not re.fullmatch(r"\((['\"]).*\1, ?-?\d+\)", suspect.text):
+        return None
+    callback = suspect.source.callback
+    for node in ast.walk(callback) if callback is not None else ():
+        value = getattr(node, "value", None)
+        if isinstance(node, ast.Assign) and isinstance(value, ast.Tuple):
+            return suspect.finding("text_is_tuple", node)
+    return suspect.finding("text_is_tuple", _place_of_text(suspect))
+
+
+def _number_format(suspect: Suspect) -> RecognisedMistake | None:
+    head, tail = map(re.escape, suspect.output.text.split("{n}"))
+    number = r"[+-]?\d+\.\d+|\+\d+|0\d+|\d(?:\.\d+)?e[+-]?\d+|0[xbo][0-9a-f]+"
+    if re.fullmatch(rf"{head}(?: +\d+|\d+ +){tail}", suspect.text):
+        return _other_form(suspect)
+    if not re.fullmatch(rf"{head} *(?:{number}) *{tail}", suspect.text):
+        return None
+    found = _other_form(suspect)
+    counter = counter_in(suspect) if found is None else None
+    for node in counter.added if counter is not None else ():
+        if counter is not None and not _is_integer(suspect, node.value):
+            new = f"{counter.name} += {suspect.output.step}"
+            code = suspect.source.module_of(node).text.code(node)
+            step = suspect.finding("number_format", node, name=code, written=new)
+            return replace(step, variant="step")
+    return found or suspect.finding("number_format", _place_of_text(suspect))
+
+
+def _padded(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a form that fills short numbers, where only the long ones have the right text."""
+    output, counter = suspect.output, counter_in(suspect)
+    start = starts_of(suspect.source).get(counter.name) if counter is not None else None
+    found = number_forms(suspect.source, output.start, output.step)
+    if start is None or start.value != output.start or len(found) != 1:
+        return None
+    return _other_form(suspect) if found[0].part == "form" else None
+
+
+def _other_form(suspect: Suspect) -> RecognisedMistake | None:
+    """Name the piece of code that gives the number its form, and the next one if there is one."""
+    output = suspect.output
+    found = number_forms(suspect.source, output.start, output.step)
+    if not found:
+        return None
+    piece, place = found[0], Where(file=found[0].module.path, line=found[0].line)
+    mistake = suspect.finding("number_format", place, name=piece.name, written=piece.written)
+    words: dict[str, Value] = {**mistake.words, "form": piece.form}
+    if len(found) == 1:
+        return replace(mistake, words=words, variant=piece.part)
+    others = [
+        say("{new} instead of {old} (line {line})", new=o.written, old=o.name, line=o.line)
+        for o in found[1:]
+    ]
+    floats = piece.part == "form" and any(other.part != "form" for other in found)
+    words = {**words, "others": joined(*others, by=", ")}
+    return replace(mistake, words=words, variant="floats" if floats else f"{piece.part}_and_more")
+
+
+def _is_integer(suspect: Suspect, value: ast.expr) -> bool:
+    """Whether what is added is an integer, or a name that is not set to a float."""
+    if isinstance(value, ast.Constant):
+        return not isinstance(value.value, float)
+    return not _is_float_name(suspect, dotted(value))
+
+
+def _is_float_name(suspect: Suspect, name: str) -> bool:
+    values = (
+        getattr(node, "value", None)
+        for node in suspect.source.own_nodes
+        if isinstance(node, ast.Assign | ast.AnnAssign) and name in targets_of(node)
+    )
+    return any(isinstance(v, ast.Constant) and isinstance(v.value, float) for v in values)
+
+
+def _in_text(suspect: Suspect) -> RecognisedMistake | None:
+    """The line shows the counter's name: the name is part of the string."""
+    counter = str(placeholder_values(suspect.assignment, suspect.source)["counter"])
+    if "." not in counter or counter not in suspect.text:
+        return None
+    place = _place_of_text(suspect)
+    row = suspect.source.module_at(place.file).line(place.line)
+    if f"{{{counter}}}" in suspect.text and f"{{{{{counter}}}}}" not in row:
+        return None
+    found = suspect.finding("counter_in_text", place, name=counter)
+    doubled = f"{{{{{counter}}}}}" in row
+    return replace(
+        found, variant="doubled" if doubled else "round" if "f'" in row or 'f"' in row else ""
+    )
+
+
+_node = Family("node", links.FIRST_NODE)
+KINDS = (
+    _node(
+        "str_plus_int",
+        "text",
+        msg("A string and a number are added"),
+        msg("Python's + joins a string only with another string."),
+        msg("Write {written} instead of {name}: str() makes a string of a number."),
+        links.PYTHON_STRINGS,
+        whys={"late": msg("Python makes the string first, and then adds a number to it.")},
+        fixes={
+            "late": msg("Write {written} instead of {name}, so that the numbers are added first.")
+        },
+        seen=r'TypeError: can only concatenate str \(not "(?P<type>\w{1,40})"\) to str'
+        r"|TypeError: unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'",
+        raised={
+            r"can only concatenate str|unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'": _concatenated
+        },
+        fixed_by=(node_log.number_as_text, lines.written),
+        examples=(
+            example(
+                "int_for_str",
+                Replace(NODE, "str(self.counter_)", "int(self.counter_)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "added_after_percent",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = -1"),
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "'Hello time: %d' % self.counter_ + 1",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "str_around_the_sum",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "str('Hello time: ' + self.counter_)",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "str_missing",
+                Replace(NODE, "str(self.counter_)", "self.counter_"),
+                fails="run.output",
+                blocks=DEAD,
+                note='can only concatenate str (not "int") to str',
+            ),
+        ),
+    ),
+    _node(
+        "counter_in_text",
+        "text",
+        msg("The text contains the name of the counter"),
+        msg("What is between the quotes is shown as it is: {name} is only text there."),
+        msg("Write the text as {f_string}"),
+        links.PYTHON_STRINGS,
+        whys={
+            "doubled": msg("In an f-string, {{{{ is one shown brace: two braces hold no value."),
+            "round": msg(
+                "In an f-string, a value is in braces. Round brackets and what is in them are "
+                "shown as they are."
+            ),
+        },
+        behind={"run.wrong_text": _in_text},
+        fixed_by=(node_log.in_braces, node_log.text),
+        examples=(
+            example(
+                "braces_doubled",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "f'Hello time: {{self.counter_}}'",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "round_brackets",
+                Replace(
+                    NODE, "'Hello time: ' + str(self.counter_)", "f'Hello time: (self.counter_)'"
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "f_in_quotes",
+        "text",
+        msg("A whole f-string is inside other quotes"),
+        msg(
+            "All that is between the outer quotes is text, the f and the inner quotes too. Python "
+            "replaces {{…}} with a value only if the f is before the outer quotes."
+        ),
+        msg("Delete the outer quotes: write {written} instead of {name}."),
+        links.PYTHON_STRINGS,
+        behind={"run.wrong_text": _f_in_quotes},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "f_in_quotes",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "'f\"Hello time: {self.counter_}\"'",
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "f_prefix",
+        "text",
+        msg("The f before the string is missing"),
+        msg("Python replaces {{…}} with a value only in a string that begins with f."),
+        msg("Write an f before the first quote: {f_string}"),
+        links.PYTHON_STRINGS,
+        fixes={"written": msg("Write an f before the first quote: {written}")},
+        seen=r"^\[[A-Z]{4,5}\] \[\d{1,12}\.\d{9}\] \[[^\]\n]{1,100}\]: [^\n{]{0,200}\{self\.\w{1,60}\}",
+        behind={"run.wrong_text": _f_prefix},
+        fixed_by=(node_log.f_prefix, lines.written),
+        examples=(
+            example(
+                "f_prefix_missing",
+                Replace(
+                    NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: {self.counter_}'"
+                ),
+                fails="run.output",
+            ),
+            example(
+                "f_prefix_missing_in_variable",
+                Replace(
+                    NODE,
+                    "        self.get_logger().info('Hello time: ' + str(self.counter_))\n",
+                    "        text = 'Hello time: {self.counter_}'\n"
+                    "        self.get_logger().info(text)\n",
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "value_forgotten",
+        "text",
+        msg("The text shows the place of a value instead of the value"),
+        msg("Python replaces {name} in a string only if a value follows the string."),
+        msg("Write {written} after the string, or use an f-string: {f_string}"),
+        links.PYTHON_STRINGS,
+        whys={
+            "other_format": msg(
+                ".format() puts its values in the place of {{}}, and leaves {name}."
+            )
+        },
+        fixes={
+            "other_format": msg(
+                "Write {{}} instead of {name} in the string, or an f-string: {f_string}"
+            )
+        },
+        raised={r"Replacement index \d{1,9} out of range": _no_value},
+        behind={"run.wrong_text": _value_forgotten},
+        fixed_by=(node_words.value,),
+        examples=(
+            example(
+                "percent_without_value",
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: %d'"),
+                fails="run.output",
+            ),
+            example(
+                "format_with_percent",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "'Hello time: %d'.format(self.counter_)",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "format_without_value",
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: {}'.format()"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "format_forgotten",
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: {}'"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "text_is_tuple",
+        "text",
+        msg("The text and the number are joined with a comma"),
+        msg("A comma makes a tuple of two values. Only print() shows them side by side."),
+        msg("Join the text and the number: {sum}"),
+        links.PYTHON_STRINGS,
+        behind={"run.wrong_text": _tuple},
+        examples=(
+            example(
+                "message_is_tuple",
+                Replace(
+                    NODE,
+                    "self.get_logger().info('Hello time: ' + str(self.counter_))",
+                    "message = 'Hello time: ', self.counter_\n"
+                    "        self.get_logger().info(str(message))",
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "text_without_number",
+        "text",
+        msg("The counter is not in the text"),
+        msg("The number in the line is the counter's value at that moment."),
+        msg("Add the counter to the text: {sum}"),
+        links.PYTHON_STRINGS,
+        behind={"run.wrong_text": _without_number, "run.constant_counter": _always_first},
+        fixed_by=(node_log.number,),
+        examples=(
+            example(
+                "first_line_as_constant",
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: 0'"),
+                fails="run.output",
+            ),
+            example(
+                "text_without_number",
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: '"),
+                fails="run.output",
+                note="21 of 147 log a constant",
+            ),
+        ),
+    ),
+    _node(
+        "number_format",
+        "text",
+        msg("The number is written in a different form"),
+        msg(
+            "The counter is an integer, and str() writes it without a decimal point and leading "
+            "zeros."
+        ),
+        msg("Begin with {counter} = {start} (not {start}.0), and log str({counter})."),
+        whys={
+            "step": FLOAT_STEP,
+            "step_and_more": FLOAT_STEP,
+            "start": FLOAT_START,
+            "start_and_more": FLOAT_START,
+            "form": OTHER_FORM,
+            "form_and_more": OTHER_FORM,
+            "floats": msg(
+                "{form} sets the form in which the number is written, and the number itself has a "
+                "decimal point."
+            ),
+        },
+        fixes={
+            "step": msg("Write {written} instead of {name}: the counter counts the lines."),
+            "start": ONE_PIECE,
+            "form": ONE_PIECE,
+            "step_and_more": MORE_PIECES,
+            "start_and_more": MORE_PIECES,
+            "form_and_more": MORE_PIECES,
+            "floats": MORE_PIECES,
+        },
+        behind={"run.wrong_text": _number_format, "run.wrong_start": _padded},
+        fixed_by=(node_log.plain_form, lines.written, node_log.plain_number),
+        examples=(
+            example(
+                "number_as_float",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0.0"),
+                fails="run.output",
+            ),
+            example(
+                "adds_the_period",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.period = 1.0"),
+                Replace(NODE, "create_timer(1.0", "create_timer(self.period"),
+                Replace(NODE, "self.counter_ += 1", "self.counter_ += self.period"),
+                fails="run.output",
+                blocks=("run.period",),
+            ),
+            example(
+                "number_padded",
+                Replace(
+                    NODE, "'Hello time: ' + str(self.counter_)", "f'Hello time: {self.counter_:02}'"
+                ),
+                fails="run.output",
+                note="Hello time: 00",
+            ),
+            example(
+                "number_filled_with_zeros",
+                Replace(NODE, "str(self.counter_)", "str(self.counter_).zfill(3)"),
+                fails="run.output",
+            ),
+            example(
+                "number_with_a_point_in_percent",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "'Hello time: %.1f' % self.counter_",
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+)

@@ -1,0 +1,210 @@
+"""The catalogue: setup.cfg."""
+
+from __future__ import annotations
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import CFG, UNBUILT, UNINSTALLED, example
+from grader.mistakes.fixes import layout, setup_cfg
+from grader.mistakes.kind import Kind
+from grader.package.edit.tree import Delete, Move, Replace, Write
+
+WITHOUT_CFG = msg(
+    "setup.cfg sets where executables are installed. ros2 run looks only in lib/<package>. Without "
+    "these settings they are installed in bin, and ros2 run answers: No executable found."
+)
+TWO_SECTIONS = msg(
+    "setup.cfg sets where executables are installed. ros2 run looks only in lib/<package>. Without "
+    "these settings they are installed in bin, and ros2 run answers: No executable found. "
+    "[develop] is for colcon build --symlink-install, [install] for a build without it."
+)
+OTHER_PLACE = msg(
+    "setup.cfg sets where executables are installed. ros2 run looks only in lib/<package>. With "
+    "another path they are installed in another folder, and ros2 run answers: No executable found. "
+    "[develop] is for colcon build --symlink-install, [install] for a build without it."
+)
+NEW_CFG = msg(
+    "Create setup.cfg beside setup.py. Below [develop] write script_dir=$base/lib/{package}, and "
+    "below [install] write install_scripts=$base/lib/{package}. Then build again."
+)
+
+
+KINDS = (
+    Kind(
+        id="package.setup_cfg_missing",
+        stage="setup.cfg",
+        title=msg("There is no setup.cfg"),
+        why=WITHOUT_CFG,
+        fix=NEW_CFG,
+        fixes={
+            "inner": msg(
+                "Move it out of the inner folder. In the package's folder, run: mv {there} ."
+            ),
+            "renamed": msg(
+                "Rename the file. In the package's folder, run: mv {close} setup.cfg. Then build "
+                "again. (Windows hides the last part of a name, such as .txt, unless you switch on "
+                "'File name extensions'.)"
+            ),
+        },
+        link=links.DEVELOPING,
+        fixed_by=(layout.out_of_inner_folder, setup_cfg.missing),
+        examples=(
+            example(
+                "setup_cfg_missing",
+                Delete(CFG),
+                fails="package.setup_cfg",
+                blocks=UNINSTALLED,
+                note="the script lands in bin",
+            ),
+            example(
+                "setup_cfg_txt",
+                Move(CFG, "setup.cfg.txt"),
+                fails="package.setup_cfg",
+                blocks=UNINSTALLED,
+            ),
+        ),
+    ),
+    Kind(
+        id="package.setup_cfg_syntax",
+        stage="setup.cfg",
+        title=msg("setup.cfg cannot be parsed"),
+        why=msg(
+            "setuptools reads this file in every build and stops at a line that it cannot read."
+        ),
+        fix=msg("Fix that line: a line is either [section] or key=value."),
+        fixes={
+            "section": msg("Write [{other}] on that line: setup.cfg needs both sections."),
+            "headings": msg(
+                "Write [develop] on a line of its own above script_dir, and [install] above "
+                "install_scripts. Then build again."
+            ),
+            "twice": msg("Delete the second one: each name appears only once."),
+            "encoding": msg(
+                "Save the file again with the encoding UTF-8, without a BOM. Windows PowerShell "
+                "writes UTF-16 with >."
+            ),
+        },
+        link=links.SETUP_CFG,
+        seen=r"configparser\.\w{1,60}Error|File contains no section headers",
+        fixed_by=(setup_cfg.syntax,),
+        examples=(
+            example(
+                "setup_cfg_section_twice",
+                Replace(CFG, "[install]", "[develop]"),
+                fails="package.setup_cfg",
+                blocks=UNBUILT,
+            ),
+            example(
+                "setup_cfg_without_headings",
+                Replace(CFG, "[develop]\n", ""),
+                Replace(CFG, "[install]\n", ""),
+                fails="package.setup_cfg",
+                blocks=UNBUILT,
+            ),
+            example(
+                "setup_cfg_not_ini",
+                Replace(CFG, "[develop]", "[develop"),
+                fails="package.setup_cfg",
+                blocks=UNBUILT,
+            ),
+        ),
+    ),
+    Kind(
+        id="package.setup_cfg_wrong",
+        stage="setup.cfg",
+        title=msg("setup.cfg installs executables where ros2 run does not look"),
+        why=OTHER_PLACE,
+        whys={
+            **dict.fromkeys(("key", "misspelt", "heading", "section"), TWO_SECTIONS),
+            "quotes": msg(
+                "setup.cfg sets where executables are installed, and ros2 run looks only in "
+                "lib/<package>. setup.cfg is not Python: its quotes are part of the path, so the "
+                "executable gets into another folder."
+            ),
+        },
+        fix=msg("Write {key}={wanted}, then build again."),
+        fixes={
+            "quotes": msg(
+                "Delete the quotes around the path (lines: {line}), so that it is {wanted}. Then "
+                "build again."
+            ),
+            "both": msg(
+                "Write both lines with the package's name: below [develop] script_dir={wanted}, "
+                "and below [install] install_scripts={wanted}. Then build again."
+            ),
+            "key": msg("Write below [{section}]: {key}={wanted}, then build again."),
+            "misspelt": msg("Write {key} instead of {close} in this line, then build again."),
+            "heading": msg("Write [{section}] instead of [{close}], then build again."),
+            "section": msg(
+                "Add two lines: [{section}] and below it {key}={wanted}. Then build again."
+            ),
+        },
+        link=links.DEVELOPING,
+        fixed_by=(setup_cfg.setting,),
+        examples=(
+            example(
+                "setup_cfg_empty", Write(CFG, ""), fails="package.setup_cfg", blocks=UNINSTALLED
+            ),
+            example(
+                "setup_cfg_quotes",
+                Write(
+                    CFG,
+                    (
+                        "[develop]\n"
+                        'script_dir="$base/lib/my_robot_controller"\n'
+                        "[install]\n"
+                        'install_scripts="$base/lib/my_robot_controller"\n'
+                    ),
+                ),
+                fails="package.setup_cfg",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "setup_cfg_key_misspelt",
+                Replace(CFG, "install_scripts", "install_script"),
+                fails="package.setup_cfg",
+                also={"build.colcon": "build.failed"},
+                note="setuptools refuses the key, so the build fails too",
+            ),
+            example(
+                "setup_cfg_other_package",
+                Write(
+                    CFG,
+                    (
+                        "[develop]\n"
+                        "script_dir=$base/lib/my_robot\n"
+                        "[install]\n"
+                        "install_scripts=$base/lib/my_robot\n"
+                    ),
+                ),
+                fails="package.setup_cfg",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "setup_cfg_without_develop",
+                Write(CFG, "[install]\ninstall_scripts=$base/lib/my_robot_controller\n"),
+                fails="package.setup_cfg",
+                note="colcon 0.21 does not need it",
+            ),
+            example(
+                "setup_cfg_without_install",
+                Write(CFG, "[develop]\nscript_dir=$base/lib/my_robot_controller\n"),
+                fails="package.setup_cfg",
+                note="works with --symlink-install; without, the script lands in bin",
+            ),
+            example(
+                "setup_cfg_heading",
+                Replace(CFG, "[install]", "[instal]"),
+                fails="package.setup_cfg",
+            ),
+            example(
+                "setup_cfg_bin",
+                Write(
+                    CFG, ("[develop]\nscript_dir=$base/bin\n[install]\ninstall_scripts=$base/bin\n")
+                ),
+                fails="package.setup_cfg",
+                blocks=UNINSTALLED,
+            ),
+        ),
+    ),
+)

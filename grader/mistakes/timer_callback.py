@@ -1,0 +1,280 @@
+"""Mistakes in the callback that create_timer is given."""
+
+from __future__ import annotations
+
+import ast
+import re
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.base.nearest import nearest
+from grader.mistakes import links
+from grader.mistakes.example import NODE, SILENT, example
+from grader.mistakes.fixes import lines, node_scope, node_timer
+from grader.mistakes.kind import Family
+from grader.mistakes.order import attribute_needed_early
+from grader.mistakes.recognised import (
+    NAME_ERROR,
+    OWN_ATTRIBUTE,
+    Raised,
+    RecognisedMistake,
+    Suspect,
+    of_self,
+)
+from grader.mistakes.timer_period import TIMER
+from grader.package.edit.tree import Replace
+from grader.package.source.place import function_at
+
+WORDS = ("timer", "callback", "on", "log", "hello", "say", "count", "counter", "tick", "time")
+"""Words that names of callbacks have; of two names, one with fewer of them is misspelt."""
+CALLED = msg(
+    "create_timer takes the period in seconds and the callback itself, and calls it later. With () "
+    "after its name the callback runs now, and its result (None) is passed instead."
+)
+
+
+def _called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    called = [timer for timer in raised.source.timers if timer.called]
+    return raised.finding("callback_called", at=called[0].call) if called else None
+
+
+def _called_with(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The callback is called with arguments where the timer is created."""
+    for timer in raised.source.timers:
+        if timer.called and timer.method == match["name"] and raised.line == timer.call.lineno:
+            return raised.finding("callback_called", at=timer.call)
+    return None
+
+
+def _called_early(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The callback runs in __init__, before the line that sets what it needs."""
+    early = attribute_needed_early(raised, match)
+    inside = list(ast.walk(early.needs)) if early is not None else []
+    for timer in raised.source.timers:
+        if timer.called and timer.call in inside:
+            return raised.finding("callback_called", at=timer.call)
+    return None
+
+
+def _in_quotes(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a text of the class that contains the line of the timer."""
+    if suspect.source.timers:
+        return None
+    for node in suspect.source.own_nodes:
+        value = node.value if isinstance(node, ast.Expr) else None
+        if isinstance(value, ast.Constant) and "self.create_timer(" in str(value.value):
+            return suspect.finding("timer_in_quotes", value)
+    return None
+
+
+def _calls_back_at_once(suspect: Suspect) -> RecognisedMistake | None:
+    for timer in suspect.source.timers:
+        if timer.called:
+            return suspect.finding("callback_called", timer.call)
+    return None
+
+
+def _is_callback(raised: Raised, match: re.Match[str]) -> bool:
+    """Whether the missing attribute is what a timer calls."""
+    name = match["name"]
+    return of_self(raised, match) and any(t.method == name for t in raised.source.timers)
+
+
+def _inside_init(raised: Raised, name: str) -> ast.FunctionDef | None:
+    init = raised.source.methods.get("__init__")
+    for node in ast.walk(init) if init else ():
+        if isinstance(node, ast.FunctionDef) and node.name == name:
+            return node
+    return None
+
+
+def _callback_in_init(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    name = match["name"]
+    at = _inside_init(raised, name) if _is_callback(raised, match) else None
+    return raised.finding("callback_in_init", at=at, name=name) if at is not None else None
+
+
+def _callback_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    if not _is_callback(raised, match):
+        return None
+    name, methods = match["name"], raised.source.methods
+    close = nearest(name, [m for m in methods if m != "__init__"])
+    if close and _known_words(name) > _known_words(close):
+        found = raised.finding("callback_misspelt", at=methods[close], name=close, close=name)
+        return replace(found, variant="definition")
+    found = raised.finding("callback_misspelt", name=name, close=close)
+    return replace(found, variant="", words={**found.words, "callback": close or name})
+
+
+def _known_words(name: str) -> int:
+    return sum(part in WORDS for part in name.lower().split("_"))
+
+
+def _no_self_dot(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    name = match["name"]
+    if all(timer.method != name for timer in raised.source.timers):
+        return None
+    if name not in raised.source.methods:
+        return None
+    function = function_at(raised.module, raised.line)
+    inside = any(function in found.body for found in raised.module.classes)
+    variables = raised.source.node_variables
+    if function is not None and not inside and len(variables) == 1:
+        written = f"{min(variables)}.{name}"
+        found = raised.finding("callback_without_self_dot", name=name, written=written)
+        return replace(found, variant="outside")
+    return raised.finding("callback_without_self_dot", name=name)
+
+
+_node = Family("node", links.FIRST_NODE)
+KINDS = (
+    _node(
+        "callback_called",
+        "timer",
+        msg("create_timer gets a call instead of the callback"),
+        CALLED,
+        msg("Remove the () after the callback's name: create_timer({period}, self.{callback})"),
+        seen=r"TypeError: 'NoneType' object is not callable"
+        r"|UnboundLocalError: .{0,60}'arg_name'",
+        raised={
+            "'NoneType' object is not callable|'arg_name'|is not a callable object": _called,
+            r"TypeError: \w{1,120}\.(?P<name>\w{1,120})\(\) takes": _called_with,
+            OWN_ATTRIBUTE: _called_early,
+        },
+        behind={"run.by_hand": _calls_back_at_once},
+        fixed_by=(node_timer.callback,),
+        examples=(
+            example(
+                "brackets_behind_callback",
+                Replace(NODE, "self.timer_callback)", "self.timer_callback())"),
+                fails="run.output",
+                also={"run.period": "node.callback_called"},
+                blocks=("run.interrupt",),
+                note="one line at once, then 'NoneType' object is not callable",
+            ),
+            example(
+                "callback_called_with_self",
+                Replace(NODE, "self.timer_callback)", "self.timer_callback(self))"),
+                fails="run.starts",
+            ),
+            example(
+                "callback_called_before_counter",
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(
+                    NODE,
+                    "self.timer_callback)\n",
+                    "self.timer_callback())\n        self.counter_ = 0\n",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "callback_in_init",
+        "timer",
+        msg("The callback is indented into __init__"),
+        msg("A function inside __init__ is not a method of the class, so self does not have it."),
+        msg(
+            "Indent def {callback}(self): as far as def __init__, and move its lines to the left "
+            "by as much."
+        ),
+        links.PYTHON_CLASSES,
+        raised={OWN_ATTRIBUTE: _callback_in_init},
+        fixed_by=(node_scope.out_of_init,),
+        examples=(
+            example(
+                "callback_inside_init",
+                Replace(NODE, "    def timer_callback(self)", "        def timer_callback(self)"),
+                Replace(
+                    NODE,
+                    (
+                        '        """Say hello once; the timer calls this for as long as the node spins."""\n'
+                        "        self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                        "        self.counter_ += 1\n"
+                    ),
+                    (
+                        "            self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                        "            self.counter_ += 1\n"
+                    ),
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "callback_misspelt",
+        "timer",
+        msg("The callback's name is misspelt"),
+        msg("create_timer needs the method's exact name."),
+        TIMER,
+        fixes={"definition": msg("Write def {close}(self): instead of def {name}(self):")},
+        raised={OWN_ATTRIBUTE: _callback_misspelt},
+        fixed_by=(node_scope.definition, node_timer.callback),
+        examples=(
+            example(
+                "callback_misspelt",
+                Replace(
+                    NODE,
+                    "self.create_timer(1.0, self.timer_callback)",
+                    "self.create_timer(1.0, self.timer_calback)",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "definition_misspelt",
+                Replace(NODE, "def timer_callback(self)", "def timer_callbak(self)"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "callback_without_self_dot",
+        "timer",
+        msg("self. is missing before the callback"),
+        msg("A method is reached through its object: self.name."),
+        TIMER,
+        links.PYTHON_CLASSES,
+        fixes={"outside": msg("Write {written} instead of {name}: there is no self here.")},
+        raised={NAME_ERROR: _no_self_dot},
+        fixed_by=(lines.written, node_timer.callback),
+        examples=(
+            example(
+                "timer_in_main_without_node",
+                Replace(NODE, "        self.create_timer(1.0, self.timer_callback)\n", ""),
+                Replace(
+                    NODE,
+                    "    node = MyFirstNode()\n",
+                    "    node = MyFirstNode()\n    node.create_timer(1.0, timer_callback)\n",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "callback_without_self_dot",
+                Replace(NODE, "self.timer_callback", "timer_callback"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "timer_in_quotes",
+        "timer",
+        msg("The line that creates the timer is in quotes"),
+        msg("Lines between three quotes are a text for the reader. Python does not run them."),
+        msg("Remove the three quotes before and after the line with create_timer."),
+        behind={"run.no_lines": _in_quotes},
+        fixed_by=(node_timer.without_quotes,),
+        examples=(
+            example(
+                "timer_in_three_quotes",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)",
+                    '        """\n        self.create_timer(1.0, self.timer_callback)\n        """',
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+)
