@@ -592,6 +592,13 @@ KINDS = (
                 blocks=("run.period",),
             ),
             example(
+                "step_of_a_float_every_half_second",
+                Replace(NODE, "self.counter_ += 1", "self.counter_ += 1.0"),
+                Replace(NODE, "create_timer(1.0", "create_timer(0.5"),
+                fails="run.output",
+                blocks=("run.period",),
+            ),
+            example(
                 "number_padded",
                 Replace(
                     NODE, "'Hello time: ' + str(self.counter_)", "f'Hello time: {self.counter_:02}'"
