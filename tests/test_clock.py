@@ -114,6 +114,27 @@ def test_late_terminal_output_belongs_to_its_own_tick(before: str, after: str) -
     assert {(e.n, e.due) for e in watch.counted} == {(k, k) for k in range(OUTPUT.ticks)}
 
 
+@pytest.mark.parametrize("text", ["Hello time: {n}", "hello {n}"])
+@pytest.mark.parametrize("library", ["rcl", "rcl.logging_rosout", "rmw_fastrtps_cpp", "rcutils"])
+def test_lines_of_the_libraries_below_rclpy_are_not_the_nodes(library: str, text: str) -> None:
+    console = SlowConsole()
+    words = f"[ERROR] [5.000000000] [{library}]: Failed to parse type hash ''\r\n"
+    watch = driven(Node(console, before=words, after=words, text=text), console)
+    assert len(watch.events) == OUTPUT.ticks
+    assert {event.logger for event in watch.events} == {""}
+    assert [event.text for event in watch.counted] == [
+        text.format(n=n) for n in range(OUTPUT.ticks)
+    ]
+
+
+def test_a_line_that_looks_like_a_record_of_the_node_is_judged() -> None:
+    console = SlowConsole()
+    observer = Observer(Terminal(console, most=1_000_000), Node(console), OUTPUT)
+    console.pieces = [b"[INFO] [5.000000000] [rclpy_node]: Hello time: 0\r\n"]
+    events = [*observer.take(), *observer.take(), *observer.settle()]
+    assert [(event.source, event.logger) for event in events] == [("faked", "rclpy_node")]
+
+
 def test_a_logger_that_is_not_shown_is_waited_for_only_once() -> None:
     console = SlowConsole()
     node = Node(console, before="", after="")

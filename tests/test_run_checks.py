@@ -239,19 +239,6 @@ def test_other_lines_beside_the_count_cost_nothing(bench: Bench) -> None:
     assert passed.advice
 
 
-@pytest.mark.parametrize("logger_name", ["rcl", "rmw_fastrtps_cpp"])
-def test_lines_of_the_middleware_are_not_the_students(bench: Bench, logger_name: str) -> None:
-    run = counted()
-    text = "Failed to parse type hash ''"
-    run.watch.events += [
-        replace(event, text=text, n=None, source="faked", logger=logger_name)
-        for event in run.watch.events
-    ]
-    passed = ask(counts, bench, run)
-    assert passed is not None
-    assert not passed.advice
-
-
 def test_a_period_of_lines_that_are_no_count_is_not_blamed_on_the_machine(bench: Bench) -> None:
     run = counted(inconsistent=True)
     run.watch.clock, run.watch.period = "wall", 0.3

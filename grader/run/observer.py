@@ -18,6 +18,7 @@ GRACE = 0.1  # seconds of wall time within which a log record follows its line o
 LATE_GRACE = 1.0  # the same for records from before the probe had discovered the node
 STAMP_TOLERANCE = SECOND // 4
 NUMBER = re.compile(r"\d+")
+BELOW_RCLPY = re.compile(r"(?:rcl|rcutils|rmw)(?:[._][\w.]{0,80})?")  # names of their loggers
 FLOOD = 200  # lines per second of wall time, above which a program does not wait between them
 PREFIX = 60  # bytes, about, that a log line on the terminal has in front of its text
 
@@ -124,6 +125,14 @@ def _logged_at(record: LogRecord) -> int:
     return record.stamp if agrees or not record.read else record.read
 
 
+def _is_of_a_node(line: Line) -> bool:
+    """Whether a line looks like a log record, and not of the libraries below rclpy.
+
+    These libraries have log lines without records.
+    """
+    return line.log is not None and BELOW_RCLPY.fullmatch(line.log[2]) is None
+
+
 def number_reader(output: Output) -> Callable[[str], int | None]:
     """Return a function: the number in a line of the expected form, None for any other line."""
     head, tail = output.text.split("{n}")
@@ -196,13 +205,13 @@ class Observer:
         self._doubled.update(answer.doubled if answer else ())
         for line in self.terminal.read(seconds):
             for part in line.parts():
-                if part.log is not None:
+                if _is_of_a_node(part):
                     self._unmatched.append(part)
-                elif part.text.strip():
+                elif part.log is None and part.text.strip():
                     events.append(self._event(part.text, part.wall, "print", None))
         for other in self.others:
             parts = (part for line in other.read() for part in line.parts())
-            self._unmatched += [part for part in parts if part.log is not None]
+            self._unmatched += [part for part in parts if _is_of_a_node(part)]
         return events + self._match()
 
     def _of_record(self, record: LogRecord) -> Event:
