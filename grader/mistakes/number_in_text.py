@@ -323,7 +323,7 @@ KINDS = (
         seen=r'TypeError: can only concatenate str \(not "(?P<type>\w{1,40})"\) to str'
         r"|TypeError: unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'",
         raised={
-            r"can only concatenate str|unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'": _concatenated
+            r"can only concatenate str(?! \(not \"NoneType)|unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'": _concatenated
         },
         fixed_by=(node_log.number_as_text, lines.written),
         examples=(

@@ -288,13 +288,16 @@ def _not_a_number(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
         set_here = [n for n in ast.walk(init) if isinstance(n, ast.Assign)] if init else []
         starts = [n for n in set_here if name in targets_of(n)]
         if starts:
-            return _start_of(raised, name, starts[-1])
+            return _start_of(raised, name, starts)
     return None
 
 
-def _start_of(raised: Raised, name: str, start: ast.Assign) -> RecognisedMistake | None:
+def _start_of(raised: Raised, name: str, starts: list[ast.Assign]) -> RecognisedMistake | None:
+    *before, start = starts
     value = start.value
     if isinstance(value, ast.Call):
+        if not before:
+            return None  # (nothing is overwritten)
         other = "timer_" if called_name(value) == "create_timer" else f"{last_part(name)}_other"
         found = raised.finding("counter_not_number", at=start, name=name, written=f"self.{other}")
         return replace(found, variant="overwritten")
