@@ -128,7 +128,6 @@ KINDS = (
         msg("A value is None, and something else is needed"),
         NONE,
         msg("Find the line that gives {name} its value, and see why it is None."),
-        seen=r"AttributeError: 'NoneType' object has no attribute '\w{1,120}'",
         whys={
             "function": msg(
                 "{function} (line {line}) has no return with a value, so {name} is None."

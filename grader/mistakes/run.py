@@ -53,7 +53,7 @@ KINDS = (
             ),
             example(
                 "exception_in_init",
-                Replace(NODE, "self.counter_ = 0", "self.counter_ = int('zero')"),
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = [1, 2].index(0)"),
                 fails="run.starts",
             ),
         ),
