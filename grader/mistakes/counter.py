@@ -116,7 +116,9 @@ def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _is_number(suspect: Suspect, name: str) -> bool:
-    """Whether an attribute may be a number: no text is assigned to it."""
+    """Whether an attribute may be a number: it is no method, and no text is assigned to it."""
+    if last_part(name) in suspect.source.methods:
+        return False
     for node in suspect.source.own_nodes:
         if isinstance(node, ast.Assign) and name in targets_of(node):
             value = node.value

@@ -10,7 +10,15 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import SETUP, UNBUILT, UNINSTALLED, UNSTARTED, example
+from grader.mistakes.example import (
+    BODY_OF_MAIN,
+    NODE,
+    SETUP,
+    UNBUILT,
+    UNINSTALLED,
+    UNSTARTED,
+    example,
+)
 from grader.mistakes.fixes import entries, layout, setup_py
 from grader.mistakes.kind import Kind, Parts
 from grader.package.edit.tree import Delete, Replace, Write
@@ -75,7 +83,9 @@ def _stops(slug: str, title: str, **parts: Unpack[Parts]) -> Kind:
     )
 
 
-def _raises(slug: str, title: str, **parts: Unpack[Parts]) -> Kind:
+def _raises(
+    slug: str, title: str, fixes: Mapping[str, str] | None = None, **parts: Unpack[Parts]
+) -> Kind:
     """Return an entry that builds, but ends ros2 run with an exception."""
     parts.setdefault("fixed_by", (entries.replaced,))
     return Kind(
@@ -84,6 +94,7 @@ def _raises(slug: str, title: str, **parts: Unpack[Parts]) -> Kind:
         title=title,
         why=RAISES,
         fix=WRITE,
+        fixes=fixes or {},
         link=links.DEVELOPING,
         **parts,
     )
@@ -595,7 +606,29 @@ KINDS = (
     _raises(
         "other_function",
         msg("the function has a different name"),
+        {
+            "in_class": msg(
+                "In {path}, move the def of {function} (line {line}) out of the class: to the left "
+                "margin, below the class, without self and without @staticmethod. Then write "
+                "'{wanted}' in setup.py, and build again."
+            )
+        },
         examples=(
+            example(
+                "main_of_the_class",
+                Replace(
+                    NODE,
+                    '\n\ndef main(args=None):\n    """Run the node until Ctrl+C."""\n'
+                    + BODY_OF_MAIN,
+                    "\n    @staticmethod\n    def main(args=None):\n"
+                    + "".join(f"    {row}" for row in BODY_OF_MAIN.splitlines(keepends=True)),
+                ),
+                Replace(NODE, "\n    main()\n", "\n    MyFirstNode.main()\n"),
+                Replace(SETUP, "my_first_node:main", "my_first_node:MyFirstNode.main"),
+                fails="entry_point.mapping",
+                blocking=False,
+                note="the entry works; the exercise asks for a function",
+            ),
             example(
                 "function_misspelt",
                 Replace(

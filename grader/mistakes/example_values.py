@@ -112,6 +112,15 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "log.wrong_level": {"level": "warn"},
     "lab.not_installed": {"package": "turtlesim"},
+    "node.value_cached": {"name": "@cached_property", "written": "@property", "method": "text"},
+    "node.spin_elsewhere": {
+        "name": "pool.submit(rclpy.spin, node)",
+        "written": "rclpy.spin(node)",
+    },
+    "node.arguments_refused": {
+        "name": "parser.parse_args()",
+        "written": "parser.parse_known_args()[0]",
+    },
     "node.none_used": {"name": "self.text", "function": "make_text", "line": 20},
     "node.types_do_not_fit": {
         "first": "int",

@@ -142,6 +142,14 @@ KINDS = (
                 blocks=UNSTARTED,
             ),
             example(
+                "node_in_init_and_only_comments_in_its_file",
+                Delete(INIT),
+                Move(NODE, INIT),
+                Write(NODE, "#!/usr/bin/env python3\n# My first node\n", 0o755),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
                 "inner_folder_with_capitals",
                 Move(INNER, "My_Robot_Controller"),
                 fails="source.node_file",

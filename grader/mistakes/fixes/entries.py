@@ -13,6 +13,7 @@ from grader.mistakes.fixes.setup_call import FILE, read_setup_call
 from grader.package.edit.files import Files
 from grader.package.edit.text import SourceText, Splice, read_source, read_text
 from grader.package.source.entry_points import Entry, EntryPoints, from_setup_cfg, from_setup_py
+from grader.package.source.in_class import line_in_class
 from grader.package.source.python import PythonFault, can_parse
 from grader.package.source.setup_cfg import SetupCfgFault, read_setup_cfg
 from grader.package.source.setup_py import read_setup_py
@@ -44,6 +45,9 @@ def replaced(case: Case) -> Files | None:
     """Replace the wrong entry with the required one."""
     entry = _entry(case)
     if entry is None or entry.pieces or not _is_meant(case, entry):
+        return None
+    data, given = case.files.data(case.node_path) or b"", entry.target.partition(":")[2]
+    if line_in_class(data, given.strip(), case.assignment.function):
         return None
     text = _source(case, entry.file)
     if text is None:

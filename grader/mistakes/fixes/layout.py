@@ -5,6 +5,7 @@ from __future__ import annotations
 from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
+from grader.package.source.python import has_no_code
 
 
 def marker(case: Case) -> Files | None:
@@ -59,7 +60,7 @@ def out_of_init(case: Case) -> Files | None:
     """Move the node from __init__.py into its own file, and leave __init__.py empty."""
     init = f"{case.assignment.folder}/__init__.py"
     there = case.files.data(case.node_path)
-    if case.finding.params.get("path") != init or (there and there.strip()):
+    if case.finding.params.get("path") != init or (there and not has_no_code(there)):
         return None
     code = case.files.data(init)
     if case.files.file(init) is None or code is None:
@@ -73,7 +74,7 @@ def node_beside(case: Case) -> Files | None:
     """Copy the node from the file beside it into the empty file, which keeps its mode."""
     old = str(case.finding.params.get("there", ""))
     there = case.files.data(case.node_path)
-    if case.finding.mistake != "source.empty_node_file" or there is None or there.strip():
+    if case.finding.mistake != "source.empty_node_file" or there is None or not has_no_code(there):
         return None
     data = case.files.data(old) if case.files.file(old) else None
     return case.with_data(case.node_path, data) if data else None

@@ -53,6 +53,18 @@ class PythonFile:
     newer: int = 0
 
 
+def has_no_code(found: bytes) -> bool:
+    """Return whether a file is empty or has only comments and a text that describes it."""
+    if not found.strip():
+        return True
+    try:
+        body = parse_python(found).tree.body
+    except PythonFault:
+        return False
+    texts = [n for n in body if isinstance(n, ast.Expr) and isinstance(n.value, ast.Constant)]
+    return len(texts) == len(body)
+
+
 def parse_python(found: bytes) -> PythonFile:
     """Parse a file's bytes; PythonFault if this interpreter's version of Python cannot.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from collections import Counter
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -14,6 +15,7 @@ from grader.base.shown import shown as shown_code
 from grader.base.yaml_model import broken
 from grader.course.assignment import Count
 from grader.package.source.counter import logged_counter, wrapped_at
+from grader.package.source.names import dotted, last_part
 from grader.package.source.remarks import remarks_on
 from grader.package.source.time_limit import time_limit
 from grader.report.model import Where
@@ -317,9 +319,17 @@ def _must_go_on(evidence: Evidence, expected: str) -> None:
 
 
 def _is_named(evidence: Evidence) -> bool:
-    """Whether the source shows which variable the logged counter is."""
+    """Whether the source shows which variable the logged counter is.
+
+    What is read from an item or from a property is counted elsewhere.
+    """
     source = source_of_node(evidence)
-    return source is not None and logged_counter(source) is not None
+    found = logged_counter(source) if source is not None else None
+    if source is None or found is None:
+        return False
+    call, name = found
+    items = [n for n in ast.walk(call) if isinstance(n, ast.Subscript) and dotted(n.value) == name]
+    return not items and last_part(name) not in source.methods
 
 
 def _is_silent(evidence: Evidence) -> bool:

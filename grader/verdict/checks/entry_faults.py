@@ -9,10 +9,11 @@ from grader.base.i18n.message import Message, say
 from grader.base.nearest import meant, nearest, there_is, with_difference
 from grader.base.shown import shown
 from grader.package.source.entry_points import Entry, EntryPoints, Misplaced, is_refused, misplaced
+from grader.package.source.in_class import line_in_class
 from grader.package.source.python import PythonFault, parse_python
 from grader.package.source.values import Text
 from grader.report.model import Where
-from grader.verdict.checks.parsed import file_of, names_in
+from grader.verdict.checks.parsed import file_of, names_in, node_path
 from grader.verdict.outcome import Failed
 
 if TYPE_CHECKING:
@@ -258,13 +259,20 @@ def other_target(evidence: Evidence, entry: Entry) -> Failed:
     """Return which part of the target is wrong."""
     target = "".join(entry.target.split())
     mistake, because = _part(evidence, target)
+    wanted = evidence.assignment
+    file = file_of(evidence, f"{wanted.package}/{wanted.node_file}")
+    data = file.data if file is not None else b""
+    line = line_in_class(data, target.partition(":")[2], wanted.function)
+    in_class = mistake == "setup.other_function" and line > 0
     return _failed(
         evidence,
         entry,
         mistake,
         because,
         found=shown(target),
-        meant_to_be=evidence.assignment.target,
+        meant_to_be=wanted.target,
+        variant="in_class" if in_class else "",
+        words={"function": wanted.function, "line": str(line), "path": node_path(evidence)},
         target=shown(entry.target),
     )
 

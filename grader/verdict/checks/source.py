@@ -18,7 +18,7 @@ from grader.package.source.newer_python import SINCE, first_difference, with_old
 from grader.package.source.numbers_above import numbers_above
 from grader.package.source.other_encoding import declaration, kind_of_encoding
 from grader.package.source.pasted import WHOLE_LINES, Pasted, pasted_in
-from grader.package.source.python import SHEBANG, PythonFault, parse_python
+from grader.package.source.python import SHEBANG, PythonFault, has_no_code, parse_python
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
 from grader.verdict.checks.actual_node import (
@@ -62,8 +62,8 @@ def node_file(evidence: Evidence) -> Passed:
             actual=say("the file cannot be read: {reason}", reason=reason),
             where=Where(file=path),
         )
-    if not file.data.strip():
-        raise _empty(evidence, path)
+    if not file.data.strip() or (has_no_code(file.data) and _beside_empty(evidence, path) != path):
+        raise _empty(evidence, path, file.data)
     try:
         parsed = parse_python(file.data)
     except PythonFault as fault:
@@ -145,17 +145,20 @@ def _other_version(evidence: Evidence, path: str) -> str:
     return ""
 
 
-def _empty(evidence: Evidence, path: str) -> Failed:
+def _empty(evidence: Evidence, path: str, data: bytes) -> Failed:
     init = f"{evidence.assignment.folder}/__init__.py"
-    if has_node(evidence, init):
-        actual = say("the file is empty: your node is in {path}", path=init)
-        return _in_init(path, init, actual, "init_empty")
-    other = _lone_node(evidence, path)
+    other = init if has_node(evidence, init) else _lone_node(evidence, path)
+    if data.strip():
+        elsewhere = say("the file has no code: your node is in {path}", path=shown(other))
+    else:
+        elsewhere = say("the file is empty: your node is in {path}", path=shown(other))
+    if other == init:
+        return _in_init(path, init, elsewhere, "init_empty")
     if other:
         return Failed(
             "source.empty_node_file",
             expected=say("your node's code in {path}", path=path),
-            actual=say("the file is empty: your node is in {path}", path=shown(other)),
+            actual=elsewhere,
             where=Where(file=path),
             variant="beside",
             params={"there": shown(other)},

@@ -1,0 +1,110 @@
+"""The mistake of a property or method whose first value Python keeps."""
+
+from __future__ import annotations
+
+import ast
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import NODE, example
+from grader.mistakes.fixes.case import Case
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.package.edit.files import Files
+from grader.package.edit.tree import Replace
+from grader.package.source.module import Function
+from grader.package.source.names import dotted, last_part
+from grader.package.source.node import NodeSource
+
+CACHED_PROPERTY = "cached_property"
+CACHES = (CACHED_PROPERTY, "cache", "lru_cache")
+
+
+def _kept(source: NodeSource) -> tuple[Function, ast.expr, str] | None:
+    """Return the only method whose value is kept, its decorator, and the decorator's name."""
+    found = []
+    for method in source.methods.values():
+        for decorator in method.decorator_list:
+            called = decorator.func if isinstance(decorator, ast.Call) else decorator
+            name = last_part(dotted(called))
+            if name in CACHES:
+                found.append((method, decorator, name))
+    return found[0] if len(found) == 1 else None
+
+
+def _cached(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a method of the node that is calculated once only."""
+    kept = _kept(suspect.source)
+    if kept is None:
+        return None
+    method, decorator, name = kept
+    module = suspect.source.module_of(method)
+    code = module.text.code(decorator)
+    written = "@property" if name == CACHED_PROPERTY else ""
+    words = {"name": f"@{code}", "written": written, "method": method.name}
+    found = suspect.finding("value_cached", decorator, **words)
+    return found if written else _without(found)
+
+
+def _without(found: RecognisedMistake) -> RecognisedMistake:
+    return RecognisedMistake(
+        kind=found.kind, params=found.params, words=found.words, variant="call", where=found.where
+    )
+
+
+def _calculated_anew(case: Case) -> Files | None:
+    """Write @property for the property that is kept."""
+    kept = _kept(case.node) if case.node is not None else None
+    if case.node is None or kept is None or kept[2] != CACHED_PROPERTY:
+        return None
+    module = case.node.module_of(kept[0])
+    return case.changed(module, module.text.swap(kept[1], "property"))
+
+
+_node = Family("node", links.PYTHON_CLASSES)
+KINDS = (
+    _node(
+        "value_cached",
+        "text",
+        msg("Python keeps the first value"),
+        msg("{name} calculates {method} once and keeps this first value for all later uses."),
+        msg("Write {written} instead of {name}: it calculates the value each time."),
+        fixes={"call": msg("Delete {name} above {method}.")},
+        behind={"run.constant_counter": _cached},
+        fixed_by=(_calculated_anew,),
+        examples=(
+            example(
+                "text_in_cached_property",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "from functools import cached_property\n\nimport rclpy\nfrom",
+                ),
+                Replace(
+                    NODE,
+                    "    def timer_callback(self)",
+                    "    @cached_property\n    def text(self):\n"
+                    "        return f'Hello time: {self.counter_}'\n\n    def timer_callback(self)",
+                ),
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "self.text"),
+                fails="run.output",
+            ),
+            example(
+                "text_in_cache",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "from functools import lru_cache\n\nimport rclpy\nfrom",
+                ),
+                Replace(
+                    NODE,
+                    "    def timer_callback(self)",
+                    "    @lru_cache(maxsize=None)\n    def text(self):\n"
+                    "        return f'Hello time: {self.counter_}'\n\n    def timer_callback(self)",
+                ),
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "self.text()"),
+                fails="run.output",
+            ),
+        ),
+    ),
+)
