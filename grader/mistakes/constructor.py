@@ -198,9 +198,19 @@ def _super_late(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
     init, call = raised.source.methods.get("__init__"), raised.source.super_init
     if init is None or call is None or raised.line is None:
         return found
+    if raised.module.has(init) and not _runs_before(raised, call):
+        return None
     if raised.module.has(init) and init.lineno <= raised.line < call.lineno:
         return replace(found, variant="line", words={**found.words, "line": str(raised.line)})
     return found
+
+
+def _runs_before(raised: Raised, call: ast.Call) -> bool:
+    """Whether the line of the error can run before the call of super().__init__()."""
+    function = function_at(raised.module, raised.line)
+    if function is None or function.name == "__init__":
+        return raised.line is None or raised.line <= call.lineno
+    return function in raised.source.methods.values()
 
 
 def _in_namespace(suspect: Suspect) -> RecognisedMistake | None:

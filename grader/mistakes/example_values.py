@@ -121,6 +121,26 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "name": "parser.parse_args()",
         "written": "parser.parse_known_args()[0]",
     },
+    "node.f_and_format": {
+        "name": "f'Count: {n}'",
+        "written": "'Count: {n}'",
+    },
+    "node.text_joined": {
+        "name": "'Count: '.join(str(self.counter))",
+        "written": "'Count: ' + str(self.counter)",
+    },
+    "node.counter_made_text": {"name": "self.counter", "written": "str(self.counter)"},
+    "node.log_order": {
+        "name": "self.get_logger().log(LoggingSeverity.INFO, text)",
+        "written": "self.get_logger().log(text, LoggingSeverity.INFO)",
+    },
+    "node.private_name": {"name": "__counter", "written": "_counter"},
+    "node.base_stops": {"name": "Greets", "written": "super().__init__(name)"},
+    "node.renamed": {
+        "name": "rclpy.init(args=['--ros-args', '-r', '__node:=other'])",
+        "written": "rclpy.init(args=args)",
+    },
+    "node.ros_hidden": {"name": "rclpy"},
     "node.none_used": {"name": "self.text", "function": "make_text", "line": 20},
     "node.types_do_not_fit": {
         "first": "int",

@@ -9,7 +9,7 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, LOG, NODE, example
-from grader.mistakes.fixes import node_log_call
+from grader.mistakes.fixes import lines, node_log_call
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
@@ -39,6 +39,18 @@ def _text_given(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
     found = raised.finding("get_logger_arguments", at=call)
     text = node_log_call.is_statement(raised.module, call)
     return replace(found, variant="" if text else "name")
+
+
+def _swapped(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """log() gets the severity first, as the logging of Python has it."""
+    del match
+    call = node_log_call.call_of(raised.module, raised.line, "log")
+    if call is None or len(call.args) != 2 or call.keywords:
+        return None
+    text = raised.module.text
+    severity, message = (text.code(argument) for argument in call.args)
+    written = f"{text.code(call.func)}({message}, {severity})"
+    return raised.finding("log_order", at=call, name=text.code(call), written=written)
 
 
 _node = Family("node", links.LOGGING)
@@ -120,6 +132,28 @@ KINDS = (
                 fails="run.output",
                 blocks=DEAD,
                 note="as rclpy.logging.get_logger takes it",
+            ),
+        ),
+    ),
+    _node(
+        "log_order",
+        "logger",
+        msg("log() gets the severity before the text"),
+        msg("The method log of a ROS logger takes the text first, and then the severity."),
+        msg("Write {written} instead of {name}. Shorter is .info() with the text alone."),
+        raised={r"is not a valid LoggingSeverity": _swapped},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "severity_before_the_text",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "import rclpy\nfrom rclpy.logging import LoggingSeverity\nfrom",
+                ),
+                Replace(NODE, LOG, f"self.get_logger().log(LoggingSeverity.INFO, {TEXT})"),
+                fails="run.output",
+                blocks=DEAD,
             ),
         ),
     ),

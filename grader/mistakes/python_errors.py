@@ -14,12 +14,15 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, LOG, LOG_LINE, NODE, example
+from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromError, Raised, RecognisedMistake
+from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, own_name
+from grader.package.source.place import statement_at
 
 MOST_CODE = 60  # characters of a piece of code that a text shows
 NONE = msg(
@@ -72,6 +75,31 @@ def _none_operand(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     mistake = raised.finding("none_used", name=code)
     words = {**mistake.words, "function": function.name, "line": function.lineno}
     return replace(mistake, words=words, variant="function")
+
+
+def _comma(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A comma at the end of the line makes a tuple of the number that is added."""
+    statement = statement_at(raised.module, raised.line)
+    value = statement.value if isinstance(statement, ast.AugAssign) else None
+    if statement is None or not isinstance(value, ast.Tuple) or len(value.elts) != 1:
+        return None
+    code = raised.module.text.code(statement)
+    if not code.endswith(","):
+        return None
+    params = {**match.groupdict(""), "name": code, "text": code[:-1].rstrip()}
+    return replace(raised.finding("types_do_not_fit", params=params), variant="comma")
+
+
+def _without_comma(case: Case) -> Files | None:
+    """Remove the comma with which a statement ends."""
+    name, text = (str(case.finding.params.get(word, "")) for word in ("name", "text"))
+    module, line = case.module, case.finding.line
+    if module is None or line is None or not name.endswith(",") or not text:
+        return None
+    found = [n for n in module.nodes if isinstance(n, ast.AugAssign) and n.lineno == line]
+    if len(found) != 1 or module.text.code(found[0]) != name:
+        return None
+    return case.changed(module, module.text.swap(found[0], text))
 
 
 def _on_line(raised: Raised) -> Iterator[ast.AST]:
@@ -180,36 +208,41 @@ KINDS = (
         "types_do_not_fit",
         "callback",
         msg("An operation gets a value of a type that it cannot use"),
-        msg("{operator} does not work with a {first} and a {second}."),
+        msg("{operator} does not work between the types {first} and {second}."),
         msg(
-            "Convert one of the two, for example with str(…) or int(…), or look in which line each "
-            "of them gets its value."
+            "Look in which line each of the two gets its value. str(…) makes a text of a number, "
+            "and int(…) a number of a text."
         ),
         whys={
-            "items": msg("name[…] reads one item. A {first} has no items."),
+            "items": msg("name[…] reads one item. The type {first} has no items."),
             "function": msg("name[…] reads one item. A function has no items: it is called."),
             "each": msg(
-                "Only a value that consists of items can be unpacked or used behind in. A {first} has none."
+                "Only a value that consists of items can be unpacked or used behind in. The type {first} has none."
             ),
-            "set": msg("name[…] = … sets one item. The items of a {first} cannot be set."),
-            "join": msg("join() puts texts together. An item of this list is a {first}."),
-            "sign": msg("{operator} in front of a value needs a number. This value is a {first}."),
-            "whole": msg("A whole number is needed here, and not a {first}."),
+            "set": msg("name[…] = … sets one item. The items of the type {first} cannot be set."),
+            "join": msg("join() puts texts together. One item of this list has the type {first}."),
+            "sign": msg(
+                "{operator} in front of a value needs a number. This value has the type {first}."
+            ),
+            "whole": msg("A whole number is needed here, and this value has the type {first}."),
             "number": msg("{text} cannot be read as a number."),
+            "comma": msg("A comma after a value makes a tuple, and not a number."),
             "returned": msg("Python calls {operator} and needs a {first} from it."),
         },
         fixes={
-            "items": msg("Look in which line this {first} gets its value, or remove the […]."),
+            "items": msg("Look in which line this value is set, or remove the […]."),
             "function": ROUND,
-            "each": msg("Look in which line this {first} gets its value, or write it in [ ]."),
+            "each": msg("Look in which line this value is set, or write it in [ ]."),
             "set": msg("Make a new value instead, or use a list."),
             "join": msg("Convert each item to a text first: str(…)."),
             "sign": msg("Convert the value to a number first: int(…)."),
             "whole": msg("Convert the value with int(…), or write a number without a point."),
             "number": msg("Give int() or float() a text that has only a number in it."),
+            "comma": msg("Remove the comma at the end of the line: write {text}"),
             "returned": msg("Write return and the {first} at the end of {operator}."),
         },
         raised={
+            r"'(?P<first>\w{1,60})' and 'tuple'$": _comma,
             r"'(?P<first>method|function|builtin_function_or_method|type)' object is not subscriptable": (
                 _told("types_do_not_fit", "function")
             ),
@@ -244,7 +277,14 @@ KINDS = (
             r"'(?P<operator>[<>=]{1,2})' not supported between instances of '(?P<first>\w{1,60})' and "
             r"'(?P<second>\w{1,60})'": _told("types_do_not_fit"),
         },
+        fixed_by=(_without_comma,),
         examples=(
+            example(
+                "comma_behind_the_step",
+                Replace(NODE, "self.counter_ += 1", "self.counter_ += 1,"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
             example(
                 "logger_in_square_brackets",
                 Replace(NODE, LOG, "self.get_logger().info['Hello time: ' + str(self.counter_)]"),
@@ -324,7 +364,7 @@ KINDS = (
         msg("await is used on something that cannot be awaited"),
         msg(
             "await waits for a coroutine or a future. What is called here has done its work when it "
-            "returns, and gives back a {first}."
+            "returns, and gives back a value of the type {first}."
         ),
         msg("Remove await on that line."),
         raised={
@@ -352,7 +392,9 @@ KINDS = (
         ),
         msg("Give the text one place for each value. A text with {{}} needs .format(…) and no %."),
         whys={
-            "type": msg("The place %d in a text needs a number, and gets a {first}."),
+            "type": msg(
+                "The place %d in a text needs a number, and gets a value of the type {first}."
+            ),
         },
         fixes={"type": msg("Write %s in the text, or give it a number.")},
         raised={
@@ -451,7 +493,7 @@ KINDS = (
         "spin",
         msg("with gets an object that cannot be used with it"),
         msg(
-            "with needs an object that has the methods __enter__ and __exit__. A {first} does not have them."
+            "with needs an object that has the methods __enter__ and __exit__. The type {first} does not have them."
         ),
         msg(
             "Assign the object to a name in a line of its own, without with. Then indent the lines of "

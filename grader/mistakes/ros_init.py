@@ -8,11 +8,11 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import NODE, example
+from grader.mistakes.example import INIT, NODE, example
 from grader.mistakes.fixes import lines, node_init, node_life
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
-from grader.package.edit.tree import Replace
+from grader.package.edit.tree import Replace, Write
 from grader.package.source.counter import targets_of
 from grader.package.source.names import dotted, last_part
 
@@ -82,7 +82,9 @@ def _init_late(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
 def _init_twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     del match
     inits = [call for call, name in raised.source.calls if name == "rclpy.init"]
-    return raised.finding("init_twice", at=inits[1] if len(inits) > 1 else None)
+    if len(inits) == 1:
+        return replace(raised.finding("init_twice"), variant="imported")
+    return raised.finding("init_twice", at=inits[1] if inits else None)
 
 
 def _without_keyword(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -228,8 +230,19 @@ KINDS = (
         msg("Keep only one rclpy.init(args=args), in the first line of {function}."),
         links.RCLPY,
         seen=r"RuntimeError: Context\.init\(\) must only be called once",
+        fixes={
+            "imported": msg(
+                "Here it is called once. The other call runs when a file of your package is "
+                "imported: look in {package}/__init__.py, which should be empty, and remove it there."
+            )
+        },
         raised={r"Context\.init\(\) must only be called once": _init_twice},
         examples=(
+            example(
+                "init_in_the_init_file",
+                Write(INIT, "import rclpy\n\nrclpy.init()\n"),
+                fails="run.starts",
+            ),
             example(
                 "init_twice",
                 Replace(

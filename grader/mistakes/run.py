@@ -94,6 +94,12 @@ KINDS = (
         ),
         msg("Write super().__init__('{wanted}')."),
         links.NODES,
+        fixes={
+            "named": msg(
+                "super().__init__() passes the right name. Look for what gives the node another one: "
+                "the arguments of rclpy.init, another object, or a file that is not saved."
+            )
+        },
         fixed_by=(node_life.name,),
         examples=(
             example(

@@ -27,12 +27,17 @@ NO_MODULE = re.compile(r"No module named '(?P<name>\w{1,120}(?:\.\w{1,120}){0,9}
 OF_FILE = re.compile(
     r"cannot import name '(?P<name>\w{1,120})' from '(?P<module>\w{1,120}(?:\.\w{1,120}){1,9})'"
 )
+OF_ROS = re.compile(
+    r"(?:No module named|cannot import name '\w{1,120}' from|module) '(?P<name>rclpy(?:\.\w{1,120}){0,3})'"
+)
 NO_NAME = re.compile(r"cannot import name '(?P<name>\w{1,120})' from '(?P<module>\w{1,120})'")
 
 
 def own_module(error: str, where: Where | None, evidence: Evidence) -> RecognisedMistake | None:
     """Return why an import of a module of the own package fails; None if it is another module."""
     package = evidence.assignment.folder
+    if (found := _hidden(error, evidence)) is not None:
+        return found
     if where is None or not where.file.startswith(f"{package}/"):
         return None
     return (
@@ -41,6 +46,18 @@ def own_module(error: str, where: Where | None, evidence: Evidence) -> Recognise
         or _not_handed_in(error, where, evidence)
         or _not_in_file(error, where, evidence)
     )
+
+
+def _hidden(error: str, evidence: Evidence) -> RecognisedMistake | None:
+    """Return that the package has a folder or a file rclpy, which Python takes for the one of ROS."""
+    if OF_ROS.search(error) is None:
+        return None
+    for name, path in (("rclpy", "rclpy/__init__.py"), ("rclpy.py", "rclpy.py")):
+        if evidence.submission.file(path) is not None:
+            return RecognisedMistake(
+                kind="node.ros_hidden", params={"name": name}, where=Where(file=path)
+            )
+    return None
 
 
 @dataclass(frozen=True)

@@ -278,14 +278,15 @@ def _must_stay_a_count(evidence: Evidence, wanted: Count, expected: str) -> None
 def _in_place_of_the_next(watch: Watch, period: float) -> Event | None:
     """Return the first line that came when the count should have gone on, None if it did."""
     own = [event for event in watch.counted if event.n is not None]
+    events = list(without_tracebacks(watch.events))
+    # (of another period: no line is at a due instant, but the same call logged it)
+    late = [event for event in events if _is_called_again(event, own[-1])]
     if watch.clock == "virtual":
         last = max((event.due for event in own if event.due is not None), default=len(watch.dues))
-        late = [event for event in watch.events if event.due is not None and event.due > last]
+        late += [event for event in events if event.due is not None and event.due > last]
     else:
         end = max(event.wall for event in own) + MISSED * period
-        late = [event for event in watch.events if event.wall > end]
-    # (of another period: no line is at a due instant, but the same call logged it)
-    late += [event for event in watch.events if _is_called_again(event, own[-1])]
+        late += [event for event in events if event.wall > end]
     return late[0] if late else None
 
 

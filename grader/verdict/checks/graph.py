@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from typing import TYPE_CHECKING
 
 from pydantic import Field
@@ -9,6 +10,7 @@ from pydantic import Field
 from grader.base.i18n.message import say
 from grader.base.nearest import nearest, with_difference
 from grader.verdict.checks.declare import Parameters, kind
+from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Failed, Inconclusive, Passed
 
 if TYPE_CHECKING:
@@ -57,9 +59,18 @@ def node_name(use: Use[NodeName]) -> Passed:
         expected=wanted,
         actual=with_difference(listed, close, wanted),
         where=use.call(),
+        variant="named" if _is_passed(use, wanted) else "",
         params={"name": names[0].lstrip("/")},
         words={"wanted": wanted.lstrip("/")},
     )
+
+
+def _is_passed(use: Use[NodeName], wanted: str) -> bool:
+    """Whether the source passes the required name to super().__init__()."""
+    source = source_of_node(use.evidence)
+    call = source.super_init if source is not None else None
+    given = call.args[0] if call is not None and call.args else None
+    return isinstance(given, ast.Constant) and given.value == wanted.lstrip("/")
 
 
 def _missing(name: str, expected: str, actual: str, use: Use[Parameters]) -> Failed:

@@ -1,0 +1,116 @@
+"""Mistakes in how classes share their names: a private one, a base whose __init__ stops at itself."""
+
+from __future__ import annotations
+
+import ast
+import re
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.constructor import PRIVATE
+from grader.mistakes.example import NODE, example
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import OWN_ATTRIBUTE, Raised, RecognisedMistake
+from grader.package.edit.tree import Replace
+from grader.package.source.module import Function
+from grader.package.source.names import dotted, last_part
+from grader.package.source.place import function_at
+
+
+def _private(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A name with two leading underscores is used outside of the class that sets it."""
+    name = match["name"]
+    private = name.startswith("__") and not name.endswith("__")
+    function = function_at(raised.module, raised.line)
+    if not private or name not in raised.source.attributes:
+        return None
+    if function in raised.source.methods.values():
+        return None
+    return raised.finding("private_name", name=name, written=name[1:])
+
+
+def _base_stops(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The __init__ of a base of the student's own does not go on to that of Node."""
+    init, own = raised.source.methods.get("__init__"), raised.source.node_class
+    if match["type"] not in raised.source.known_classes or init is None or own is None:
+        return None
+    if raised.source.super_init is None:
+        return None
+    classes = {n.name: n for n in raised.source.own_nodes if isinstance(n, ast.ClassDef)}
+    for base in own.bases:
+        found = classes.get(last_part(dotted(base)))
+        if found is None:
+            return None  # (Node or another class of ROS comes first)
+        inits = [n for n in found.body if isinstance(n, Function) and n.name == "__init__"]
+        if inits and not _goes_on(inits[0]):
+            return _stops_at(raised, found, inits[0])
+    return None
+
+
+def _goes_on(init: Function) -> bool:
+    calls = [n for n in ast.walk(init) if isinstance(n, ast.Call)]
+    return any(isinstance(c.func, ast.Attribute) and c.func.attr == "__init__" for c in calls)
+
+
+def _stops_at(raised: Raised, base: ast.ClassDef, init: Function) -> RecognisedMistake:
+    given = [argument.arg for argument in init.args.args[1:]]
+    found = raised.finding("base_stops", at=init, name=base.name)
+    words = {**found.words, "written": f"super().__init__({', '.join(given[:1])})"}
+    return replace(found, words=words, variant="" if given else "no_name")
+
+
+_node = Family("node", links.PYTHON_CLASSES)
+KINDS = (
+    _node(
+        "private_name",
+        "class",
+        msg("A private name is used outside of its class"),
+        msg("A name that begins with two underscores is known only inside of the class."),
+        msg("Write {written} instead of {name} in all lines, or remove this line."),
+        raised={OWN_ATTRIBUTE: _private},
+        examples=(
+            example(
+                "private_counter_read_by_main",
+                Replace(NODE, "self.counter_ = 0", "self.__counter = 0"),
+                Replace(NODE, "str(self.counter_)", "str(self.__counter)"),
+                Replace(NODE, "self.counter_ += 1", "self.__counter += 1"),
+                Replace(
+                    NODE,
+                    "        node.destroy_node()",
+                    "        print(node.__counter)\n        node.destroy_node()",
+                ),
+                fails="run.interrupt",
+            ),
+        ),
+    ),
+    _node(
+        "base_stops",
+        "class",
+        msg("The __init__ of another base class does not call the one of Node"),
+        msg(
+            "super().__init__() calls the __init__ of the first base, {name}. That one must call "
+            "super().__init__() too, or the __init__ of Node never runs."
+        ),
+        msg("Write {written} as the first line of the __init__ of {name}."),
+        fixes={
+            "no_name": msg(
+                "Give the __init__ of {name} a parameter for the node's name, and write as its "
+                "first line super().__init__() with this parameter."
+            )
+        },
+        raised={PRIVATE: _base_stops},
+        examples=(
+            example(
+                "base_without_super",
+                Replace(
+                    NODE,
+                    "class MyFirstNode(Node):",
+                    "class Greets:\n\n    def __init__(self, name):\n        self.greeting = name\n\n\n"
+                    "class MyFirstNode(Greets, Node):",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+)
