@@ -18,7 +18,7 @@ from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import starts_of, targets_of
 from grader.package.source.module import Function
-from grader.package.source.names import calls_in, dotted, last_part, own_name
+from grader.package.source.names import called_name, calls_in, dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS
 from grader.package.source.place import function_at
 
@@ -155,7 +155,7 @@ def _of_value(raised: Raised, value: ast.expr) -> RecognisedMistake | None:
         return _finding(raised, value, code, written, kind)
     if isinstance(value, ast.Constant) and isinstance(value.value, bytes) and code[:1] in "bB":
         return _finding(raised, value, code, code[1:], "bytes")
-    if isinstance(value, ast.Call) and last_part(dotted(value.func)) == "encode":
+    if isinstance(value, ast.Call) and called_name(value) == "encode":
         made = value.func.value if isinstance(value.func, ast.Attribute) else None
         return _finding(raised, value, code, text.code(made), "bytes") if made is not None else None
     if isinstance(value, ast.Call) and dotted(value.func) == "print":
