@@ -115,6 +115,9 @@ def _numbered(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
             if count and not found.numbers and set(found.fields) == {""}:
                 return _finding(raised, found, found.text, str(len(found.fields)), "too_many")
             continue
+        if count == len(found.numbers) == 1:
+            new = found.text.replace(f"{{{found.fields[0]}", "{0")
+            return _finding(raised, found, found.text, new, "counted")
         if sorted(set(found.numbers)) != list(range(1, count + 1)):
             return _finding(raised, found, found.text, str(count - 1), "highest")
         new = re.sub(r"\{(\d{1,3})", lambda m: f"{{{int(m[1]) - 1}", found.text)
@@ -153,7 +156,7 @@ def _finding(
     params = {"name": shown(name), "written": shown(written)}
     mistake = raised.finding("format_value_missing", at=found.call, params=params)
     place = next((f for f in found.fields if not f.isdecimal()), "")
-    words = {**mistake.words, "place": shown(place), "count": str(len(found.call.args))}
+    words = {**mistake.words, "place": shown(place)}
     return replace(mistake, words=words, variant=variant)
 
 
@@ -191,12 +194,12 @@ KINDS = (
             ),
             "counted": msg("Write {written} instead of {name}."),
             "highest": msg(
-                "Use only numbers from 0 to {written} in the places of {name}: format gets {count} "
-                "values."
+                "No place of {name} may have a higher number than {written}: the last value of the () "
+                "has this number. Write a lower number, or give more values."
             ),
             "too_many": msg(
-                "The text has {written} places {{}}, and format gets {count} values. Write as many "
-                "values in the () of format as the text has places."
+                "The text has more places {{}} than format has values. Write a value in the () of "
+                "format for each place, or delete the places that are too many."
             ),
             "key": msg("Write {written} instead of {name} in the dict."),
         },

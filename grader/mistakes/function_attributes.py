@@ -86,7 +86,13 @@ def _on_method(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
         line = str(kept.in_class[0].lineno) if kept.in_class else ""
         rows = sorted({use.lineno for use in kept.through_self})
         words = {**found.words, "value": value, "line": line, "lines": ", ".join(map(str, rows))}
-        return replace(found, words=words, variant="in_class" if kept.in_class else "")
+        init = source.method("__init__")
+        in_init = any(
+            isinstance(u.ctx, ast.Store) and source.function_around(u) is init
+            for u in kept.through_self
+        )
+        variant = "in_class" if kept.in_class else "in_init" if in_init and init else ""
+        return replace(found, words=words, variant=variant)
     return None
 
 
@@ -175,6 +181,7 @@ KINDS = (
             )
         },
         fixes={
+            "in_init": msg("Write {written} instead of {name} in all lines: {lines}."),
             "in_class": msg(
                 "Write {written} instead of {name} in all lines: {lines}. Set it in __init__, before "
                 "the timer is created: {written} = {value}. Delete line {line}."

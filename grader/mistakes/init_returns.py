@@ -22,7 +22,7 @@ from grader.package.source.names import dotted, last_part
 from grader.package.source.place import block_of, statement_at
 
 NOT_NONE = r"TypeError: __init__\(\) should return None, not '(?P<type>\w{1,120})'"
-EXITS = ("sys.exit", "exit", "quit")
+EXITS = ("sys.exit", "exit", "quit", "SystemExit")
 INNER = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)
 STOP = "        node.destroy_node()\n        rclpy.try_shutdown()\n"
 
@@ -159,13 +159,14 @@ def _is_error(suspect: Suspect, value: ast.expr) -> bool:
 
 
 def _nothing_returned(case: Case) -> Files | None:
-    """Print the text that the function returns, or delete its return."""
+    """Print the text that the function returns, or delete its return; empty the () of an exit."""
     module, line = case.module, case.finding.line
-    found = (
-        [n for n in module.nodes if isinstance(n, ast.Return) and n.lineno == line]
-        if module
-        else []
-    )
+    nodes = module.nodes if module is not None else []
+    found = [n for n in nodes if isinstance(n, ast.Return) and n.lineno == line]
+    exits = [n for n in nodes if isinstance(n, ast.Call) and n.lineno == line]
+    exits = [n for n in exits if dotted(n.func) in EXITS and len(n.args) == 1]
+    if module is not None and len(exits) == 1 and not found:
+        return case.changed(module, module.text.swap(exits[0], f"{dotted(exits[0].func)}()"))
     if module is None or len(found) != 1:
         return None
     new = str(case.finding.params.get("written", ""))

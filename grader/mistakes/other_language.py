@@ -8,16 +8,19 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
+from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import lines, node_words
+from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect
 from grader.mistakes.scope import NODE_METHODS
+from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.module import Module
 from grader.package.source.names import called_name, dotted
-from grader.package.source.place import block_of, statement_at
+from grader.package.source.place import block_of, function_at, statement_at
 from grader.report.model import Where
 
 WORDS = {
@@ -41,6 +44,8 @@ SIGNS = {"%": "percent", "--": "dashes", ";": "semicolon"}
 DEFINE = re.compile(
     r"#[ \t]{0,9}define[ \t]{1,99}(?P<name>\w{1,120})[ \t=]{1,99}(?P<value>[^#/]{1,200})"
 )
+PLACE = re.compile(r"%[-+ 0]{0,3}\d{0,3}(?:\.\d{1,3})?[hl]{0,2}[disufxXc]")
+LOGGERS = ("self.get_logger()", "get_logger()", "this.get_logger()", "self.logger", "self.logger_")
 SHOWN = "|".join((*WORDS, *PRINTS))
 
 
@@ -50,7 +55,44 @@ def _word(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return raised.finding("other_language", name=name, close=WORDS[name])
     if name not in PRINTS:
         return None
-    return replace(raised.finding("other_language", name=name), variant="print")
+    found = replace(raised.finding("other_language", name=name), variant="print")
+    return _printed(raised, name) or found
+
+
+def _printed(raised: Raised, name: str) -> RecognisedMistake | None:
+    """The line prints a text with the places of printf: the logger logs it with %."""
+    text, function = raised.module.text, function_at(raised.module, raised.line)
+    statement = statement_at(raised.module, raised.line)
+    call = statement.value if isinstance(statement, ast.Expr) else None
+    if function is None or not isinstance(call, ast.Call) or dotted(call.func) != name:
+        return None
+    args = call.args[1:] if dotted(call.args[0] if call.args else call) in LOGGERS else call.args
+    first = args[0] if args and not call.keywords else None
+    plain = first.value if isinstance(first, ast.Constant) else None
+    code = text.code(call)
+    if first is None or not isinstance(plain, str):
+        return None
+    shown_text = re.sub(r"(?:\\n)+(?=['\"]\Z)", "", text.code(first))
+    plain = plain.rstrip("\n")
+    if (
+        shown_text not in (f"'{plain}'", f'"{plain}"')
+        or "\n" in code
+        or [a.arg for a in function.args.args][:1] != ["self"]
+    ):
+        return None
+    if len(PLACE.findall(plain)) != plain.count("%") or plain.count("%") != len(args) - 1:
+        return None
+    given = ", ".join(text.code(a) for a in args[1:])
+    single = len(args) == 2 and isinstance(args[1], ast.Name | ast.Attribute | ast.Call)
+    values = f" % {given}" if single else f" % ({given}{',' * (len(args) == 2)})" if given else ""
+    written = f"self.get_logger().info({shown_text}{values})"
+    params = {"name": shown(code), "written": shown(written)}
+    return replace(raised.finding("other_language", params=params), variant="call")
+
+
+def _logged(case: Case) -> Files | None:
+    """Write the call of the logger for that of another language."""
+    return lines.written(case) if "(" in str(case.finding.params.get("name", "")) else None
 
 
 def _comment(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -160,6 +202,7 @@ KINDS = (
         fixes={
             "print": msg("Write self.get_logger().info(…) instead of {name}."),
             "method": msg("Write {written} instead of {name}."),
+            "call": msg("Write {written} instead of {name}."),
         },
         seen=rf"NameError: name '(?P<name>{SHOWN})' is not defined",
         raised={
@@ -169,7 +212,7 @@ KINDS = (
                 r"'(?P<name>\w{1,120})'"
             ): _method,
         },
-        fixed_by=(node_words.word,),
+        fixed_by=(node_words.word, _logged),
         examples=(
             example(
                 "null_for_none",

@@ -29,8 +29,8 @@ UNSPUN = msg(
 PERIOD = msg("The first argument of create_timer is the period in seconds.")
 WRITE_NUMBER = msg("Write {written} instead of {old} in line {line}: {code} is then {period} s.")
 SPINS = msg(
-    "The line shown spins the node: ROS calls your callbacks there. The error was raised by such a "
-    "call, and in no other line of yours. Compare the parameters of your callbacks, and what "
+    "The line shown spins the node: ROS calls your callbacks there. No other line of yours raised the "
+    "error. Compare the parameters of your callbacks, and what "
     "create_timer gets, with the last line of the traceback."
 )
 NO_LINE = msg(

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 RAISES = ("run.died_at_start", "run.ended_early", "run.error_at_stop")
+SPINS = ("spin", "spin_once", "spin_until_future_complete")
 SHORTEST = 3  # characters of a source line that is worth showing
 
 
@@ -211,7 +212,7 @@ def _spins(module: Module, line: int) -> bool:
     """Whether a line calls spin, so that the callbacks are called in it."""
     statement = statement_at(module, line)
     calls = calls_in(statement) if isinstance(statement, ast.Expr) else ()
-    return any(last_part(name).startswith("spin") for _, name in calls)
+    return any(last_part(name) in SPINS for _, name in calls)
 
 
 def _show_line(diagnosis: Diagnosis, evidence: Evidence) -> None:

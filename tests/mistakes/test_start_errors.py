@@ -202,7 +202,9 @@ def test_an_except_names_a_class(named: str, kind: str) -> None:
         ("'Hello time: {1}'.format(self.counter_)", "IndexError: Replacement index 1 out of range "
          "for positional args tuple", "counted", "'Hello time: {0}'.format(self.counter_)"),
         ("'Hello time: {3}'.format(self.counter_)", "IndexError: Replacement index 3 out of range "
-         "for positional args tuple", "highest", ""),
+         "for positional args tuple", "counted", "'Hello time: {0}'.format(self.counter_)"),
+        ("'{0} {2}'.format(1, self.counter_)", "IndexError: Replacement index 2 out of range for "
+         "positional args tuple", "highest", ""),
         ("'Hello {} {}'.format(self.counter_)", "IndexError: Replacement index 1 out of range for "
          "positional args tuple", "too_many", ""),
         ("'Hello time: %(n)d' % {'m': self.counter_}", "KeyError: 'n'", "key",
@@ -316,3 +318,28 @@ def test_the_line_that_made_what_is_no_text(made: str, name: str, at: str, fix: 
     assert found is not None
     assert found.where is not None
     assert found.where.line == line_of(text, at)
+
+
+@pytest.mark.parametrize(
+    ("code", "new"),
+    [
+        ("RCLCPP_INFO(self.get_logger(), 'Hello time: %d', self.counter_)",
+         "self.get_logger().info('Hello time: %d' % self.counter_)"),
+        ("printf('Hello time: %d', self.counter_)",
+         "self.get_logger().info('Hello time: %d' % self.counter_)"),
+        ("printf('Hello %d', self.counter_ + 1)",
+         "self.get_logger().info('Hello %d' % (self.counter_ + 1,))"),
+        ('printf("Hello time: %d\\n", self.counter_)',
+         'self.get_logger().info("Hello time: %d" % self.counter_)'),
+        ("printf('Hello')", "self.get_logger().info('Hello')"),
+        ("printf('Hello %zu', self.counter_)", ""),
+        ("printf(self.counter_)", ""),
+    ],
+)  # fmt: skip
+def test_what_another_language_prints_is_logged(code: str, new: str, tmp_path: Path) -> None:
+    text = changed((f"self.get_logger().info({TEXT})", code))
+    name = code.partition("(")[0]
+    found = raised(UNKNOWN.format(name), text, line_of(text, code))
+    assert found is not None
+    assert found.kind == "node.other_language"
+    assert patched(found, text, tmp_path) == (text.replace(code, new) if new else "")
