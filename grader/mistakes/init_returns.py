@@ -112,6 +112,16 @@ def _without_value(case: Case) -> Files | None:
     return case.changed(module, module.text.swap(found[0], written))
 
 
+def _without_yield(case: Case) -> Files | None:
+    """Delete a line that contains only a yield."""
+    module, line = case.module, case.finding.line
+    found = (
+        [n for n in module.nodes if isinstance(n, ast.Expr) and n.lineno == line] if module else []
+    )
+    alone = len(found) == 1 and isinstance(found[0].value, ast.Yield | ast.YieldFrom)
+    return deleted(case) if alone else None
+
+
 def _status(suspect: Suspect) -> RecognisedMistake | None:
     """The function of the entry point returns a text, or exits with one: the exit status is 1."""
     function = suspect.function
@@ -210,7 +220,7 @@ KINDS = (
             "yields": msg("Delete {name} in this line, and the yield in line {lines}."),
         },
         raised={NOT_NONE: _of_init},
-        fixed_by=(_without_value,),
+        fixed_by=(_without_value, _without_yield),
         examples=(
             example(
                 "init_returns_self",

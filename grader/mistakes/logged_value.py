@@ -1,4 +1,4 @@
-"""Mistakes in what a logger gets: a list, a message, a number or nothing instead of a text."""
+"""Mistakes in what a logger gets: a list, a message or a number instead of a text."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import starts_of, targets_of
 from grader.package.source.module import Function
-from grader.package.source.names import called_name, calls_in, dotted, last_part, own_name
+from grader.package.source.names import calls_in, dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS
 from grader.package.source.place import function_at
 
@@ -80,12 +80,10 @@ def _value_of(raised: Raised, given: ast.expr) -> ast.expr | None:
 
 
 def _returned(method: Function) -> ast.expr | None:
-    """Return what a method returns, if it has one return; None as Python writes it for no return."""
+    """Return what a method returns, if it has one return."""
     returns = [p for p in parts_of(method) if isinstance(p, ast.Return)]
     if any(isinstance(p, ast.Yield | ast.YieldFrom) for p in parts_of(method)):
         return None
-    if not any(r.value is not None for r in returns):
-        return ast.Constant(None)
     return returns[0].value if len(returns) == 1 else None
 
 
@@ -141,31 +139,26 @@ def _number(raised: Raised, given: ast.expr, value: ast.expr | None) -> Recognis
 
 def _of_value(raised: Raised, value: ast.expr) -> RecognisedMistake | None:
     """What was logged, by the code that makes it: its place is the line to change."""
-    if isinstance(value, ast.Constant) and value.value is None:
-        return _nothing(raised)
     if not raised.source.modules or not any(m.has(value) for m in raised.source.modules):
         return None
     text = raised.source.module_of(value).text
     code = text.code(value)
     if isinstance(value, ast.List | ast.Tuple | ast.Set) and value.elts:
-        if any(isinstance(part, ast.Starred) for part in value.elts):
+        if any(isinstance(part, ast.Starred) for part in value.elts) or not _is_line(raised, value):
             return None
         written = " + ".join(_as_text(text.code(part), part) for part in value.elts)
         kind = type(value).__name__.lower()
         return _finding(raised, value, code, written, kind)
-    if isinstance(value, ast.Constant) and isinstance(value.value, bytes) and code[:1] in "bB":
-        return _finding(raised, value, code, code[1:], "bytes")
-    if isinstance(value, ast.Call) and called_name(value) == "encode":
-        made = value.func.value if isinstance(value.func, ast.Attribute) else None
-        return _finding(raised, value, code, text.code(made), "bytes") if made is not None else None
-    if isinstance(value, ast.Call) and dotted(value.func) == "print":
-        return _nothing(raised)
     return None
 
 
-def _nothing(raised: Raised) -> RecognisedMistake | None:
-    found = raised.finding("logged_no_text", params={"name": "None"})
-    return replace(found, variant="nothing")
+def _is_line(raised: Raised, value: ast.List | ast.Tuple | ast.Set) -> bool:
+    """Whether values stand for one line: one of them is a text, and nothing else uses them."""
+    parts = [n for n in value.elts if isinstance(n, ast.JoinedStr) or _as_text("", n) == ""]
+    assigned = raised.source.module_of(value).parents.get(value)
+    names = [*targets_of(assigned)] if assigned is not None else []
+    used = [n for n in raised.source.all_nodes if dotted(n) in names]
+    return bool(parts) and len(used) <= 2 * len(names)
 
 
 def _as_text(code: str, part: ast.expr) -> str:
@@ -198,7 +191,6 @@ KINDS = (
                 "texts."
             ),
             "method": msg("{name} is a method, and no text: with (), Python calls it."),
-            "bytes": msg("This makes bytes, and no text. Line {line} logs them."),
             "message": msg(
                 "{name} is a message of the type {type}, and no text. The logger needs the text that "
                 "is in the message."
@@ -209,17 +201,10 @@ KINDS = (
             ),
             "number": msg("{name} is a number, and no text. str() makes a text of a number."),
             "counter": msg("{name} is a number, and no text."),
-            "nothing": msg(
-                "The value on that line is None: a function without a return gives None, and print() "
-                "does so too. The logger needs a text."
-            ),
         },
         fixes={
             "message_open": msg(
                 "Write {written} instead of {name}, with the name of the field in the place of …"
-            ),
-            "nothing": msg(
-                "Give the text itself to the logger: self.get_logger().info({f_string})"
             ),
             "unknown": msg(
                 "Give a text to the logger. If the value of {name} is what you want to log, write "
