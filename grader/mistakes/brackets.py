@@ -55,6 +55,9 @@ def _not_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
     named = [part for part in parts if isinstance(part, ast.Name | ast.Attribute)]
     if len(named) != 1 or last_part(dotted(named[0])) == "get_logger" or not dotted(named[0]):
         return None
+    around = raised.module.parents.get(named[0])
+    if isinstance(around, ast.Attribute) and isinstance(around.ctx, ast.Store):
+        return None
     given = _assigned(raised, named[0])
     part = named[0] if given is None else given
     if isinstance(part, ast.Call) or last_part(dotted(part)) == "get_logger":

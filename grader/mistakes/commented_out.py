@@ -25,6 +25,7 @@ from grader.report.model import Where
 NAME_ERROR = r"(?:NameError: name|UnboundLocalError: .{0,60}variable) '(?P<name>\w{1,120})'"
 NOT_INITIALIZED = r"NotInitializedException"
 SPIN = r"(?:rclpy\.)?(?:spin|spin_once)\(|\w+\.spin\("
+QUOTES = r"[ \t'\"]{0,9}"
 LOGGED = r"self\.get_logger\(\)\.\w+\(|self\.\w+\.info\("
 
 
@@ -112,7 +113,26 @@ def _assigned(source: NodeSource) -> set[str]:
 
 def _name(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name = match["name"]
-    return _raised(raised, rf"{name}[ \t]*=(?!=)|(?:from|import)[ \t][^#]*\b{name}\b")
+    found = _raised(raised, rf"{name}[ \t]*=(?!=)|(?:from|import)[ \t][^#]*\b{name}\b")
+    return found or _assigned_in_text(raised, name)
+
+
+def _assigned_in_text(raised: Raised, name: str) -> RecognisedMistake | None:
+    """The line that gives the name its value is in a text that nothing uses."""
+    module = raised.module
+    for node in module.nodes:
+        text = node.value if isinstance(node, ast.Expr) else None
+        if not isinstance(text, ast.Constant) or not isinstance(text.value, str):
+            continue
+        for number in range(text.lineno, (text.end_lineno or text.lineno) + 1):
+            match = re.fullmatch(
+                rf"{QUOTES}({name}[ \t]*=[^='\"]{{1,80}}?){QUOTES}", module.line(number)
+            )
+            if match is not None:
+                found = raised.finding("commented_out", written=match[1].strip(), name=name)
+                where = Where(file=module.path, line=number)
+                return replace(found, where=where, variant="assigned")
+    return None
 
 
 def _not_initialized(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -132,6 +152,7 @@ KINDS = (
         msg("Write {written} on a line of its own, without # before it."),
         whys={
             "text": msg("What is between three quotes is a text, and Python does not run it."),
+            "assigned": msg("What is between quotes is a text, and Python does not run it."),
         },
         fixes={
             "def": msg(
@@ -142,6 +163,7 @@ KINDS = (
                 "Write {written} on a line of its own, without # before it. Do the same with the "
                 "lines of its block, if they are comments too."
             ),
+            "assigned": msg("Write {written} on a line of its own, outside of the text in quotes."),
             "text": msg(
                 "Delete the three quotes in line {wanted} and in line {line}: the lines between them, "
                 "with {written}, are code."

@@ -28,6 +28,15 @@ UNSPUN = msg(
 )
 PERIOD = msg("The first argument of create_timer is the period in seconds.")
 WRITE_NUMBER = msg("Write {written} instead of {old} in line {line}: {code} is then {period} s.")
+SPINS = msg(
+    "The line shown spins the node: ROS calls your callbacks there. No other line of yours raised the "
+    "error. Compare the parameters of your callbacks, and what "
+    "create_timer gets, with the last line of the traceback."
+)
+NO_LINE = msg(
+    "No line of your files raised it. Read the last line of the traceback: it says what is wrong. The "
+    "lines above it show which file raised it, and what that file was doing."
+)
 
 _run = Family("run", links.FIRST_NODE)
 KINDS = (
@@ -40,10 +49,12 @@ KINDS = (
             "names it; the lines above show where it was raised."
         ),
         msg(
-            "Fix the line shown, then run the node again. After colcon build --symlink-install "
-            "you do not need to build again."
+            "Read the last line of the traceback: it says what is wrong with the line shown, with a "
+            "value that it uses, or with what it calls. Correct that, then run the node again. After "
+            "colcon build --symlink-install you do not need to build again."
         ),
         links.PYTHON_ERRORS,
+        fixes={"spins": SPINS, "no_line": NO_LINE},
         fixed_by=(layout.init_file,),
         examples=(
             example(
@@ -314,12 +325,22 @@ KINDS = (
         stage="callback",
         title=msg("The node ends by itself"),
         why=SPIN,
-        whys={"callback": msg("A callback that raises an exception ends the node.")},
+        whys=dict.fromkeys(
+            ("callback", "spins", "no_line"),
+            msg("An exception that nothing catches ends the node, also one in a callback."),
+        ),
         fix=msg(
             "Look for what ends the program, in the callback and in what it calls: an exit, a "
             "limit on the count, or a shutdown. Delete it."
         ),
-        fixes={"callback": msg("Fix the line that the traceback shows, and run the node again.")},
+        fixes={
+            "callback": msg(
+                "Read the last line of the traceback: it says what is wrong with the line shown, with "
+                "a value that it uses, or with what it calls. Correct that, and run the node again."
+            ),
+            "spins": SPINS,
+            "no_line": NO_LINE,
+        },
         link=links.EXECUTORS,
     ),
     _run(
@@ -556,8 +577,22 @@ KINDS = (
         "shutdown",
         msg("Your code raises an error after Ctrl+C"),
         msg("The code after rclpy.spin cleans up; an error in it hides how the node ended."),
-        msg("Fix that line or remove it."),
+        msg("Correct the line shown, or what it calls. Remove it if the node does not need it."),
         links.RCLPY,
+        whys={
+            "status": msg(
+                "The exit status says whether a program ended well: 0 means yes. This one is that of "
+                "an error, but Python printed no traceback: the program chose it."
+            )
+        },
+        fixes={
+            "status": msg(
+                "Look at what runs after Ctrl+C: {function} returns a value, or calls sys.exit() or "
+                "os._exit() with one. Remove the value."
+            ),
+            "spins": SPINS,
+            "no_line": NO_LINE,
+        },
     ),
     _run(
         "shutdown_twice",

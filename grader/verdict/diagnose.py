@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,7 +15,9 @@ from grader.course.assignment import OWN
 from grader.mistakes.catalogue import CATALOGUE, RANK
 from grader.mistakes.recognise import SYMPTOMS, behind_error, behind_symptom
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
-from grader.package.source.place import place_of
+from grader.package.source.module import Module
+from grader.package.source.names import calls_in, last_part
+from grader.package.source.place import place_of, statement_at
 from grader.package.source.setup_packages import packages_of
 from grader.report.model import Mistake, Where
 from grader.verdict.checks.faults import ended_program, raised_in
@@ -29,6 +32,7 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 RAISES = ("run.died_at_start", "run.ended_early", "run.error_at_stop")
+SPINS = ("spin", "spin_once", "spin_until_future_complete")
 SHORTEST = 3  # characters of a source line that is worth showing
 
 
@@ -91,6 +95,8 @@ def diagnose(failed: Failed, evidence: Evidence) -> Diagnosis:
         found = None
     if found is not None:
         _explain(diagnosis, found)
+    elif symptom in RAISES:
+        _say_where(diagnosis, failed, evidence)
     _show_line(diagnosis, evidence)
     diagnosis.mistakes.sort(key=lambda mistake: RANK[mistake.id])
     diagnosis.consequence_of = _same_root(diagnosis, evidence)
@@ -179,6 +185,34 @@ def _explain(diagnosis: Diagnosis, found: RecognisedMistake) -> None:
     name, close = str(found.params.get("name", "")), str(found.params.get("close", ""))
     difference = compared(name, close) if close else ""
     diagnosis.actual = joined(diagnosis.actual, title + meant(close), difference, by="\n")
+
+
+def _say_where(diagnosis: Diagnosis, failed: Failed, evidence: Evidence) -> None:
+    """Ask for no change of a line that only spins, nor of one that is not there.
+
+    That is all that is known of an exception that no entry of the catalogue explains.
+    """
+    where = failed.where
+    error, _ = raised_in(evidence, ended_program(evidence.run) or evidence.run)
+    if not error or failed.fix:
+        return
+    source = source_around(evidence, where) if where is not None and where.line else None
+    if where is None or not where.line:
+        variant = "no_line"
+    elif source is not None and _spins(source.module_at(where.file), where.line):
+        variant = "spins"
+    else:
+        return
+    kind, values = CATALOGUE[failed.mistake.id], {**failed.mistake.params, **failed.words}
+    diagnosis.rationale = kind.rationale(values, variant)
+    diagnosis.fix = kind.fix_text(values, variant)
+
+
+def _spins(module: Module, line: int) -> bool:
+    """Whether a line calls spin, so that the callbacks are called in it."""
+    statement = statement_at(module, line)
+    calls = calls_in(statement) if isinstance(statement, ast.Expr) else ()
+    return any(last_part(name) in SPINS for _, name in calls)
 
 
 def _show_line(diagnosis: Diagnosis, evidence: Evidence) -> None:

@@ -109,6 +109,35 @@ def test_a_services_type_and_name_in_the_wrong_order(bench: Bench, error: str) -
     assert shown_text.where == Where(file=NODE, line=line)
 
 
+@pytest.mark.parametrize("symptom", ["run.died_at_start", "run.ended_early", "run.error_at_stop"])
+@pytest.mark.parametrize(
+    ("at", "asks"),
+    [
+        ("rclpy.spin(", "The line shown spins the node"),
+        ("", "No line of your files raised it"),
+        ("self.counter_ += 1", "the line shown"),
+    ],
+)
+def test_an_unknown_error_is_not_blamed_on_a_line_that_only_spins(
+    symptom: str, at: str, asks: str, bench: Bench
+) -> None:
+    line = next(n for n, text in enumerate(RIGHT.splitlines(), 1) if at in text) if at else None
+    trace = TRACEBACK.format(line=line, error="RuntimeError: an unknown one")
+    seen = evidence(bench, RIGHT, trace.replace("my_first_node.py", NODE if at else "other.py"))
+    found = failed(symptom)
+    found.variant = "callback" if symptom == "run.ended_early" else ""
+    found.where = Where(file=NODE, line=line) if line else None
+    shown_text = diagnose(found, seen)
+    assert [m.id for m in shown_text.mistakes] == [symptom]
+    assert asks in shown_text.fix
+
+
+def test_a_status_without_an_error_asks_for_no_line(bench: Bench) -> None:
+    status = failed("run.error_at_stop")
+    status.where, status.variant = None, "status"
+    assert "sys.exit()" in diagnose(status, evidence(bench, RIGHT)).fix
+
+
 @pytest.mark.parametrize(
     ("callback", "error", "mistake"),
     [

@@ -44,6 +44,18 @@ def comment(case: Case) -> Files | None:
     return case.changed(module, Splice(at, at + 2, "#"))
 
 
+def other_comment(case: Case) -> Files | None:
+    """Begin a comment at the end of the line with # instead of %, -- or ;."""
+    module, line = case.module, case.finding.line or 0
+    name = str(case.finding.params.get("name", ""))
+    row = module.text.line(line) if module is not None else ""
+    match = re.search(rf"(?P<sign>%|--|;)[ \t]*{re.escape(name)}\s*\Z", row)
+    if module is None or match is None:
+        return None
+    at = module.text.start_of(line) + match.start()
+    return case.changed(module, Splice(at, at + len(match["sign"]), "#"))
+
+
 def lost_sum(source: NodeSource) -> tuple[ast.Expr | ast.Return, str] | None:
     """Return the statement of the callback that computes with the counter and keeps nothing."""
     logged = logged_counter(source)

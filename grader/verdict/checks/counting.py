@@ -196,7 +196,7 @@ def _silent(evidence: Evidence, expected: str) -> Failed:
             expected=expected,
             actual=ended,
             where=where or node_file(evidence),
-            variant="callback",
+            variant="callback" if error else "",
             params={"error": error.partition(":")[0]},
         )
     source = source_of_node(evidence)

@@ -240,4 +240,6 @@ def interrupt(evidence: Evidence) -> Passed:
         actual=joined(actual, error, by=": "),
         where=where,
         params={"error": error.partition(":")[0]},
+        variant="" if error else "status",
+        words=words(evidence),
     )

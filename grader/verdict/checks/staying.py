@@ -46,7 +46,7 @@ def stays(evidence: Evidence) -> Passed:
                 if isinstance(program, Program)
                 else say("the node ended by itself ({error})", error=shown),
                 where=where or file_of_program(evidence, program),
-                variant="callback",
+                variant="callback" if error else "",
                 params={"error": error.partition(":")[0]},
             )
         if run.seen is not None and run.seen.stuck is not None:

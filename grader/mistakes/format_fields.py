@@ -1,0 +1,235 @@
+"""Mistakes in the places of a text for format() and %: names and numbers for which no value is given."""
+
+from __future__ import annotations
+
+import ast
+import re
+import string
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from grader.base.i18n.message import msg
+from grader.base.shown import shown
+from grader.mistakes import links
+from grader.mistakes.example import DEAD, NODE, example
+from grader.mistakes.fixes import lines
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import Raised, RecognisedMistake
+from grader.package.edit.tree import Replace
+from grader.package.source.counter import starts_of
+from grader.package.source.module import Module
+from grader.package.source.names import called_name
+from grader.package.source.place import function_at, statement_at
+
+NO_KEY = r"KeyError: (?P<name>'[^'\n]{1,120}'|\"[^\"\n]{1,120}\")"
+NO_INDEX = r"IndexError: Replacement index \d{1,9} out of range"
+TEXT = "'Hello time: ' + str(self.counter_)"
+
+
+@dataclass(frozen=True)
+class Format:
+    """A call of format on a text in the code: the code of the text, and its places."""
+
+    call: ast.Call
+    text: str
+    fields: tuple[str, ...]
+
+    @property
+    def numbers(self) -> list[int]:
+        """The places with a number."""
+        return [int(field) for field in self.fields if field.isdecimal()]
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether the call gives nothing with * or **."""
+        starred = any(isinstance(a, ast.Starred) for a in self.call.args)
+        return not starred and all(k.arg for k in self.call.keywords)
+
+
+def _formats(raised: Raised) -> Iterator[Format]:
+    statement = statement_at(raised.module, raised.line)
+    for call in ast.walk(statement) if statement is not None else ():
+        if not isinstance(call, ast.Call) or called_name(call) != "format":
+            continue
+        made = call.func.value if isinstance(call.func, ast.Attribute) else None
+        code = raised.module.text.code(made) if made is not None else ""
+        plain = raised.module.text.plain_string(made)
+        if plain is None or "\n" in code:
+            continue
+        try:
+            fields = tuple(f for _, f, _, _ in string.Formatter().parse(plain) if f is not None)
+        except ValueError:
+            continue
+        found = Format(call, code, fields)
+        if found.is_plain:
+            yield found
+
+
+def _named(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A place of the text has a name for which the call of format gives no value."""
+    name = match["name"][1:-1]
+    for found in _formats(raised):
+        code = raised.module.text.code(found.call)
+        wrong = [field for field in found.fields if re.split(r"[.\[]", field)[0] == name]
+        if not wrong or "\n" in code:
+            continue
+        args, keywords = found.call.args, found.call.keywords
+        if not args and not keywords and all(_is_known(raised, f) for f in found.fields):
+            return _finding(raised, found, code, f"f{found.text}", "f_string")
+        if len(found.fields) == 1 and len(args) == 1 and not keywords:
+            place = re.search(rf"\{{{re.escape(wrong[0])}([^{{}}]*)\}}", found.text)
+            if place is not None:
+                return _finding(raised, found, place[0], f"{{{place[1]}}}", "empty")
+        if len(found.fields) == 1 and len(keywords) == 1 and not args:
+            old = f"{keywords[0].arg}={raised.module.text.code(keywords[0].value)}"
+            new = f"{name}={raised.module.text.code(keywords[0].value)}"
+            if name.isidentifier() and raised.module.text.code(keywords[0]) == old:
+                return _finding(raised, found, old, new, "keyword")
+        return _finding(raised, found, f"{{{wrong[0]}}}", "", "value")
+    return _of_percent(raised, name)
+
+
+def _is_known(raised: Raised, field: str) -> bool:
+    """Whether the code at this place can read what a place of the text names."""
+    name = re.split(r"[.\[]", field)[0]
+    module, function = raised.module, function_at(raised.module, raised.line)
+    if name == "self":
+        known = {f"self.{own}" for own in raised.source.attributes}
+        known |= set(starts_of(raised.source))
+        first = function.args.args[0].arg if function is not None and function.args.args else ""
+        return first == "self" and field in known
+    inside = ast.walk(function) if function is not None else module.nodes
+    local = {n.id for n in inside if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
+    top = {
+        n.id for s in module.tree.body for n in getattr(s, "targets", ()) if isinstance(n, ast.Name)
+    }
+    return field.isidentifier() and name in local | top
+
+
+def _numbered(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The places of the text count from 1, or one has a number for which there is no value."""
+    del match
+    for found in _formats(raised):
+        count = len(found.call.args)
+        if not count or len(found.numbers) != len(found.fields):
+            if count and not found.numbers and set(found.fields) == {""}:
+                return _finding(raised, found, found.text, str(len(found.fields)), "too_many")
+            continue
+        if count == len(found.numbers) == 1:
+            new = found.text.replace(f"{{{found.fields[0]}", "{0")
+            return _finding(raised, found, found.text, new, "counted")
+        if sorted(set(found.numbers)) != list(range(1, count + 1)):
+            return _finding(raised, found, found.text, str(count - 1), "highest")
+        new = re.sub(r"\{(\d{1,3})", lambda m: f"{{{int(m[1]) - 1}", found.text)
+        return _finding(raised, found, found.text, new, "counted")
+    return None
+
+
+def _of_percent(raised: Raised, name: str) -> RecognisedMistake | None:
+    """A text with %(name)d gets a dict without this name."""
+    statement = statement_at(raised.module, raised.line)
+    for part in ast.walk(statement) if statement is not None else ():
+        if not isinstance(part, ast.BinOp) or not isinstance(part.op, ast.Mod):
+            continue
+        text = raised.module.text.plain_string(part.left)
+        keys = _keys(raised.module, part.right)
+        if text is None or f"%({name})" not in text or keys is None or len(keys) != 1:
+            continue
+        if len(re.findall(r"%\(\w+\)", text)) == 1:
+            found = raised.finding(
+                "format_value_missing", at=part, name=keys[0], written=repr(name)
+            )
+            words = {**found.words, "place": f"%({name})"}
+            return replace(found, words=words, variant="key")
+    return None
+
+
+def _keys(module: Module, given: ast.expr) -> list[str] | None:
+    if not isinstance(given, ast.Dict):
+        return None
+    return [module.text.code(key) for key in given.keys if key is not None]
+
+
+def _finding(
+    raised: Raised, found: Format, name: str, written: str, variant: str
+) -> RecognisedMistake:
+    params = {"name": shown(name), "written": shown(written)}
+    mistake = raised.finding("format_value_missing", at=found.call, params=params)
+    place = next((f for f in found.fields if not f.isdecimal()), "")
+    words = {**mistake.words, "place": shown(place)}
+    return replace(mistake, words=words, variant=variant)
+
+
+_node = Family("node", links.PYTHON_STRINGS)
+OF_FORMAT = msg(
+    "format() puts the values of its () in the places of the text. A place with a name needs "
+    "name=value in the (), and {{}} takes the next value."
+)
+KINDS = (
+    _node(
+        "format_value_missing",
+        "text",
+        msg("format() has no value for a place of the text"),
+        OF_FORMAT,
+        msg("Give a value for this place in the () of format: {place}"),
+        whys={
+            "f_string": msg(
+                "format() does not know {place}: it only has the values of its (). An f-string reads "
+                "the variables themselves."
+            ),
+            "counted": msg("format() counts its values from 0: {{0}} is the first one."),
+            "highest": msg("format() counts its values from 0: {{0}} is the first one."),
+            "too_many": msg("Each {{}} of the text takes one value of the () of format."),
+            "key": msg("{place} takes the value that the dict has under this name."),
+        },
+        fixes={
+            "f_string": msg("Write an f-string: {written} instead of {name}"),
+            "empty": msg(
+                "Write {written} instead of {name} in the text: it takes the value of the ()."
+            ),
+            "keyword": msg("Write {written} instead of {name} in the () of format."),
+            "value": msg(
+                "Write in the () of format a name and a value for {name}. Or write {{}} instead of "
+                "{name}, and the value in the ()."
+            ),
+            "counted": msg("Write {written} instead of {name}."),
+            "highest": msg(
+                "No place of {name} may have a higher number than {written}: the last value of the () "
+                "has this number. Write a lower number, or give more values."
+            ),
+            "too_many": msg(
+                "The text has more places {{}} than format has values. Write a value in the () of "
+                "format for each place, or delete the places that are too many."
+            ),
+            "key": msg("Write {written} instead of {name} in the dict."),
+        },
+        raised={NO_KEY: _named, NO_INDEX: _numbered},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "format_without_values",
+                Replace(NODE, TEXT, "'Hello time: {self.counter_}'.format()"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "format_counts_from_one",
+                Replace(NODE, TEXT, "'Hello time: {1}'.format(self.counter_)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "format_of_other_name",
+                Replace(NODE, TEXT, "'Hello time: {n}'.format(m=self.counter_)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "format_with_name_and_no_keyword",
+                Replace(NODE, TEXT, "'Hello time: {counter}'.format(self.counter_)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+)
