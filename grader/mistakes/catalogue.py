@@ -71,6 +71,7 @@ from grader.mistakes import (
     values,
     which_node,
     worked_out,
+    wrong_object,
 )
 from grader.mistakes.example import Example
 from grader.mistakes.fixes.case import Finding, Fix
@@ -103,6 +104,7 @@ CATALOGUE: Mapping[str, Kind] = MappingProxyType(
             commented_out,
             foreign_letters,
             scope,
+            wrong_object,
             classes,
             objects,
             logger_call,

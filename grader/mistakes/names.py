@@ -62,8 +62,17 @@ def _close_method(raised: Raised, match: re.Match[str]) -> str:
         if _close_attribute(raised, name):
             return ""
         return nearest(name, {*NODE_METHODS, *raised.source.methods}, cutoff=0.75)
-    known = RCLPY if match["type"] == "rclpy" else (*NODE_METHODS, *LOG_METHODS)
-    return nearest(name, known, cutoff=0.7)
+    if match["type"] == "rclpy":
+        return nearest(name, RCLPY, cutoff=0.7)
+    if not _is_of_node(raised, match["type"]):
+        return ""
+    return nearest(name, (*NODE_METHODS, *LOG_METHODS), cutoff=0.7)
+
+
+def _is_of_node(raised: Raised, kind: str) -> bool:
+    """Whether an object of this type can have the methods of a node or of a logger."""
+    logger = kind.endswith("Logger")
+    return logger or kind in ("Node", "super") or kind in raised.source.known_classes
 
 
 def _is_written(raised: Raised, name: str) -> bool:
