@@ -165,7 +165,7 @@ KINDS = (
     _node(
         "object_in_tuple",
         "start",
-        msg("A comma makes a tuple of the object"),
+        msg("The variable has a tuple or a list instead of the object"),
         msg(
             "A comma at the end of a value makes a tuple of it. {variable} is then a tuple, which "
             "has the object in it, and not the object itself."
