@@ -86,14 +86,6 @@ def _is_class(raised: Raised, name: str) -> bool:
     return name in raised.source.known_classes or last_part(name) in raised.source.class_names
 
 
-def _class_not_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    del match
-    for node in raised.source.all_nodes:
-        if isinstance(node, ast.Assign) and _is_class(raised, dotted(node.value)):
-            return raised.finding("class_not_called", at=node, name=dotted(node.value))
-    return None
-
-
 def _not_a_node(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     """The class, or the own class that it inherits from, does not inherit from Node."""
     del match
@@ -299,22 +291,6 @@ KINDS = (
             example(
                 "spin_of_imported_class",
                 Replace(NODE, "rclpy.spin(node)", "rclpy.spin(Node)"),
-                fails="run.starts",
-            ),
-        ),
-    ),
-    _node(
-        "class_not_called",
-        "start",
-        msg("The () after the class is missing"),
-        msg("The name of a class creates no object; only calling it does."),
-        msg("Write {name}() where the node is created."),
-        links.PYTHON_CLASSES,
-        raised={"argument: 'self'|'property' object is not iterable": _class_not_called},
-        examples=(
-            example(
-                "node_not_made",
-                Replace(NODE, "node = MyFirstNode()", "node = MyFirstNode"),
                 fails="run.starts",
             ),
         ),

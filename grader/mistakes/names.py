@@ -62,8 +62,17 @@ def _close_method(raised: Raised, match: re.Match[str]) -> str:
         if _close_attribute(raised, name):
             return ""
         return nearest(name, {*NODE_METHODS, *raised.source.methods}, cutoff=0.75)
-    known = RCLPY if match["type"] == "rclpy" else (*NODE_METHODS, *LOG_METHODS)
-    return nearest(name, known, cutoff=0.7)
+    if match["type"] == "rclpy":
+        return nearest(name, RCLPY, cutoff=0.7)
+    if not _is_of_node(raised, match["type"]):
+        return ""
+    return nearest(name, (*NODE_METHODS, *LOG_METHODS), cutoff=0.7)
+
+
+def _is_of_node(raised: Raised, kind: str) -> bool:
+    """Whether an object of this type can have the methods of a node or of a logger."""
+    logger = kind.endswith("Logger")
+    return logger or kind in ("Node", "super") or kind in raised.source.known_classes
 
 
 def _is_written(raised: Raised, name: str) -> bool:
@@ -712,10 +721,7 @@ KINDS = (
                 "A value on that line is None: nothing was assigned to it, or a function returned "
                 "nothing."
             ),
-            "module": msg(
-                "The name is misspelt, or Python has imported another rclpy: a file rclpy.py or a "
-                "folder rclpy in your package comes before the one of ROS."
-            ),
+            "module": msg("The module rclpy has nothing with the name {name}."),
         },
         fixes={
             "written": msg("Write {written} instead of {name}."),
@@ -723,7 +729,10 @@ KINDS = (
             "parameter": msg("Write {written} instead of {name} behind get_parameter(…)."),
             "number": msg("Write {written} instead of {name}."),
             "none": msg("Find the line that should give it its value, and see what that does."),
-            "module": msg("Compare the name, and remove what is called rclpy from your package."),
+            "module": msg(
+                "Compare the name with the documentation of rclpy. Many of a node's functions are "
+                "methods of the node: self.name(…) in the class."
+            ),
         },
         seen=r"AttributeError: (?:'\w{1,120}' object|type object '\w{1,120}'|module "
         r"'[\w.]{1,200}') has no attribute '(?P<name>\w{1,120})'",

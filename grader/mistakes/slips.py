@@ -141,6 +141,26 @@ SIGNS = {
         "The text is in single quotes, so the ' inside it ends the text. Write double quotes around "
         "the text: {wanted}"
     ),
+    "field_changes": msg(
+        "In the braces of an f-string is only a value: nothing that changes it. Write: {wanted} "
+        "Then add, on a line of its own below it and in the same column: {step}"
+    ),
+    "field_sets": msg(
+        "In the braces of an f-string is only a value: nothing that changes it. Write: {wanted}"
+    ),
+    "field_empty": msg(
+        "The braces of an f-string need a value. Write between {{ and }} the name of the variable "
+        "that is to be shown."
+    ),
+    "field_format": msg(
+        "format() fills the braces here, so the text is no f-string. Remove the f before the "
+        "quotes: {wanted}"
+    ),
+    "field_backslash": msg(
+        "Before Python 3.12, the braces of an f-string cannot contain a backslash. Give the text "
+        "with the backslash to a variable on the line above, and write the variable in the braces."
+    ),
+    "brace_kind": msg("The braces of an f-string end with }}. Write: {wanted}"),
     "brace": msg("The brace in the f-string has no end. Write: {wanted}"),
     "brace_alone": msg("Remove the }} that closes no brace, or write the {{ before the value."),
     "brace_twice": msg("In an f-string, each value is between one {{ and one }}. Write: {wanted}"),
@@ -401,7 +421,8 @@ def words_of(slip: Slip | Pasted) -> dict[str, str]:
     """Return the values of the placeholders in the texts above."""
     wanted = slip.wanted if isinstance(slip, Slip) else ""
     line = str(slip.other) if isinstance(slip, Slip) else ""
-    return {"found": shown(slip.found), "wanted": shown(wanted), "line": line}
+    step = shown(slip.step) if isinstance(slip, Slip) else ""
+    return {"found": shown(slip.found), "wanted": shown(wanted), "line": line, "step": step}
 
 
 def description(slip: Slip | Pasted) -> Message:

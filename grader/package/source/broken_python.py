@@ -21,7 +21,7 @@ BLOCK = "def|class|if|elif|else|for|while|try|except|finally|with"
 class Slip:
     """A slip: its cause and variant, its line, what is written, and the line as it should be.
 
-    `other` is the number of another line that explains it. `fixed` is the file after the change;
+    `other` is the number of another line that explains it, `step` is a statement to add. `fixed` is the file after the change;
     None if more than one change is possible. Python may stop at another line of it.
     """
 
@@ -32,6 +32,7 @@ class Slip:
     wanted: str = ""
     fixed: bytes | None = None
     other: int = 0
+    step: str = ""
 
 
 @dataclass(frozen=True)
