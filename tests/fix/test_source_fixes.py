@@ -113,6 +113,7 @@ OTHERWISE = {
     "object_with_a_node_is_spun": "        rclpy.spin(node.node)\n",
     "object_with_a_node_in_executor": "        executor.add_node(app.node)\n",
     "main_under_guard": "try_shutdown()\n\n\nif __name__ == '__main__':\n    main()\n",
+    "printf_in_callback": "self.get_logger().info('Hello time: %d' % self.counter_)\n",
     "main_at_import": "\n\nif __name__ == '__main__':\n    main()\n",
     "import_of_module_missing": "from rclpy.node import Node\nimport time\n",
 }
@@ -121,7 +122,6 @@ NOT_FIXED = (
     *("error_hidden_in_main", "returns_if_zero", "rate_in_callback"),
     *(
         "start_outside_init",
-        "printf_in_callback",
         "to_string",
         "none_called",
     ),

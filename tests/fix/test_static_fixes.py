@@ -24,6 +24,7 @@ NOT_FIXED = {
     *("not_utf8", "null_bytes", "word_document"),
     *("node_hidden_by_folder", "group_twice_with_entries", "rich_text"),
     "build_type_twice",
+    "main_of_the_class",
     "manifest_in_utf_16",
 }
 NOTHING_TO_MARK = {

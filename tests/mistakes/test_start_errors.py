@@ -179,7 +179,7 @@ def test_a_dict_has_entries_and_no_attributes(tmp_path: Path) -> None:
     [
         ("KeyboardInterrupt()", "node.except_no_class"),
         ("'KeyboardInterrupt'", "node.except_no_class other"),
-        ("rclpy", ""),
+        ("rclpy", "node.not_an_exception"),
     ],
 )
 def test_an_except_names_a_class(named: str, kind: str) -> None:
@@ -223,7 +223,7 @@ def test_the_places_of_a_text(code: str, error: str, kind: str, new: str, tmp_pa
 
 def test_the_key_of_a_dict_is_no_place_of_a_text() -> None:
     text = changed((TEXT, "self.texts_['n'].format(1)"))
-    assert raised("KeyError: 'n'", text, line_of(text, "texts_")) is None
+    assert kind_of("KeyError: 'n'", text, "texts_") == "node.no_such_item key"
 
 
 LAMBDA = "TypeError: MyFirstNode.__init__.<locals>.<lambda>() missing 1 required positional argument: '{}'"
