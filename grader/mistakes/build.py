@@ -690,6 +690,10 @@ KINDS = (
                 "Delete {name} below [{section}] in setup.cfg: setuptools does not know it there. "
                 "Then build again."
             ),
+            "entry": msg(
+                "Delete line {line} of setup.cfg: {name}. An entry belongs in the list "
+                "console_scripts of setup.py. Then build again."
+            ),
             "option_close": msg(
                 "Write {wanted} instead of {name} below [{section}] in setup.cfg, then build again."
             ),
