@@ -286,7 +286,7 @@ def _entry_in_cfg(expected: str, error: str, name: str, setting: Setting) -> Fai
         actual=error,
         where=Where(file="setup.cfg", line=setting.line),
         variant="entry",
-        params={"error": error},
+        params={"error": error, "entry": setting.line},
         words={"name": shown(f"{name} = {setting.value}"), "line": setting.line},
     )
 
