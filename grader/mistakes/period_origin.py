@@ -125,7 +125,7 @@ def _told(suspect: Suspect, read: _Read, kind: type, wanted: type) -> Recognised
         params |= {"name": text.code(default), "written": repr(float(int(str(default.value))))}
         at, variant = default, "default"
     elif kind is str and wanted in (int, float) and NUMBER.fullmatch(str(default.value)):
-        params |= {"name": text.code(default), "written": repr(wanted(float(default.value)))}
+        params |= {"name": text.code(default), "written": repr(wanted(float(str(default.value))))}
         at = default
     found = suspect.finding("parameter_field", at, **params)
     types = {"type": ROS_TYPES[kind], "field": field.attr, "value": UNSET[wanted]}

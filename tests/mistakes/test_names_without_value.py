@@ -72,6 +72,8 @@ def test_a_call_under_a_condition_is_not_told_as_endless() -> None:
 
 def test_an_object_of_the_own_class_in_init_is_found() -> None:
     text = RIGHT.replace("self.counter_ = 0", "self.me_ = MyFirstNode()\n        self.counter_ = 0")
-    found = raised("RecursionError: maximum recursion depth exceeded", text, line_of(text, "me_"))
+    found = raised(
+        "RecursionError: maximum recursion depth exceeded", text, line_of(text, "self.me_")
+    )
     assert found is not None
     assert (found.kind, found.variant) == ("node.makes_itself", "")
