@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import CFG, SETUP, example
-from grader.mistakes.fixes import setup_py, syntax
+from grader.mistakes.fixes import setup_cfg, setup_py, syntax
 from grader.mistakes.kind import Kind, Parts, Variants
 from grader.mistakes.slips import (
     DOCUMENTS,
@@ -690,12 +690,26 @@ KINDS = (
                 "Delete {name} below [{section}] in setup.cfg: setuptools does not know it there. "
                 "Then build again."
             ),
+            "entry": msg(
+                "An entry belongs in the list console_scripts of setup.py. Delete line {line} of "
+                "setup.cfg, then build again. It is: {name}"
+            ),
             "option_close": msg(
                 "Write {wanted} instead of {name} below [{section}] in setup.cfg, then build again."
             ),
         },
-        fixed_by=(setup_py.fault,),
+        fixed_by=(setup_py.fault, setup_cfg.without_entry),
         examples=(
+            example(
+                "entry_in_setup_cfg",
+                Replace(
+                    CFG,
+                    "install_scripts=$base/lib/my_robot_controller\n",
+                    "install_scripts=$base/lib/my_robot_controller\n"
+                    "'test_node = my_robot_controller.my_first_node:main',\n",
+                ),
+                fails="build.colcon",
+            ),
             example(
                 "setup_folder_without_files",
                 Replace(

@@ -119,7 +119,7 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
 
 def _assigned(raised: Raised, node: ast.AnnAssign) -> str:
     value = node.annotation.value if isinstance(node.annotation, ast.Constant) else None
-    start = value if isinstance(value, int) else raised.assignment.output.start
+    start = value if isinstance(value, int | float) else raised.assignment.output.start
     return f"{dotted(node.target)} = {start}"
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -23,6 +24,7 @@ RIGHT = {kind: field for field, kind in FIELDS.items()}
 ROS_TYPES = {float: "double", int: "integer", str: "string", bool: "bool"}
 UNSET = {float: "0.0", int: "0", str: "''", bool: "False"}
 """What the fields of a ParameterValue hold that are not of the parameter's type."""
+NUMBER = re.compile(r"\d{1,6}(?:\.\d{1,6})?")
 TINY = 0.05  # seconds; with a longer period a node does not flood the terminal
 MOST_STEPS = 6
 
@@ -122,6 +124,9 @@ def _told(suspect: Suspect, read: _Read, kind: type, wanted: type) -> Recognised
     if (kind, wanted) == (int, float):
         params |= {"name": text.code(default), "written": repr(float(int(str(default.value))))}
         at, variant = default, "default"
+    elif kind is str and wanted in (int, float) and NUMBER.fullmatch(str(default.value)):
+        params |= {"name": text.code(default), "written": repr(wanted(float(str(default.value))))}
+        at = default
     found = suspect.finding("parameter_field", at, **params)
     types = {"type": ROS_TYPES[kind], "field": field.attr, "value": UNSET[wanted]}
     line = field.end_lineno or field.lineno

@@ -300,9 +300,9 @@ KINDS = (
         ),
     ),
     _node(
-        "calls_itself",
+        "recursion",
         "callback",
-        msg("A function calls itself without end"),
+        msg("Functions call each other without end"),
         msg(
             "A function that calls itself, directly or by way of another one, runs again and again "
             "until Python stops it. So does a property that reads or sets itself."
@@ -312,20 +312,7 @@ KINDS = (
             "that one with super()., not with self."
         ),
         seen=r"RecursionError: maximum recursion depth exceeded",
-        raised={r"RecursionError": _told("calls_itself")},
-        examples=(
-            example(
-                "property_sets_itself",
-                Replace(
-                    NODE,
-                    "    def timer_callback(self)",
-                    "    @property\n    def counter_(self):\n        return self.counter_\n\n"
-                    "    @counter_.setter\n    def counter_(self, value):\n"
-                    "        self.counter_ = value\n\n    def timer_callback(self)",
-                ),
-                fails="run.starts",
-            ),
-        ),
+        raised={r"RecursionError": _told("recursion")},
     ),
     _node(
         "abstract_method",

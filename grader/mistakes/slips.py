@@ -160,6 +160,11 @@ SIGNS = {
         "Before Python 3.12, the braces of an f-string cannot contain a backslash. Give the text "
         "with the backslash to a variable on the line above, and write the variable in the braces."
     ),
+    "future_late": msg(
+        "An import from __future__ is the first statement of a file. Move this line above all other "
+        "imports and other code (only comments and the text in three quotes at the start of the file "
+        "stay above it): {wanted}"
+    ),
     "brace_kind": msg("The braces of an f-string end with }}. Write: {wanted}"),
     "brace": msg("The brace in the f-string has no end. Write: {wanted}"),
     "brace_alone": msg("Remove the }} that closes no brace, or write the {{ before the value."),

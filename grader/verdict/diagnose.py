@@ -25,6 +25,7 @@ from grader.verdict.checks.parsed import file_of, has_subpackages, names_in
 from grader.verdict.circular import circular_import
 from grader.verdict.follows import followed
 from grader.verdict.node_files import source_around, source_of_node
+from grader.verdict.other_version import other_version
 from grader.verdict.outcome import Failed
 from grader.verdict.own_modules import own_module
 
@@ -127,6 +128,9 @@ def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedM
         return None
     if symptom == "run.wrong_node_name" and source.super_init is not None:
         diagnosis.where = place_of(source, source.super_init)
+    other = other_version(symptom, source, evidence)
+    if other is not None:
+        return other
     text = str(diagnosis.mistakes[0].params.get("text", ""))
     lines = tuple(event.text for event in evidence.run.watch.counted)
     suspect = Suspect(source, evidence.assignment, text, diagnosis.where, lines)

@@ -23,7 +23,7 @@ def with_period(default: str, field: str) -> str:
     [
         ("1", "double_value", "1", "1.0", "declare"),
         ("1.0", "integer_value", "integer_value", "double_value", "get_parameter_value"),
-        ("'1.0'", "double_value", "double_value", "string_value", "get_parameter_value"),
+        ("'1.0'", "double_value", "'1.0'", "1.0", "declare"),
     ],
 )
 def test_the_type_of_a_parameter_is_compared(

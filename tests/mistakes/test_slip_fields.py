@@ -34,3 +34,11 @@ def test_what_is_no_value_in_braces_is_named(text: str, variant: str, fixed: str
 @pytest.mark.parametrize("text", ["f'{n=}'\n", "f'{(n := 1)}'\n", "f'{n:=+4}'\n", "'{n += 1}'\n"])
 def test_right_braces_have_no_slip(text: str) -> None:
     assert slip_of(text.encode()) is None
+
+
+def test_a_late_import_of_the_future_is_moved_above_the_others() -> None:
+    head, future = '#!/usr/bin/env python3\n"""Doc."""\n\n', "from __future__ import annotations\n"
+    slip = slip_of(f"{head}import a\n{future}b = a\n".encode())
+    assert slip is not None
+    assert (slip.variant, slip.line) == ("future_late", 5)
+    assert (slip.fixed or b"").decode() == f"{head}{future}import a\nb = a\n"

@@ -17,7 +17,7 @@ from grader.mistakes.from_terminal import seen_in
 
 TRACE = 'Traceback (most recent call last):\n  File "/ws/install/x/lib/x/test_node", line 33\n'
 SHOWN = {
-    "node.calls_itself": ["RecursionError: maximum recursion depth exceeded"],
+    "node.recursion": ["RecursionError: maximum recursion depth exceeded"],
     "lab.not_installed": ["Package 'turtlesim' not found", "Package 'demo_nodes_cpp' not found"],
     "lab.overlay_not_sourced": ["Package 'my_robot_controller' not found"],
     "lab.ros_not_sourced": ["bash: ros2: command not found", "zsh: command not found: ros2"][:1],

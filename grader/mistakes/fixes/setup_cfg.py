@@ -138,3 +138,12 @@ def _is_read(found: bytes) -> bool:
     except SetupCfgFault:
         return False
     return True
+
+
+def without_entry(case: Case) -> Files | None:
+    """Delete the line with an entry of console_scripts."""
+    found, line = case.files.data("setup.cfg"), case.finding.params.get("entry")
+    text = read_text(found)
+    if text is None or not isinstance(line, int):
+        return None
+    return case.with_data("setup.cfg", text.spliced([text.without(line)]))

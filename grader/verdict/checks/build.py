@@ -17,7 +17,7 @@ from grader.package.source.module import parse_module
 from grader.package.source.names import dotted
 from grader.package.source.pasted import labels_in
 from grader.package.source.python import PythonFault
-from grader.package.source.setup_cfg import SetupCfgFault, read_setup_cfg
+from grader.package.source.setup_cfg import Setting, SetupCfgFault, read_setup_cfg
 from grader.package.source.setup_faults import NOT_REACHED, UNREAD, SetupFault, setup_fault
 from grader.package.source.setup_packages import packages_of
 from grader.package.source.setup_py import called_value, entry_outside, missing_imports
@@ -41,7 +41,7 @@ NO_COPY = re.compile(r"error: can't copy '[^'\n]{1,300}': doesn't exist")
 FLAT = "discovered in a flat-layout"  # setuptools, if setup() has no packages
 NO_FOLDER = re.compile(r"package directory '([^'\n]{1,200})' does not exist")
 NO_OPTION = re.compile(
-    r"error in setup\.cfg: command '([\w-]{1,40})' has no such option '([\w-]{1,60})'"
+    r"error in setup\.cfg: command '([\w-]{1,40})' has no such option '([^\n]{1,60})'"
 )
 EGG_BASE = re.compile(r"error: error in 'egg_base' option: '[^'\n]{1,200}'")
 NOT_WRITTEN = re.compile(
@@ -259,6 +259,13 @@ def _unknown_option(evidence: Evidence, expected: str, found: re.Match[str]) -> 
     except SetupCfgFault:
         settings = {}
     written = next((key for key in settings if key.replace("-", "_") == name), "")
+    setting = settings.get(written)
+    if (
+        written
+        and setting is not None
+        and re.match(r"['\"]|[\w.]+:\w+", f"{written[:1]}{setting.value}")
+    ):
+        return _entry_in_cfg(expected, found[0], written, setting)
     close = nearest(name, KEYS.values(), cutoff=0.75)
     return Failed(
         "build.failed",
@@ -268,6 +275,19 @@ def _unknown_option(evidence: Evidence, expected: str, found: re.Match[str]) -> 
         variant="option_close" if close else "option",
         params={"error": found[0]},
         words={"name": written or name, "section": section, "wanted": close},
+    )
+
+
+def _entry_in_cfg(expected: str, error: str, name: str, setting: Setting) -> Failed:
+    """Return that an entry of console_scripts is written in setup.cfg."""
+    return Failed(
+        "build.failed",
+        expected=expected,
+        actual=error,
+        where=Where(file="setup.cfg", line=setting.line),
+        variant="entry",
+        params={"error": error, "entry": setting.line},
+        words={"name": shown(f"{name} = {setting.value}"), "line": setting.line},
     )
 
 

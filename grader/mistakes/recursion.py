@@ -1,0 +1,205 @@
+"""Mistakes in which a function calls itself, or an object makes another of its class, without end."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import DEAD, NODE, STEP_LINE, example
+from grader.mistakes.fixes import lines
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.package.edit.tree import Replace
+from grader.package.source.module import Function
+from grader.package.source.names import dotted
+from grader.package.source.place import block_of, function_at, place_of
+
+RECURSION = "RecursionError"
+PROPERTY = ("property", "cached_property", "functools.cached_property")
+
+
+def _without_end(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    function = function_at(raised.module, raised.line)
+    if function is None:
+        return None
+    return (
+        _own_class(raised, function) or _own_property(raised, function) or _itself(raised, function)
+    )
+
+
+def _calls(function: Function) -> Iterator[ast.Call]:
+    """Yield the calls that run each time a function runs: none under a condition."""
+    waiting: list[ast.AST] = list(function.body)
+    for node in waiting:
+        if isinstance(node, ast.Call):
+            yield node
+        if not isinstance(
+            node, ast.If | ast.IfExp | ast.BoolOp | ast.Lambda | Function | ast.While
+        ):
+            waiting += ast.iter_child_nodes(node)
+
+
+def _statement(raised: Raised, part: ast.AST) -> ast.stmt | None:
+    found = (n for n in raised.module.around(part) if isinstance(n, ast.stmt))
+    return next(found, None)
+
+
+def _own_class(raised: Raised, function: Function) -> RecognisedMistake | None:
+    """__init__ makes an object of its own class."""
+    around = raised.module.parents.get(function)
+    if function.name != "__init__" or not isinstance(around, ast.ClassDef):
+        return None
+    for call in _calls(function):
+        statement = _statement(raised, call)
+        if dotted(call.func) != around.name or statement is None:
+            continue
+        target = statement.targets[0] if isinstance(statement, ast.Assign) else None
+        name = dotted(target) if target is not None else ""
+        uses = [n for n in raised.module.nodes if name and dotted(n) == name and n is not target]
+        uses = [n for n in uses if isinstance(n, ast.Name | ast.Attribute)]
+        params = {"name": name, "type": around.name}
+        found = raised.finding("makes_itself", at=call, params=params)
+        if (
+            isinstance(statement, ast.Assign | ast.Expr)
+            and getattr(statement, "value", None) is call
+        ):
+            return replace(found, variant="used") if uses else found
+        return None
+    return None
+
+
+def _own_property(raised: Raised, function: Function) -> RecognisedMistake | None:
+    """A property reads itself."""
+    if not any(dotted(d) in PROPERTY for d in function.decorator_list):
+        return None
+    code = f"self.{function.name}"
+    for part in ast.walk(function):
+        if isinstance(part, ast.Attribute) and dotted(part) == code:
+            params = {"name": code, "written": f"self._{function.name}", "method": function.name}
+            if any(dotted(n) == params["written"] for n in raised.module.nodes):
+                return raised.finding("property_of_itself", at=part, params=params)
+            return replace(
+                raised.finding("property_of_itself", at=part, params=params), variant="new"
+            )
+    return None
+
+
+def _itself(raised: Raised, function: Function) -> RecognisedMistake | None:
+    """A function calls itself each time."""
+    method = isinstance(raised.module.parents.get(function), ast.ClassDef)
+    wanted = f"self.{function.name}" if method else function.name
+    for call in _calls(function):
+        statement = _statement(raised, call)
+        if dotted(call.func) != wanted or not isinstance(statement, ast.Expr):
+            continue
+        if statement.value is not call:
+            return None
+        timed = any(timer.method == function.name for timer in raised.source.timers)
+        alone = len(block_of(raised.module, statement)) == 1
+        code = raised.module.text.code(call)
+        found = raised.finding("calls_itself", at=call, name=code, function=function.name)
+        return replace(found, variant="alone" if alone else "timed" if timed else "")
+    return None
+
+
+def _callback(suspect: Suspect) -> RecognisedMistake | None:
+    """The callback calls itself: each period brings hundreds of lines."""
+    source, callback = suspect.source, suspect.source.callback
+    if callback is None or source.method(callback.name) is not callback:
+        return None
+    where = place_of(source, callback)
+    return _itself(Raised("", where, source, suspect.assignment), callback)
+
+
+_node = Family("node", links.PYTHON_CLASSES)
+KINDS = (
+    _node(
+        "makes_itself",
+        "class",
+        msg("__init__ makes an object of its own class"),
+        msg(
+            "{type}() runs __init__, and this line of __init__ calls {type}() again: there is no "
+            "end. In a method, self is the object that {function} has made."
+        ),
+        msg("Delete this line."),
+        fixes={
+            "used": msg("Delete this line, and write self instead of {name} on the other lines.")
+        },
+        raised={RECURSION: _without_end},
+        fixed_by=(lines.deleted,),
+        examples=(
+            example(
+                "init_makes_itself",
+                Replace(
+                    NODE,
+                    "        super().__init__(",
+                    "        self.node_ = MyFirstNode()\n        super().__init__(",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "property_of_itself",
+        "callback",
+        msg("A property reads itself"),
+        msg("{name} is this property: each time it is read, the property runs and reads it again."),
+        msg("Write {written} instead of {name} on this line."),
+        fixes={
+            "new": msg(
+                "Give the value another name than the property: write {written} instead of {name} on "
+                "this line, and set {written} in __init__."
+            )
+        },
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "property_reads_itself",
+                Replace(NODE, "str(self.counter_))", "str(self.number))"),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    @property\n    def number(self):\n        return self.number\n\n"
+                    "    def timer_callback",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "calls_itself",
+        "callback",
+        msg("A function calls itself without end"),
+        msg("Each call of {function} comes to this line, which calls {function} again."),
+        msg("Delete this line: {name}"),
+        whys={
+            "timed": msg(
+                "Each call of {function} comes to this line, which calls {function} again. The timer "
+                "calls {function} in each period already."
+            )
+        },
+        fixes={"alone": msg("Write pass instead of this line: its block has no other line.")},
+        behind=dict.fromkeys(
+            (
+                *("run.wrong_step", "run.wrong_start", "run.twice", "run.wrong_period"),
+                *("run.too_much_output", "run.constant_counter", "run.by_hand"),
+            ),
+            _callback,
+        ),
+        fixed_by=(lines.deleted,),
+        examples=(
+            example(
+                "callback_calls_itself",
+                Replace(NODE, STEP_LINE, f"{STEP_LINE}        self.timer_callback()\n"),
+                fails="run.output",
+                blocks=("run.period", "run.interrupt"),
+            ),
+        ),
+    ),
+)
