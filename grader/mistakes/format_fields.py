@@ -16,7 +16,7 @@ from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import starts_of
+from grader.package.source.counter import starts_of, targets_of
 from grader.package.source.module import Module
 from grader.package.source.names import called_name
 from grader.package.source.place import function_at, statement_at
@@ -31,6 +31,7 @@ class Format:
     """A call of format on a text in the code: the code of the text, and its places."""
 
     call: ast.Call
+    made: ast.expr
     text: str
     fields: tuple[str, ...]
 
@@ -52,17 +53,29 @@ def _formats(raised: Raised) -> Iterator[Format]:
         if not isinstance(call, ast.Call) or called_name(call) != "format":
             continue
         made = call.func.value if isinstance(call.func, ast.Attribute) else None
+        made = _text_of(raised, made) if isinstance(made, ast.Name) else made
         code = raised.module.text.code(made) if made is not None else ""
         plain = raised.module.text.plain_string(made)
-        if plain is None or "\n" in code:
+        if made is None or plain is None or "\n" in code:
             continue
         try:
             fields = tuple(f for _, f, _, _ in string.Formatter().parse(plain) if f is not None)
         except ValueError:
             continue
-        found = Format(call, code, fields)
+        found = Format(call, made, code, fields)
         if found.is_plain:
             yield found
+
+
+def _text_of(raised: Raised, name: ast.Name) -> ast.expr | None:
+    """Return the text that a variable of the function gets, if that is its only value."""
+    function = function_at(raised.module, raised.line)
+    values = [
+        n.value
+        for n in (ast.walk(function) if function is not None else ())
+        if isinstance(n, ast.Assign | ast.AugAssign) and name.id in targets_of(n)
+    ]
+    return values[0] if len(values) == 1 else None
 
 
 def _named(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -74,7 +87,8 @@ def _named(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         if not wrong or "\n" in code:
             continue
         args, keywords = found.call.args, found.call.keywords
-        if not args and not keywords and all(_is_known(raised, f) for f in found.fields):
+        direct = found.made in ast.walk(found.call)
+        if direct and not args and not keywords and all(_is_known(raised, f) for f in found.fields):
             return _finding(raised, found, code, f"f{found.text}", "f_string")
         if len(found.fields) == 1 and len(args) == 1 and not keywords:
             place = re.search(rf"\{{{re.escape(wrong[0])}([^{{}}]*)\}}", found.text)
@@ -94,10 +108,10 @@ def _is_known(raised: Raised, field: str) -> bool:
     name = re.split(r"[.\[]", field)[0]
     module, function = raised.module, function_at(raised.module, raised.line)
     if name == "self":
-        known = {f"self.{own}" for own in raised.source.attributes}
-        known |= set(starts_of(raised.source))
+        own = re.split(r"[.\[]", f"{field}.")[1]
+        known = {*raised.source.attributes, *(s[5:] for s in starts_of(raised.source))}
         first = function.args.args[0].arg if function is not None and function.args.args else ""
-        return first == "self" and field in known
+        return first == "self" and own in known
     inside = ast.walk(function) if function is not None else module.nodes
     local = {n.id for n in inside if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
     top = {
@@ -154,7 +168,8 @@ def _finding(
     raised: Raised, found: Format, name: str, written: str, variant: str
 ) -> RecognisedMistake:
     params = {"name": shown(name), "written": shown(written)}
-    mistake = raised.finding("format_value_missing", at=found.call, params=params)
+    at = found.made if variant in ("empty", "counted", "highest") else found.call
+    mistake = raised.finding("format_value_missing", at=at, params=params)
     place = next((f for f in found.fields if not f.isdecimal()), "")
     words = {**mistake.words, "place": shown(place)}
     return replace(mistake, words=words, variant=variant)

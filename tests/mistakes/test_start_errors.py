@@ -221,6 +221,17 @@ def test_the_places_of_a_text(code: str, error: str, kind: str, new: str, tmp_pa
     assert patched(found, text, tmp_path) == (RIGHT.replace(TEXT, new) if new else "")
 
 
+def test_a_text_in_a_variable_is_named_at_its_own_line(tmp_path: Path) -> None:
+    log = "self.get_logger().info("
+    made = "text = 'Hello time: {n}'\n        "
+    text = changed((f"{log}{TEXT})", f"{made}{log}text.format(self.counter_))"))
+    found = raised("KeyError: 'n'", text, line_of(text, "get_logger"))
+    assert found is not None
+    assert found.where is not None
+    assert found.where.line == line_of(text, "text =")
+    assert patched(found, text, tmp_path) == text.replace("{n}", "{}")
+
+
 def test_the_key_of_a_dict_is_no_place_of_a_text() -> None:
     text = changed((TEXT, "self.texts_['n'].format(1)"))
     assert kind_of("KeyError: 'n'", text, "texts_") == "node.no_such_item key"
