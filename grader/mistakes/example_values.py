@@ -232,6 +232,12 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.step_is_text": COUNTER,
     "node.plus_reversed": COUNTER,
     "node.counter_not_increased": COUNTER,
+    "node.line_in_parts": {
+        "line": "14",
+        "at": "15",
+        "name": "log.info('Count: ')",
+        "written": "log.info('Count: ' + str(self.counter))",
+    },
     "node.counter_reset": {
         "name": "self.counter",
         "value": "0",
