@@ -238,6 +238,13 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "name": "log.info('Count: ')",
         "written": "log.info('Count: ' + str(self.counter))",
     },
+    "node.nothing_returned": {
+        "function": "add_one",
+        "line": "18",
+        "at": "7",
+        "name": "print(y)",
+        "written": "return y",
+    },
     "node.counter_reset": {
         "name": "self.counter",
         "value": "0",
