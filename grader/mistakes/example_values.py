@@ -245,6 +245,21 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "name": "print(y)",
         "written": "return y",
     },
+    "node.odd_character": {
+        "code": "U+00A0 NO-BREAK SPACE",
+        "before": "Count",
+        "after": "0",
+        "name": "Count",
+        "letter": "C",
+        "written": "'Count: '",
+    },
+    "node.line_end_in_text": {
+        "form": "\\n",
+        "name": "'Count: %d\\n'",
+        "written": "'Count: %d'",
+        "line": "14",
+        "at": "15",
+    },
     "node.counter_reset": {
         "name": "self.counter",
         "value": "0",
