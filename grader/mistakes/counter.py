@@ -17,13 +17,21 @@ from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.worked_out import INSTEAD, first_of, worked_out
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import parts_of_callback, targets_of
+from grader.package.source.asked_attribute import never_there
+from grader.package.source.counter import adds_to, parts_of_callback, starts_of, targets_of
 from grader.package.source.names import dotted, last_part
 
 SUM = ast.Add | ast.Sub
 MODULO = msg(
     "% {form} gives the rest of a division by {form}: after the numbers below {form} comes 0 again."
 )
+ONLY_DELETE = msg("Delete this line: the counter never starts again.")
+SET_ALREADY = msg("Delete this line: line {first} sets {name} already.")
+ALWAYS = msg(
+    "{code} in line {line} is always true: nothing sets an attribute with the name {asked}. So "
+    "each call sets {name} to {value} again. The first value belongs in __init__."
+)
+MOST_CODE = 80  # characters of a piece of code that a text shows
 LOG_AND_STEP = f"{LOG_LINE}{STEP_LINE}"
 
 
@@ -52,7 +60,10 @@ def _reset(suspect: Suspect) -> RecognisedMistake | None:
     counter = counter_in(suspect)
     if counter is None:
         return None
+    changed = bool(counter.added) or any(adds_to(node, counter.name) for node in counter.set)
     for node in counter.set:
+        if not changed and _is_under_if(suspect, node):
+            continue  # (nothing counts, so its condition may never be met)
         if isinstance(node.value, ast.Constant):
             value = str(node.value.value)[:40]
             found = suspect.finding("counter_reset", node, name=counter.name, value=value)
@@ -60,10 +71,32 @@ def _reset(suspect: Suspect) -> RecognisedMistake | None:
                 return replace(found, variant="local")
             around = suspect.source.function_around(node)
             if around is None or around is suspect.source.callback:
-                return found
+                return _in_callback(suspect, node, counter.name, found)
             words = {**found.words, "function": around.name}
             return replace(found, variant="helper", words=words)
     return None
+
+
+def _in_callback(
+    suspect: Suspect, node: ast.stmt, name: str, found: RecognisedMistake
+) -> RecognisedMistake:
+    """Say where the first value is set already, and which condition is always met."""
+    source = suspect.source
+    starts = starts_of(source)
+    first = starts.get(name)
+    there = first is not None and first.lineno != node.lineno
+    variant = "there" if there else ""
+    module = source.module_of(node)
+    test = next((a for a in module.around(node) if isinstance(a, ast.If)), None)
+    asked = never_there(source, test.test) if test is not None else None
+    words = dict(found.words)
+    if there and first is not None:
+        words["first"] = str(first.lineno)
+    if test is not None and asked is not None:
+        words |= {"asked": asked, "line": str(test.lineno)}
+        words["code"] = module.text.code(test.test)[:MOST_CODE]
+        variant = "always_there" if there else "always"
+    return replace(found, words=words, variant=variant)
 
 
 def _reset_if(suspect: Suspect) -> RecognisedMistake | None:
@@ -104,9 +137,17 @@ def _copy_increased(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+def _is_under_if(suspect: Suspect, node: ast.stmt) -> bool:
+    around = suspect.source.module_of(node).parents.get(node)
+    constant = isinstance(node, ast.Assign) and isinstance(node.value, ast.Constant)
+    return constant and isinstance(around, ast.If)
+
+
 def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
     counter = counter_in(suspect)
-    if counter is None or counter.added or counter.set or not _is_number(suspect, counter.name):
+    if counter is None or counter.added or not _is_number(suspect, counter.name):
+        return None
+    if any(not _is_under_if(suspect, node) for node in counter.set):
         return None
     for node in suspect.source.own_nodes:
         changed = isinstance(node, ast.AugAssign) and dotted(node.target)
@@ -234,6 +275,8 @@ KINDS = (
                 "{value}. Only an attribute (self.…) keeps its value from one call to the next."
             ),
             "if": msg("Each time the condition above this line is true, {name} starts again."),
+            "always": ALWAYS,
+            "always_there": ALWAYS,
             "helper": msg(
                 "{callback} calls {function}, and each call sets {name} to {value} again."
             ),
@@ -245,15 +288,19 @@ KINDS = (
                 "Write self.{name} = {value} in __init__ instead of this line, and self.{name} "
                 "in the callback."
             ),
-            "if": msg("Remove this line and its if: the counter never starts again."),
+            "if": ONLY_DELETE,
+            "always": msg("Move {name} = {value} to __init__."),
+            "there": SET_ALREADY,
+            "always_there": SET_ALREADY,
             "helper": msg(
                 "Set {name} only once: __init__ may do it, or call {function}, but {callback} must "
                 "not. Delete the call of {function} from {callback}, or the line that sets {name} "
                 "if {function} has other work to do for {callback}."
             ),
             "modulo": INSTEAD,
-            "modulo_line": msg("Delete this line: the counter never starts again."),
+            "modulo_line": ONLY_DELETE,
         },
+        deletes=("", "local", "if", "there", "always", "always_there", "modulo_line"),
         behind={"run.constant_counter": _reset, "run.wrong_step": first_of(_reset_if, _modulo)},
         fixed_by=(node_worked_out.change("modulo"), node_count.kept, node_count.moved),
         examples=(

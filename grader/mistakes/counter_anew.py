@@ -57,6 +57,7 @@ KINDS = (
         },
         behind={"run.constant_counter": _made_anew},
         fixed_by=(node_anew.once,),
+        deletes=("", "attribute", "there"),
         examples=(
             example(
                 "helper_made_anew",

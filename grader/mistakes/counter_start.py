@@ -139,6 +139,7 @@ KINDS = (
         },
         behind={"run.wrong_start": first_of(_adds_before_log, _added_before)},
         fixed_by=(node_count.start, node_worked_out.change("before", "returned")),
+        deletes=("",),
         examples=(
             example(
                 "adds_before_logging",

@@ -372,6 +372,7 @@ KINDS = (
             "run.exits_at_once": _ends,
         },
         fixed_by=(lines.deleted,),
+        deletes=("",),
         examples=(
             example(
                 "shutdown_in_callback",

@@ -221,6 +221,7 @@ KINDS = (
         msg("Move this line to {method}, below line {below}, which logs."),
         fixes={"above": msg("Move this line above line {line}.")},
         behind={"run.constant_counter": _step_after_return},
+        deletes=("", "above"),
         fixed_by=(node_order.before_return,),
         examples=(
             example(

@@ -55,7 +55,9 @@ class Kind:
     parameters), `raised` has functions by the pattern of an exception's last line, and `behind`
     functions by the symptom of a run. What the files alone show is recognised by the check.
     `fixed_by` are the fixes, in the order in which they are tried. `examples` are edits of a
-    right package that make the mistake.
+    right package that make the mistake. `deletes` are the variants whose fix takes away the statement
+    of the finding ("" is the fix without a variant): if its block has no other, the text says what
+    becomes of the block (`whole_block.py`).
     """
 
     id: str
@@ -71,6 +73,7 @@ class Kind:
     behind: Mapping[str, FromSource] = field(default_factory=dict)
     fixed_by: tuple[Fix, ...] = ()
     examples: tuple[Example, ...] = ()
+    deletes: tuple[str, ...] = ()
 
     @cached_property
     def pattern(self) -> re.Pattern[str] | None:
@@ -94,6 +97,7 @@ class Parts(TypedDict, total=False):
     behind: Mapping[str, FromSource]
     fixed_by: tuple[Fix, ...]
     examples: tuple[Example, ...]
+    deletes: tuple[str, ...]
 
 
 class Variants(Parts, total=False):

@@ -222,6 +222,7 @@ KINDS = (
         links.EXECUTORS,
         fixes={"used": msg("Delete this line, and what uses its value (line {line}).")},
         raised={"the given context is not valid": _needs_ros},
+        deletes=("", "used"),
         examples=(
             example(
                 "rate_after_spin",

@@ -601,6 +601,7 @@ KINDS = (
             )
         },
         raised={TWICE: _spun_twice},
+        deletes=("",),
     ),
     _node(
         "exits",
@@ -612,6 +613,7 @@ KINDS = (
         fixes={"if": msg("Delete this line and the if above it.")},
         behind={"run.ended_early": _exits},
         fixed_by=(lines.deleted,),
+        deletes=("",),
         examples=(
             example(
                 "three_then_exit",

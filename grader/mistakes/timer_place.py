@@ -241,6 +241,7 @@ KINDS = (
             "run.wrong_period": _again,
             "run.too_much_output": _again,
         },
+        deletes=("", "other"),
         fixed_by=(timer_place.only_first,),
         examples=(
             example(
@@ -308,6 +309,7 @@ KINDS = (
         links.EXECUTORS,
         raised={r"failed to create timer: the given context is not valid": _created_at_end},
         behind={"run.no_lines": _after_spin},
+        deletes=("",),
         fixed_by=(timer_place.above_spin,),
         examples=(
             example(
@@ -393,6 +395,7 @@ KINDS = (
             "called_line": msg("Delete this line: line {line} calls {maker}."),
         },
         behind={"run.twice": _two},
+        deletes=("line", "used", "called_line"),
         fixed_by=(node_count.twice, timer_place.one_timer),
         examples=(
             example(

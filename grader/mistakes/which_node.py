@@ -450,6 +450,7 @@ KINDS = (
         msg("{name} waits until Ctrl+C. The lines below it do not run before that."),
         msg("Remove this line: {function} spins the node after it was made."),
         behind={"run.no_lines": _spins_in_init},
+        deletes=("",),
         examples=(
             example(
                 "spin_in_init",

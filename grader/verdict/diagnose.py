@@ -15,6 +15,7 @@ from grader.course.assignment import OWN
 from grader.mistakes.catalogue import CATALOGUE, RANK
 from grader.mistakes.recognise import SYMPTOMS, behind_error, behind_symptom
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.mistakes.whole_block import rest_of_block
 from grader.package.source.module import Module
 from grader.package.source.names import calls_in, last_part
 from grader.package.source.place import place_of, statement_at
@@ -30,6 +31,7 @@ from grader.verdict.outcome import Failed
 from grader.verdict.own_modules import own_module
 
 if TYPE_CHECKING:
+    from grader.package.source.node import NodeSource
     from grader.verdict.evidence import Evidence
 
 RAISES = ("run.died_at_start", "run.ended_early", "run.error_at_stop")
@@ -95,7 +97,7 @@ def diagnose(failed: Failed, evidence: Evidence) -> Diagnosis:
     except RecursionError:  # (a hostile source; the check's own diagnosis is kept)
         found = None
     if found is not None:
-        _explain(diagnosis, found)
+        _explain(diagnosis, found, source_around(evidence, found.where))
     elif symptom in RAISES:
         _say_where(diagnosis, failed, evidence)
     _show_line(diagnosis, evidence)
@@ -176,12 +178,14 @@ def _no_init(package: str, init: str, evidence: Evidence) -> RecognisedMistake:
     )
 
 
-def _explain(diagnosis: Diagnosis, found: RecognisedMistake) -> None:
+def _explain(diagnosis: Diagnosis, found: RecognisedMistake, source: NodeSource | None) -> None:
     """Use the texts of the root cause's catalogue entry."""
     kind = CATALOGUE[found.kind]
     values = {**found.params, **found.words}
     diagnosis.rationale = kind.rationale(values, found.variant)
     diagnosis.fix = kind.fix_text(values, found.variant)
+    if found.variant in kind.deletes:
+        diagnosis.fix = joined(diagnosis.fix, rest_of_block(source, found.where), by=" ")
     diagnosis.mistakes.insert(0, Mistake(id=found.kind, params=dict(found.params)))
     if found.where is not None and (found.where.line or diagnosis.where is None):
         diagnosis.where = found.where

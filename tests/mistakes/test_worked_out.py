@@ -119,7 +119,7 @@ CASES = [
     ("run.wrong_text", changed((TEXT, "'Hello Time: %i' % self.counter_")),
      "node.text_elsewhere", "Hello Time", "Write 'Hello time: %i' instead of"),
     ("run.wrong_text", changed((TEXT, "f'Hello time: {self.counter_}\\n'")),
-     "node.text_elsewhere", "\\n'", "Write f'Hello time: {self.counter_}' instead of"),
+     "node.line_end_in_text", "\\n'", "Write f'Hello time: {self.counter_}' instead of"),
     ("run.wrong_text", changed((TEXT, f"({TEXT}).upper()")),
      "node.text_changed", ".upper()", f"Write ({TEXT}) instead of"),
     ("run.wrong_step", changed((LINE, f"        if self.counter_ % 2 == 0:\n    {LINE}")),

@@ -20,7 +20,7 @@ from grader.package.source.counter import (
     targets_of,
 )
 from grader.package.source.node import NodeSource
-from grader.package.source.place import statement_at
+from grader.package.source.place import block_of, heads_without, statement_at
 
 
 def plus(case: Case) -> Files | None:
@@ -239,9 +239,14 @@ def moved(case: Case) -> Files | None:
         return None
     if node.module is not module or statement in init.body or len(set(targets_of(statement))) != 1:
         return None
+    alone = len(block_of(module, statement)) == 1
+    heads = heads_without(module, statement) if alone else []
+    if heads is None:
+        return None
     indent = indent_of(module.text.line(base.lineno))
     after = module.text.before((base.end_lineno or base.lineno) + 1, f"{indent}{row.strip()}")
-    return case.changed(module, after, module.text.without(statement.lineno))
+    gone = [module.text.without(line) for line in (*heads, statement.lineno)]
+    return case.changed(module, after, *gone)
 
 
 def _made_attribute(case: Case, call: ast.Call) -> Files | None:

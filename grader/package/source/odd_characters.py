@@ -1,0 +1,145 @@
+"""Characters of a text that cannot be seen, or that look like others."""
+
+from __future__ import annotations
+
+import ast
+import re
+import unicodedata
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from grader.base.lookalikes import LATIN
+from grader.package.source.module import Module
+from grader.package.source.node import NodeSource
+
+DASHES_AND_QUOTES = {**dict.fromkeys("‐‑‒–—−", "-"), **dict.fromkeys("‘’", "'")}
+LINE_ENDS = "\n\r\t\v\f"
+ESCAPED = re.compile(r"\\[nrtvf]|\\\r?\n|[\n\r\t\v\f]")
+BLANKS = re.compile(r"\s{2,}")
+TRIPLE = ("'''", '"""')
+
+
+def plain(sign: str) -> str:
+    """Return what an English keyboard types for a character; itself if there is nothing."""
+    if sign.isascii():
+        return sign
+    if unicodedata.category(sign) == "Zs":
+        return " "
+    if unicodedata.category(sign) == "Cf":
+        return ""
+    known = LATIN.get(sign) or DASHES_AND_QUOTES.get(sign) or unicodedata.normalize("NFKC", sign)
+    return known if known.isascii() else sign
+
+
+def plain_text(text: str) -> str:
+    """Return a text with the characters of an English keyboard."""
+    return "".join(map(plain, text))
+
+
+@dataclass(frozen=True)
+class OddSign:
+    """A character: of which sort, and the words beside it.
+
+    `sort` is "space", "nothing" (it has no width) or "letter". `word` is the word with it; `before`
+    and `after` are the words on both sides.
+    """
+
+    sign: str
+    sort: str
+    word: str
+    before: str
+    after: str
+
+    @property
+    def code(self) -> str:
+        """The number of the character in Unicode, and its name."""
+        return f"U+{ord(self.sign):04X} {unicodedata.name(self.sign, '')}".strip()
+
+
+def odd_signs(text: str) -> list[OddSign]:
+    """Return the characters of a text that look like others or like nothing."""
+    found = []
+    for at, sign in enumerate(text):
+        new = plain(sign)
+        if new == sign:
+            continue
+        sort = {" ": "space", "": "nothing"}.get(new, "letter")
+        head = re.split(r"\s", text[:at])
+        tail = re.split(r"\s", text[at + 1 :])
+        word = f"{head[-1]}{sign}{tail[0]}"
+        before = next((w for w in reversed(head) if w), "")
+        after = next((w for w in tail if w), "")
+        found.append(OddSign(sign, sort, word, before, after))
+    return found
+
+
+def strings_with(
+    source: NodeSource, signs: set[str]
+) -> list[tuple[Module, ast.Constant | ast.JoinedStr]]:
+    """Return the strings of the node's functions in which one of these characters is typed."""
+    return [
+        (module, node) for module, node in _strings(source) if signs & set(module.text.code(node))
+    ]
+
+
+def _strings(source: NodeSource) -> Iterator[tuple[Module, ast.Constant | ast.JoinedStr]]:
+    """Yield the strings that are values, an f-string as a whole."""
+    for node in source.own_nodes:
+        if isinstance(node, ast.Constant) and not isinstance(node.value, str):
+            continue
+        if not isinstance(node, ast.Constant | ast.JoinedStr):
+            continue
+        module = source.module_of(node)
+        around = module.parents.get(node)
+        if not isinstance(around, ast.JoinedStr | ast.FormattedValue | ast.Expr):
+            yield module, node
+
+
+@dataclass(frozen=True)
+class BrokenText:
+    """A string with line ends or tabs in it: what to write, and which sign it is."""
+
+    module: Module
+    node: ast.Constant | ast.JoinedStr
+    written: str
+    sign: str  # \n, \t, …; "" if the string goes on in the next line of the file
+
+
+def broken_texts(source: NodeSource, head: str) -> list[BrokenText]:
+    """Return the strings of the functions that have line ends or tabs in them.
+
+    `head` is the text before the number: a string with this text only keeps its last blank.
+    """
+    found = []
+    for module, node in _strings(source):
+        if source.function_around(node) is None:
+            continue
+        value = _value(node)
+        several = (node.end_lineno or node.lineno) > node.lineno
+        code = module.text.code(node)
+        continued = several and "\\" in code and re.search(r"\\\r?\n", code) is not None
+        signs = [c for c in value if c in LINE_ENDS]
+        if not signs and not (continued and BLANKS.search(value)):
+            continue
+        sign = repr(signs[0])[1:-1] if signs and not several else ""
+        found.append(BrokenText(module, node, _on_one_line(code, node, head), sign))
+    return found
+
+
+def _value(node: ast.Constant | ast.JoinedStr) -> str:
+    parts = node.values if isinstance(node, ast.JoinedStr) else [node]
+    return "".join(str(p.value) for p in parts if isinstance(p, ast.Constant))
+
+
+def _on_one_line(code: str, node: ast.Constant | ast.JoinedStr, head: str) -> str:
+    """Return a string without line ends and tabs; "" if this is not certain."""
+    match = re.fullmatch(r"(?P<prefix>[fFuU]?)(?P<q>'''|\"\"\"|'|\")(?P<text>.*)(?P=q)", code, re.S)
+    if match is None:
+        return ""
+    quote = match["q"][0]
+    inside = BLANKS.sub(" ", ESCAPED.sub(" ", match["text"])).strip()
+    if isinstance(node, ast.Constant) and inside == head.strip():
+        inside = head
+    if quote in inside or "\\" in inside:
+        return ""
+    return f"{match['prefix']}{quote}{inside}{quote}"
