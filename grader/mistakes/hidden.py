@@ -9,19 +9,19 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
-from grader.mistakes.example import LOG, LOG_LINE, NODE, SILENT, STEP_LINE, example
-from grader.mistakes.fixes import node_order, node_try
+from grader.mistakes.example import LOG_LINE, NODE, SILENT, STEP_LINE, example
+from grader.mistakes.fixes import node_try
 from grader.mistakes.hidden_error import attribute_corrected, corrected, hidden_bodies, hidden_error
 from grader.mistakes.kind import Family
 from grader.mistakes.objects import OF_NODE
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import logged_counter, targets_of
+from grader.package.source.counter import targets_of
 from grader.package.source.imported import NODE as NODE_CLASS
 from grader.package.source.imported import full_name
 from grader.package.source.module import Function
-from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.names import dotted, last_part
 from grader.package.source.node import LOG_METHODS, NodeSource
 
 ALSO_OF_NODE = (
@@ -157,143 +157,8 @@ def _all_harmless(body: list[ast.stmt]) -> bool:
     return all(isinstance(s, ast.Pass | ast.Import | ast.ImportFrom) for s in body)
 
 
-def _returns(suspect: Suspect) -> RecognisedMistake | None:
-    for function in _functions(suspect.source):
-        for found in node_order.early_returns(function):
-            return _return(suspect, found)
-    return None
-
-
-def _return(suspect: Suspect, found: ast.Return) -> RecognisedMistake:
-    """A return that always runs: only its word is deleted, if it returns what a call does."""
-    mistake = suspect.finding("return_early", found)
-    return replace(mistake, variant="word" if node_order.does_something(found) else "")
-
-
-def _returns_before_log(suspect: Suspect) -> RecognisedMistake | None:
-    """Look for a return before the log line too, which may depend on a condition."""
-    always, callback = _returns(suspect), suspect.source.callback
-    logs = suspect.source.logs(callback) if callback is not None else []
-    if always is not None or callback is None or not logs:
-        return always
-    own = [n for n in ast.walk(callback) if isinstance(n, ast.Return)]
-    before = [n for n in own if n.lineno < logs[0].lineno]
-    if not before:
-        return None
-    return replace(suspect.finding("return_early", before[0]), variant="if")
-
-
-def _step_after_return(suspect: Suspect) -> RecognisedMistake | None:
-    """Look for a step below the return of a method that the callback calls."""
-    source = suspect.source
-    found, log = node_order.after_return(source), logged_counter(source)
-    around = source.function_around(log[0]) if log is not None else None
-    if found is None or log is None or around is None:
-        return None
-    method, returned, step = found
-    if log[1] not in targets_of(step):
-        return None
-    params: dict[str, str | int] = {
-        "line": returned.lineno,
-        "method": around.name,
-        "below": log[0].lineno,
-    }
-    mistake = suspect.finding("step_after_return", step, **params)
-    return replace(mistake, variant="above" if around is method else "")
-
-
-def _returns_before_spin(suspect: Suspect) -> RecognisedMistake | None:
-    main = suspect.source.main
-    for found in node_order.early_returns(main) if main is not None else []:
-        for call, name in calls_in(main) if main is not None else ():
-            if last_part(name) in node_order.SPINS and call.lineno > found.lineno:
-                return _return(suspect, found)
-    return None
-
-
 _node = Family("node", links.PYTHON_ERRORS)
 KINDS = (
-    _node(
-        "step_after_return",
-        "counter",
-        msg("The line that counts is below a return, so it never runs"),
-        msg("return ends the function: line {line} comes first, and this line does not run."),
-        msg("Move this line to {method}, below line {below}, which logs."),
-        fixes={"above": msg("Move this line above line {line}.")},
-        behind={"run.constant_counter": _step_after_return},
-        deletes=("", "above"),
-        fixed_by=(node_order.before_return,),
-        examples=(
-            example(
-                "counts_after_return",
-                Replace(NODE, STEP_LINE, ""),
-                Replace(
-                    NODE, "info('Hello time: ' + str(self.counter_))", "info(self.make_text())"
-                ),
-                Replace(
-                    NODE,
-                    "\n\ndef main(",
-                    "\n    def make_text(self):\n"
-                    "        return 'Hello time: ' + str(self.counter_)\n"
-                    f"{STEP_LINE}\n\ndef main(",
-                ),
-                fails="run.output",
-            ),
-        ),
-    ),
-    _node(
-        "return_early",
-        "callback",
-        msg("A return comes too early"),
-        msg("return ends the function: the lines below it do not run any more."),
-        msg("Delete this return: a function without it returns at its end."),
-        fixes={
-            "word": msg("Delete only the word return in this line: what follows it stays."),
-            "if": msg("Remove that return, or move it below the lines that must run."),
-        },
-        behind={
-            "run.no_lines": _returns_before_log,
-            "run.constant_counter": _returns,
-            "run.exits_at_once": _returns_before_spin,
-            "run.no_node": _returns_before_spin,
-        },
-        fixed_by=(node_order.returned,),
-        examples=(
-            example(
-                "returns_before_log",
-                Replace(NODE, LOG_LINE, f"        return\n{LOG_LINE}"),
-                fails="run.output",
-                blocks=SILENT,
-            ),
-            example(
-                "returns_the_log",
-                Replace(NODE, LOG, f"return {LOG}"),
-                fails="run.output",
-            ),
-            example(
-                "returns_before_step",
-                Replace(NODE, STEP_LINE, f"        return\n{STEP_LINE}"),
-                fails="run.output",
-            ),
-            example(
-                "returns_before_spin",
-                Replace(
-                    NODE, "    node = MyFirstNode()\n", "    node = MyFirstNode()\n    return\n"
-                ),
-                fails="run.starts",
-            ),
-            example(
-                "returns_if_zero",
-                Replace(
-                    NODE,
-                    LOG_LINE,
-                    f"        if self.counter_ == 0:\n            return\n{LOG_LINE}",
-                ),
-                fails="run.output",
-                blocks=SILENT,
-            ),
-        ),
-    ),
     _node(
         "error_hidden",
         "callback",

@@ -9,7 +9,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, SILENT, example
-from grader.mistakes.fixes import lines, node_life
+from grader.mistakes.fixes import lines, node_executor, node_life
 from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import placeholder_values
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
@@ -61,14 +61,20 @@ def _once(suspect: Suspect) -> RecognisedMistake | None:
     for call, name in suspect.source.calls:
         if last_part(name) == "spin_once":
             found = suspect.finding("spin_once", call)
+            node = str(placeholder_values(suspect.assignment, suspect.source)["node"])
+            wanted = node_executor.spun_by(suspect.source, node, name)
             if not _in_while(suspect, call):
-                return found
-            owner = name.rpartition(".")[0]
-            node = placeholder_values(suspect.assignment, suspect.source)["node"]
-            wanted = f"{owner}.spin()" if owner in executors(suspect) else f"rclpy.spin({node})"
+                own = wanted.startswith("rclpy.spin(")
+                return found if own else _of_executor(suspect, call, wanted)
             params = {**found.params, "wanted": wanted}
             return replace(found, variant="loop", params=params)
     return None
+
+
+def _of_executor(suspect: Suspect, call: ast.Call, wanted: str) -> RecognisedMistake:
+    code = suspect.source.module_of(call).text.code(call)
+    found = suspect.finding("spin_once", call, name=code, written=wanted)
+    return replace(found, variant="executor")
 
 
 def _in_while(suspect: Suspect, call: ast.Call) -> bool:
@@ -125,13 +131,7 @@ def _in_loop(suspect: Suspect, node: ast.AST) -> bool:
 
 def executors(suspect: Suspect) -> set[str]:
     """Return the variables of executors."""
-    made = [n for n in suspect.source.all_nodes if isinstance(n, ast.Assign)]
-    return {
-        dotted(target)
-        for node in made
-        if isinstance(node.value, ast.Call) and dotted(node.value.func).endswith("Executor")
-        for target in node.targets
-    }
+    return node_executor.executors_of(suspect.source)
 
 
 def _under_guard(suspect: Suspect) -> RecognisedMistake | None:
@@ -189,40 +189,20 @@ def _nowhere(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a node without spin, not even as in Thread(target=rclpy.spin)."""
     named = any(isinstance(n, ast.Attribute) and n.attr == "spin" for n in suspect.source.all_nodes)
     if named:
-        return _loop_above(suspect) or _added_late(suspect)
+        return _loop_above(suspect)
     return _idle(suspect) or _missing(suspect)
-
-
-def _own_spins(suspect: Suspect) -> list[ast.Expr]:
-    """Return the lines of the entry function's own block that spin."""
-    body = suspect.function.body if suspect.function is not None else []
-    return [s for s in body if isinstance(s, ast.Expr) and last_part(_called(s)) == "spin"]
-
-
-def _called(statement: ast.Expr) -> str:
-    return dotted(statement.value.func) if isinstance(statement.value, ast.Call) else ""
 
 
 def _loop_above(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a loop that only waits, above the line that spins."""
     loop = idle_loop(suspect.source, suspect.function) if suspect.function else None
-    below = [s for s in _own_spins(suspect) if loop is not None and s.lineno > loop.lineno]
+    body = suspect.function.body if suspect.function is not None else []
+    spins = [s for s in body if last_part(node_executor.called(s)) == "spin"]
+    below = [s for s in spins if loop is not None and s.lineno > loop.lineno]
     if loop is None or not below:
         return None
     found = suspect.finding("spin_missing", loop, line=str(below[0].lineno))
     return replace(found, variant="loop_above")
-
-
-def _added_late(suspect: Suspect) -> RecognisedMistake | None:
-    """Look for an executor that gets the node below the line that spins it."""
-    body = suspect.function.body if suspect.function is not None else []
-    for spin in _own_spins(suspect):
-        name = _called(spin).removesuffix(".spin")
-        adds = [s for s in body if isinstance(s, ast.Expr) and _called(s) == f"{name}.add_node"]
-        if name in executors(suspect) and adds and min(s.lineno for s in adds) > spin.lineno:
-            late = {"line": str(adds[0].lineno), "name": name}
-            return replace(suspect.finding("spin_missing", spin, **late), variant="added_late")
-    return None
 
 
 def _idle(suspect: Suspect) -> RecognisedMistake | None:
@@ -411,12 +391,17 @@ KINDS = (
                 "spin_once handles one callback and returns. The loop around it must go on until "
                 "Ctrl+C, and this loop ended earlier."
             ),
+            "executor": msg("{name} handles one callback and returns; then {function} ends."),
             "goes_on": msg(
                 "spin_once handles one callback and returns. The other lines of the loop around it "
                 "run in each round, not when a timer is due."
             ),
         },
-        fixes={"loop": WHOLE_LOOP, "goes_on": WHOLE_LOOP},
+        fixes={
+            "loop": WHOLE_LOOP,
+            "goes_on": WHOLE_LOOP,
+            "executor": msg("Write {written} instead of {name}."),
+        },
         behind={
             "run.exits_at_once": _once_only,
             "run.never_spins": _never_again,
@@ -424,7 +409,7 @@ KINDS = (
             "run.stops": _by_loop,
             "run.by_hand": _by_loop,
         },
-        fixed_by=(node_life.spin,),
+        fixed_by=(lines.written, node_life.spin),
         examples=(
             example(
                 "spin_once",
@@ -510,10 +495,6 @@ KINDS = (
                 "This loop does not end until Ctrl+C, so that line {line}, which spins the node, is "
                 "not reached before. The loop itself calls no callbacks."
             ),
-            "added_late": msg(
-                "spin waits until Ctrl+C: line {line}, which gives the node to the executor, is not "
-                "reached before. An executor without the node does not call its callbacks."
-            ),
             "guard": msg(
                 "ros2 run calls only {function}. Lines outside of it, such as those below if "
                 "__name__ == '__main__':, run only if you start the file itself."
@@ -528,7 +509,6 @@ KINDS = (
             "executor": msg("Write {name}.spin() below this line."),
             "loop": msg("Write rclpy.spin({node}) instead of this loop."),
             "loop_above": msg("Delete this loop: line {line} waits and calls the callbacks."),
-            "added_late": msg("Move line {line} ({name}.add_node) above this line."),
         },
         behind={
             "run.exits_at_once": _missing,

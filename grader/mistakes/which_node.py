@@ -9,7 +9,14 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, SILENT, SPIN_UNTIL_CTRL_C, example
-from grader.mistakes.fixes import lines, node_life, node_main, node_rename, node_setup
+from grader.mistakes.fixes import (
+    lines,
+    node_executor,
+    node_life,
+    node_main,
+    node_rename,
+    node_setup,
+)
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.spin import executors
@@ -58,6 +65,13 @@ def _nodes_made(suspect: Suspect) -> set[str]:
 
 
 def _executor_without_node(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for an executor that never gets a node, or only below the line that spins it."""
+    late = node_executor.added_late(suspect.source)
+    if late is not None:
+        owner = node_executor.called(late.spin).rpartition(".")[0]
+        rows = ", ".join(str(s.lineno) for s in late.adds)
+        found = suspect.finding("executor_without_node", late.spin, name=owner, line=rows)
+        return replace(found, variant="late")
     given = {
         name.rpartition(".")[0] for _, name in suspect.source.calls if name.endswith(".add_node")
     }
@@ -514,12 +528,32 @@ KINDS = (
             "An executor calls the callbacks of the nodes that were added to it, and of no others."
         ),
         msg("Write {name}.add_node(node) before {name}.spin()."),
+        whys={
+            "late": msg(
+                "spin waits until Ctrl+C: line {line}, which gives the node to the executor, is not "
+                "reached before. An executor without the node does not call its callbacks."
+            )
+        },
+        fixes={"late": msg("Move line {line} ({name}.add_node) above this line.")},
         behind={"run.never_spins": _executor_without_node, "run.no_lines": _executor_without_node},
+        fixed_by=(node_executor.added_first,),
         examples=(
             example(
                 "executor_without_node",
                 *OWN_EXECUTOR,
                 Replace(NODE, "        executor.add_node(node)\n", ""),
+                fails="run.spins",
+                blocks=("run.output", *SILENT),
+            ),
+            example(
+                "executor_gets_node_late",
+                *OWN_EXECUTOR,
+                Replace(NODE, "        executor.add_node(node)\n", ""),
+                Replace(
+                    NODE,
+                    "        executor.spin()\n",
+                    "        executor.spin()\n        executor.add_node(node)\n",
+                ),
                 fails="run.spins",
                 blocks=("run.output", *SILENT),
             ),

@@ -368,7 +368,7 @@ def test_a_harmless_mistake_is_advice(bench: Bench) -> None:
             MAIN,
             "    node = MyFirstNode()\n    executor = SingleThreadedExecutor()\n"
             "    executor.spin()\n    executor.add_node(node)\n",
-            "node.spin_missing",
+            "node.executor_without_node",
             "Move line 28 (executor.add_node) above this line.",
         ),
         (
@@ -386,6 +386,6 @@ def test_a_cause_is_named_only_if_it_is_certain(
     assert old in RIGHT
     found = diagnose(failed(symptom), evidence(bench, RIGHT.replace(old, new, 1)))
     names = {"node.sum_not_kept", "node.main_prints", "node.waits_first", "node.cleanup_early"}
-    names |= {"node.spin_not_called", "node.spin_missing"}
+    names |= {"node.spin_not_called", "node.spin_missing", "node.executor_without_node"}
     assert {m.id for m in found.mistakes} & names == ({mistake} if mistake else set())
     assert fix in str(found.fix)

@@ -103,7 +103,7 @@ def early_cleanup(source: NodeSource) -> tuple[ast.Expr, ast.stmt] | None:
 
     Only statements that always run count; a program that calls rclpy.init() again is right.
     """
-    body = list(_always_run(source.main.body)) if source.main is not None else []
+    body = list(always_run(source.main.body)) if source.main is not None else []
     spins = [s for s in body if _calls(s, SPINS)]
     for statement in body if spins else []:
         if statement is spins[0]:
@@ -119,7 +119,7 @@ def cleanup_by_call(source: NodeSource) -> tuple[ast.Expr, Function, str] | None
 
     With the function, and the name of what it calls.
     """
-    body = list(_always_run(source.main.body)) if source.main is not None else []
+    body = list(always_run(source.main.body)) if source.main is not None else []
     spins = [s for s in body if _calls(s, SPINS)]
     own = {f.name: f for m in source.modules for f in m.tree.body if isinstance(f, Function)}
     own |= source.methods
@@ -128,7 +128,7 @@ def cleanup_by_call(source: NodeSource) -> tuple[ast.Expr, Function, str] | None
         function = own.get(last_part(dotted(call.func))) if isinstance(call, ast.Call) else None
         if not isinstance(statement, ast.Expr) or function is None:
             continue
-        always = [s.value for s in _always_run(function.body) if isinstance(s, ast.Expr)]
+        always = [s.value for s in always_run(function.body) if isinstance(s, ast.Expr)]
         called = [dotted(value.func) for value in always if isinstance(value, ast.Call)]
         names = [name for name in called if last_part(name) in CLEANUP]
         if names and not any(_calls(s, SPINS) for s in function.body):
@@ -136,11 +136,11 @@ def cleanup_by_call(source: NodeSource) -> tuple[ast.Expr, Function, str] | None
     return None
 
 
-def _always_run(body: list[ast.stmt]) -> Iterator[ast.stmt]:
+def always_run(body: list[ast.stmt]) -> Iterator[ast.stmt]:
     """Yield the statements of a block in their order, with those in a try and in its finally."""
     for statement in body:
         if isinstance(statement, ast.Try):
-            yield from _always_run(statement.body + statement.orelse + statement.finalbody)
+            yield from always_run(statement.body + statement.orelse + statement.finalbody)
         else:
             yield statement
 
@@ -156,7 +156,7 @@ def cleaned_up_later(source: NodeSource) -> ast.stmt | None:
         return None
     name = dotted(found[0].value.func)
     kind = ("destroy_node",) if name.endswith("destroy_node") else ("shutdown", "try_shutdown")
-    body = list(_always_run(source.main.body))
+    body = list(always_run(source.main.body))
     return next((s for s in body[body.index(found[1]) :] if _calls(s, kind)), None)
 
 
@@ -204,7 +204,7 @@ def other_cleanups(source: NodeSource) -> list[ast.stmt]:
     found = early_cleanup(source)
     if found is None or source.main is None:
         return []
-    body = list(_always_run(source.main.body))
+    body = list(always_run(source.main.body))
     between = body[body.index(found[0]) + 1 : body.index(found[1])]
     return [s for s in between if isinstance(s, ast.Expr) and _calls(s, CLEANUP)]
 
