@@ -187,8 +187,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.period_zero": {"name": "0", "written": "1.0"},
     "node.period_tiny": {"name": "1e-6", "written": "1.0"},
     "node.call_assigned": {
-        "name": "self.create_timer = (1.0, self.callback)",
-        "written": "self.create_timer(1.0, self.callback)",
+        "name": "self.create_timer = (0.5, self.callback)",
+        "written": "self.create_timer(0.5, self.callback)",
         "method": "self.create_timer",
     },
     "node.square_brackets": {

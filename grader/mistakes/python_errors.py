@@ -176,22 +176,6 @@ KINDS = (
         },
         examples=(
             example(
-                "helper_for_the_text_returns_nothing",
-                Replace(
-                    NODE,
-                    LOG_LINE,
-                    "        self.get_logger().info('Hello time: ' + self.number())\n",
-                ),
-                Replace(
-                    NODE,
-                    "    def timer_callback(self)",
-                    "    def number(self):\n"
-                    "        str(self.counter_)\n\n    def timer_callback(self)",
-                ),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-            example(
                 "helper_for_the_logger_returns_nothing",
                 Replace(NODE, "self.get_logger().info", "self.log().info"),
                 Replace(
@@ -284,12 +268,6 @@ KINDS = (
                 Replace(NODE, "self.counter_ += 1", "self.counter_ += 1,"),
                 fails="run.output",
                 blocks=("run.interrupt",),
-            ),
-            example(
-                "logger_in_square_brackets",
-                Replace(NODE, LOG, "self.get_logger().info['Hello time: ' + str(self.counter_)]"),
-                fails="run.output",
-                blocks=DEAD,
             ),
             example(
                 "start_is_a_text_compared",
@@ -391,16 +369,6 @@ KINDS = (
                 _told("text_and_values", "type")
             ),
         },
-        examples=(
-            example(
-                "braces_with_percent",
-                Replace(
-                    NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: {}' % self.counter_"
-                ),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-        ),
     ),
     _node(
         "no_such_item",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import re
-import sys
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
@@ -15,7 +14,7 @@ from grader.mistakes.imports import IMPORTS
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
-from grader.package.source.module import Module
+from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted
 
 UNBOUND = (
@@ -35,7 +34,7 @@ FROM = {
     **dict.fromkeys(("partial", "cached_property"), "functools"),
     **dict.fromkeys(("count", "cycle"), "itertools"),
     **dict.fromkeys(("randint", "uniform"), "random"),
-    **dict.fromkeys(("sqrt", "pi", "floor", "ceil"), "math"),
+    **dict.fromkeys(("sqrt", "floor", "ceil"), "math"),
     **dict.fromkeys(("timedelta",), "datetime"),
     **dict.fromkeys(("dataclass",), "dataclasses"),
     **dict.fromkeys(("Enum", "IntEnum"), "enum"),
@@ -43,6 +42,11 @@ FROM = {
     **dict.fromkeys(("Thread", "Lock", "Event"), "threading"),
 }
 """Names of Python's standard modules that a node's file uses by themselves."""
+MODULES = (
+    *("argparse", "asyncio", "collections", "copy", "datetime", "enum", "functools", "itertools"),
+    *("json", "logging", "math", "os", "pathlib", "queue", "random", "re", "signal", "socket"),
+    *("string", "struct", "subprocess", "sys", "threading", "time", "traceback", "typing"),
+)
 
 
 def _colon(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -89,13 +93,21 @@ def _statement(module: Module, name: str) -> str:
     """Return the import of a name of Python's own modules that the file uses; "" if unknown."""
     uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
     read = [isinstance(module.parents.get(use), ast.Attribute) for use in uses]
-    if name in FROM and uses and not any(read):
+    called = [_is_called(module, use) for use in uses]
+    if name in FROM and uses and not any(read) and (all(called) or not name.islower()):
         return f"from {FROM[name]} import {name}"
     if name == "datetime" and all(getattr(module.parents[u], "attr", "") == "now" for u in uses):
         return "from datetime import datetime"
-    if name in sys.stdlib_module_names and uses and all(read) and not name.startswith("_"):
+    if name in MODULES and uses and all(read):
         return f"import {name}"
     return ""
+
+
+def _is_called(module: Module, use: ast.Name) -> bool:
+    """Whether a name is that of a call, or of a decorator."""
+    around = module.parents.get(use)
+    decorated = isinstance(around, Function | ast.ClassDef) and use in around.decorator_list
+    return decorated or (isinstance(around, ast.Call) and around.func is use)
 
 
 def _not_imported(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:

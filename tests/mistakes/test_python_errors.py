@@ -53,11 +53,6 @@ def found(error: str, line: str, body: str = "'Hello'") -> RecognisedMistake | N
         (NO_ATTRIBUTE, "self.get_logger().info(self.make_label().upper())", "self.make_label()"),
         (NO_ATTRIBUTE, "self.get_logger().info(self.label.upper())", "self.label"),
         (NO_SUM, "self.get_logger().info(str(self.label + 1))", "self.label"),
-        (
-            'TypeError: can only concatenate str (not "NoneType") to str',
-            "self.get_logger().info('Hello ' + self.make_label())",
-            "self.make_label()",
-        ),
     ],
 )
 def test_a_function_without_return_is_named(error: str, line: str, code: str) -> None:
@@ -82,6 +77,20 @@ def test_a_none_from_elsewhere_is_not_a_misspelling() -> None:
     )
     assert mistake is not None
     assert (mistake.kind, mistake.variant) == ("node.none_used", "")
+
+
+@pytest.mark.parametrize(
+    ("line", "imported"),
+    [
+        ("self.get_logger().info(str(count))", False),
+        ("self.get_logger().info(str(count(1)))", True),
+        ("self.get_logger().info(str(count.value))", False),
+    ],
+)
+def test_a_variable_is_not_told_to_be_imported(line: str, imported: bool) -> None:
+    mistake = found("NameError: name 'count' is not defined", line)
+    assert mistake is not None
+    assert (mistake.kind == "node.module_not_imported") == imported
 
 
 @pytest.mark.parametrize(
