@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import ast
+from dataclasses import replace
+
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import NODE, STEP_LINE, example
-from grader.mistakes.fixes import node_pace
+from grader.mistakes.example import LOG_LINE, NODE, STEP_LINE, example
+from grader.mistakes.fixes import node_pace, node_timer
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
+from grader.package.source.measured import measured
+from grader.package.source.period import is_right, seconds_of
 from grader.package.source.sleeps import longest_sleep
 
 SAME = 0.001  # seconds by which two equal periods differ at most
@@ -40,6 +45,27 @@ def _paced_by_sleep(suspect: Suspect) -> RecognisedMistake | None:
         slept=f"{slept[1]:g}",
         line=slept[0].lineno,
     )
+
+
+def _measures_time(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a callback that compares times where the timer itself waits."""
+    source = suspect.source
+    found = measured(source)
+    given = source.timers[0].period if len(source.timers) == 1 else None
+    if found is None or given is None or not found.needed:
+        return None
+    seconds = seconds_of(source, given)
+    written = node_timer.value_of(source, given) or given
+    mistake = suspect.finding(
+        "measures_time",
+        found.block,
+        name=ast.unparse(found.block.test)[:60],
+        line=written.lineno,
+        others=", ".join(str(s.lineno) for s in found.needed),
+    )
+    right = is_right(seconds, suspect.output.period)
+    variant = ("returns" if found.returns else "") + ("_right" if right else "")
+    return replace(mistake, variant=variant.lstrip("_"))
 
 
 _node = Family("node", links.EXECUTORS)
@@ -94,6 +120,60 @@ KINDS = (
                 Replace(NODE, "import rclpy\nfrom", "import time\nimport rclpy\nfrom"),
                 Replace(NODE, "create_timer(1.0,", "create_timer(0.1,"),
                 Replace(NODE, STEP_LINE, f"{STEP_LINE}        time.sleep(1)\n"),
+                fails="run.period",
+            ),
+        ),
+    ),
+    _node(
+        "measures_time",
+        "timer",
+        msg("The callback measures the time itself"),
+        msg(
+            "The timer calls {callback} when its period is over: no clock has to be read for that. "
+            "With the condition {name}, a line comes only with the next call after the time, and "
+            "each one a little later."
+        ),
+        msg(
+            "Write {period} as the period in line {line}. Delete the line of this if, and indent its "
+            "lines as far as the if is indented now. Delete what only the if needs (line {others})."
+        ),
+        fixes={
+            "right": msg(
+                "Delete the line of this if, and indent its lines as far as the if is indented now. "
+                "Delete what only the if needs (line {others})."
+            ),
+            "returns": msg(
+                "Write {period} as the period in line {line}. Delete this if with its return, and "
+                "what only the if needs (line {others})."
+            ),
+            "returns_right": msg(
+                "Delete this if with its return, and what only the if needs (line {others})."
+            ),
+        },
+        behind={
+            "run.wrong_period": _measures_time,
+            "run.stops": _measures_time,
+            "run.no_lines": _measures_time,
+        },
+        fixed_by=(node_pace.unmeasured,),
+        examples=(
+            example(
+                "measures_milliseconds",
+                Replace(NODE, "import rclpy\nfrom", "import time\nimport rclpy\nfrom"),
+                Replace(NODE, "create_timer(1.0,", "create_timer(0.01,"),
+                Replace(
+                    NODE,
+                    "        self.counter_ = 0\n",
+                    "        self.counter_ = 0\n        self.last = 0\n",
+                ),
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    "        now = time.time() * 1000\n"
+                    "        if now - self.last >= 1000:\n"
+                    "            self.last = now\n"
+                    f"    {LOG_LINE}    {STEP_LINE}",
+                ),
                 fails="run.period",
             ),
         ),

@@ -374,6 +374,10 @@ KINDS = (
         PERIOD,
         msg("Write create_timer({period}, self.{callback})."),
         whys={
+            "there": msg(
+                "The timer is due every {period} s. A line comes only if its callback is called in "
+                "time, and comes to the line that logs."
+            ),
             "calculated": msg(
                 "The period is {code}, in seconds. With {old} in line {line} it is {seconds} s."
             ),
@@ -385,6 +389,10 @@ KINDS = (
         fixes={
             "named": msg("Write {value} = {period}."),
             "several": msg("Write create_timer({period}, self.{callback}) once."),
+            "there": msg(
+                "create_timer has the right period. Look for what leaves lines out or holds them up "
+                "in {callback} and in what it calls: an if, a sleep, a loop."
+            ),
             "origin": msg("Write {written} instead of {old} in line {line}."),
             "calculated": WRITE_NUMBER,
             "rate": WRITE_NUMBER,
@@ -459,6 +467,12 @@ KINDS = (
         ),
         msg("Print the lines with self.get_logger().info(…) and leave the terminal as it is."),
         links.LOGGING,
+        fixes={
+            "logs": msg(
+                "The logger is used. Look for what else writes to the terminal: clear, or a text "
+                "with \\r or \\x1b. Delete it."
+            )
+        },
         examples=(
             example(
                 "erased_lines",
@@ -634,6 +648,21 @@ KINDS = (
             "Create a timer in __init__: self.create_timer({period}, self.{callback}). Log in its "
             "callback, and call rclpy.spin(node) in {function}."
         ),
+        fixes={
+            "timer": msg("Call rclpy.spin({node}) in {function}, after creating the node."),
+            "spins": msg(
+                "Create a timer in __init__: self.create_timer({period}, self.{callback}). Log in "
+                "its callback."
+            ),
+            "there": msg(
+                "A timer and a line that spins are there. Follow {function} from its first line: "
+                "does a line above wait or go on for ever, and is it your node that is spun?"
+            ),
+            "beside": msg(
+                "Log only in a callback of a timer: self.create_timer({period}, self.{callback}) in "
+                "__init__. Delete the loop or the thread that logs beside it."
+            ),
+        },
         link=links.EXECUTORS,
     ),
     _run(

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import ast
 import string
+from importlib import import_module
 from pathlib import Path
+from pkgutil import iter_modules
 from urllib.parse import urlsplit
 
 import pytest
 
+from grader import mistakes
 from grader.base.i18n.message import Message
 from grader.base.i18n.translator import Translator
 from grader.course.shorthands import SHORTHANDS
@@ -61,6 +64,14 @@ def test_every_mistake_that_the_code_names_has_an_entry() -> None:
     named = named_in_the_code()
     assert len(named) > 150
     assert named - set(CATALOGUE) == set()
+
+
+def test_each_record_of_each_module_is_in_the_catalogue_once() -> None:
+    modules = [
+        import_module(f"{mistakes.__name__}.{m.name}") for m in iter_modules(mistakes.__path__)
+    ]
+    records = [k for m in modules for k in getattr(m, "KINDS", ()) if isinstance(k, Kind)]
+    assert sorted(kind.id for kind in records) == sorted(CATALOGUE)
 
 
 def test_every_mistake_of_the_corpus_has_an_entry() -> None:

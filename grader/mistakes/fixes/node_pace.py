@@ -9,11 +9,12 @@ from grader.mistakes.fixes.lines import own_lines
 from grader.mistakes.fixes.node_timer import value_of
 from grader.mistakes.fixes.node_words import OPTIONS, option_of
 from grader.package.edit.files import Files
-from grader.package.edit.text import Splice
+from grader.package.edit.text import Splice, indent_of
+from grader.package.source.measured import measured
 from grader.package.source.module import Module
 from grader.package.source.names import dotted
 from grader.package.source.node import NodeSource
-from grader.package.source.period import number_in
+from grader.package.source.period import is_right, number_in, seconds_of
 from grader.package.source.place import block_of
 from grader.package.source.real_time import THROTTLE
 from grader.package.source.sleeps import longest_sleep, sleeps_of
@@ -71,6 +72,41 @@ def without_sleep(case: Case) -> Files | None:
         return None
     gone = [module.text.without(n) for n in (*lines, *_import_of(module, call))]
     return case.changed(module, _right(case, module, found[0]), *gone)
+
+
+def unmeasured(case: Case) -> Files | None:
+    """Set the timer's period, and delete the if that compares times, with what only it needs."""
+    node = case.node
+    found = measured(node) if node is not None else None
+    given = node.timers[0].period if node is not None and len(node.timers) == 1 else None
+    if node is None or found is None or given is None:
+        return None
+    block, module = found.block, node.module_of(found.block)
+    text = module.text
+    whole = [own_lines(module, statement) for statement in found.needed]
+    if any(rows is None for rows in whole) or any(not module.has(s) for s in found.needed):
+        return None
+    gone = {number for rows in whole for number in rows or ()}
+    first, last = block.body[0].lineno, block.end_lineno or block.lineno
+    if first == block.lineno:
+        return None
+    gone |= set(range(block.lineno, last + 1 if found.returns else first))
+    splices = [text.without(number) for number in sorted(gone)]
+    old, new = indent_of(text.line(first)), indent_of(text.line(block.lineno))
+    for number in range(first, last + 1):
+        row = text.line(number)
+        if number in gone or not row.strip():
+            continue
+        if not row.startswith(old):
+            return None
+        start = text.start_of(number)
+        splices.append(Splice(start, start + len(old), new))
+    if not is_right(seconds_of(node, given), case.assignment.output.period):
+        written = value_of(node, given) or given
+        if node.module_of(written) is not module:
+            return None
+        splices.append(_right(case, module, written))
+    return case.changed(module, *splices)
 
 
 def _import_of(module: Module, call: ast.Call) -> list[int]:

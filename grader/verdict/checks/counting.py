@@ -91,6 +91,7 @@ def _line_by_line(evidence: Evidence, wanted: Count, expected: str) -> Passed:
             expected=expected,
             actual=say("the lines were erased or hidden as soon as they were printed"),
             where=node_file(evidence),
+            variant="logs" if _logs(evidence) else "",
             words=words(evidence),
         )
     if not events:
@@ -317,6 +318,12 @@ def _must_go_on(evidence: Evidence, expected: str) -> None:
         where=where or node_file(evidence),
         variant="callback" if run.ended_by_itself and error else "",
     )
+
+
+def _logs(evidence: Evidence) -> bool:
+    """Whether the node's source calls a logger."""
+    source = source_of_node(evidence)
+    return source is not None and bool(source.own_logs)
 
 
 def _is_named(evidence: Evidence) -> bool:

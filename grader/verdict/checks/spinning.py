@@ -6,9 +6,11 @@ parameters and services never answer, no message reaches it, and it does not fol
 
 from __future__ import annotations
 
+import ast
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
+from grader.package.source.names import dotted, last_part
 from grader.run.conduct import full_name
 from grader.verdict.checks.declare import RUN, check
 from grader.verdict.checks.faults import file_of_node, going_on, line_of, node_file, words
@@ -61,8 +63,25 @@ def _never(evidence: Evidence) -> Failed | Blocked | Inconclusive:
         expected=say("a node that spins: it answers, and ROS calls its callbacks"),
         actual=say("the node does not answer: nothing calls its callbacks"),
         where=node_file(evidence),
+        variant=_what_is_there(evidence),
         words=words(evidence),
     )
+
+
+def _what_is_there(evidence: Evidence) -> str:
+    """Return which text asks only for what the source lacks."""
+    source = source_of_node(evidence)
+    if source is None:
+        return ""
+    parts = source.all_nodes
+    spins = any(isinstance(n, ast.Attribute | ast.Name) and _named(n) == "spin" for n in parts)
+    if source.timers:
+        return "there" if spins else "timer"
+    return "spins" if spins else ""
+
+
+def _named(node: ast.AST) -> str:
+    return last_part(dotted(node))
 
 
 def _others_spin(evidence: Evidence) -> None:

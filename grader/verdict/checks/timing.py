@@ -17,7 +17,7 @@ from grader.mistakes.fixes.node_pace import throttled
 from grader.mistakes.fixes.node_timer import value_of
 from grader.package.source.names import dotted
 from grader.package.source.node import NodeSource
-from grader.package.source.period import Origin, is_right, number_in, origin_of
+from grader.package.source.period import Origin, is_right, number_in, origin_of, seconds_of
 from grader.package.source.place import place_of
 from grader.package.source.sleeps import longest_sleep
 from grader.package.source.timer import Timer
@@ -263,7 +263,10 @@ def told_of_period(source: NodeSource, wanted: float) -> Told:
     origin = origin_of(source, timer.period) if len(source.timers) == 1 else None
     if origin is not None and not is_right(origin.seconds, wanted) and origin.right(wanted):
         return _told_of_origin(source, origin, wanted)
-    return Told(place_of(source, timer.call), "several" if _is_made_again(source, timer) else "")
+    if _is_made_again(source, timer):
+        return Told(place_of(source, timer.call), "several")
+    known = seconds_of(source, timer.period) if timer.period is not None else None
+    return Told(place_of(source, timer.call), "there" if is_right(known, wanted) else "")
 
 
 def _told_of_origin(source: NodeSource, origin: Origin, wanted: float) -> Told:
