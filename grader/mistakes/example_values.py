@@ -141,6 +141,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "written": "rclpy.init(args=args)",
     },
     "node.ros_hidden": {"name": "rclpy"},
+    "node.measures_time": {"name": "now - self.last >= 1", "line": 12, "others": "9, 15"},
     "node.none_used": {"name": "self.text", "function": "make_text", "line": 20},
     "node.types_do_not_fit": {
         "first": "int",
