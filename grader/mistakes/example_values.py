@@ -142,6 +142,16 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.ros_hidden": {"name": "rclpy"},
     "node.measures_time": {"name": "now - self.last >= 1", "line": 12, "others": "9, 15"},
+    "node.group_class": {
+        "name": "ReentrantCallbackGroup",
+        "written": "ReentrantCallbackGroup()",
+    },
+    "node.destroys_timer": {"name": "node.destroy_timer()", "written": "node.destroy_node()"},
+    "node.rate_for_timer": {
+        "name": "self.create_rate(0.5, self.callback)",
+        "written": "self.create_timer(0.5, self.callback)",
+    },
+    "node.inside_call": {"name": "float"},
     "node.none_used": {"name": "self.text", "function": "make_text", "line": 20},
     "node.types_do_not_fit": {
         "first": "int",
