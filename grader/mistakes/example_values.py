@@ -231,7 +231,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.str_plus_int": {"name": "self.counter", "written": "str(self.counter)"},
     "node.step_is_text": COUNTER,
     "node.plus_reversed": COUNTER,
-    "node.counter_not_increased": COUNTER,
+    "node.counter_not_increased": {
+        **COUNTER,
+        "attribute": "self.counter",
+        "written": "self.counter += 1",
+    },
     "node.line_in_parts": {
         "line": "14",
         "at": "15",
@@ -421,7 +425,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.period_negative": {"name": "-1.0", "written": "1.0"},
     "node.callback_decorated": {"name": "staticmethod"},
-    "node.counter_in_text": COUNTER,
+    "node.counter_in_text": {**COUNTER, "found": "(", "written": "{self.counter}"},
     "node.loop_in_callback": {"name": "for", "number": "i"},
     "node.log_if": {"name": "self.counter < 5"},
     "node.count_if": {"name": "self.counter", "text": "self.counter > 0"},
