@@ -18,13 +18,7 @@ from grader.mistakes.worked_out import INSTEAD, first_of, worked_out
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.asked_attribute import never_there
-from grader.package.source.counter import (
-    adds_to,
-    parts_of_callback,
-    starts_of,
-    targets_of,
-    without_effect,
-)
+from grader.package.source.counter import adds_to, parts_of_callback, starts_of, targets_of
 from grader.package.source.names import dotted, last_part
 
 SUM = ast.Add | ast.Sub
@@ -159,13 +153,6 @@ def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
         changed = isinstance(node, ast.AugAssign) and dotted(node.target)
         if changed and last_part(changed) == last_part(counter.name):
             return None  # (it is increased elsewhere)
-    idle = without_effect(suspect.source)
-    if idle is not None and idle[1] == counter.name:
-        code = suspect.source.module_of(idle[0]).text.code(idle[0])
-        new = f"{counter.name} += {suspect.output.step}"
-        found = suspect.finding("counter_not_increased", idle[0], name=code, written=new)
-        words = {**found.words, "attribute": counter.name}
-        return replace(found, words=words, variant="idle")
     return suspect.finding("counter_not_increased", counter.logged, name=counter.name)
 
 
@@ -372,21 +359,9 @@ KINDS = (
         msg("Nothing is added to the counter"),
         msg("The callback logs the counter; without += every line shows the same number."),
         msg("Add to the callback, after the log line: {name} += {step}"),
-        whys={
-            "idle": msg(
-                "{name} does not change {attribute}: Python has no ++, and a sum alone is not kept. "
-                "Only = and += give {attribute} another value."
-            )
-        },
-        fixes={"idle": INSTEAD},
         behind={"run.constant_counter": _not_increased},
-        fixed_by=(lines.written, node_count.step),
+        fixed_by=(node_count.step,),
         examples=(
-            example(
-                "counter_with_plus_plus",
-                Replace(NODE, "self.counter_ += 1", "++self.counter_"),
-                fails="run.output",
-            ),
             example(
                 "counter_constant",
                 Replace(NODE, "        self.counter_ += 1\n", ""),

@@ -231,11 +231,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.str_plus_int": {"name": "self.counter", "written": "str(self.counter)"},
     "node.step_is_text": COUNTER,
     "node.plus_reversed": COUNTER,
-    "node.counter_not_increased": {
-        **COUNTER,
-        "attribute": "self.counter",
-        "written": "self.counter += 1",
-    },
+    "node.counter_not_increased": COUNTER,
     "node.line_in_parts": {
         "line": "14",
         "at": "15",
