@@ -260,6 +260,14 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "line": "14",
         "at": "15",
     },
+    "node.counter_other_value": {
+        "attribute": "self.counter",
+        "what": "an array of numpy",
+        "line": "9",
+        "name": "self.counter = np.zeros(1)",
+        "written": "self.counter = 0",
+        "others": "15",
+    },
     "node.counter_reset": {
         "name": "self.counter",
         "value": "0",
