@@ -392,6 +392,14 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "line": "14",
         "at": "15",
     },
+    "node.counter_other_value": {
+        "attribute": "self.counter",
+        "what": "an array of numpy",
+        "line": "9",
+        "name": "self.counter = np.zeros(1)",
+        "written": "self.counter = 0",
+        "others": "15",
+    },
     "node.counter_reset": {
         "name": "self.counter",
         "value": "0",
@@ -553,7 +561,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.period_negative": {"name": "-1.0", "written": "1.0"},
     "node.callback_decorated": {"name": "staticmethod"},
-    "node.counter_in_text": COUNTER,
+    "node.counter_in_text": {**COUNTER, "found": "(", "written": "{self.counter}"},
     "node.loop_in_callback": {"name": "for", "number": "i"},
     "node.log_if": {"name": "self.counter < 5"},
     "node.count_if": {"name": "self.counter", "text": "self.counter > 0"},

@@ -1,18 +1,20 @@
-"""Mistakes with numbers and lists: len() of a number, and a list as the counter."""
+"""Mistakes with numbers and lists: len() of a number, and what else is used as the counter."""
 
 from __future__ import annotations
 
 import re
 from dataclasses import replace
 
-from grader.base.i18n.message import msg
+from grader.base.i18n.message import Value, msg, say
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, example
-from grader.mistakes.fixes import node_lists
+from grader.mistakes.fixes import lines, node_lists
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.mistakes.worked_out import INSTEAD
 from grader.package.edit.tree import Replace
 from grader.package.source.names import dotted
+from grader.package.source.other_values import other_value
 
 
 def _len_of_number(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -36,6 +38,44 @@ def _is_list(suspect: Suspect) -> RecognisedMistake | None:
     return replace(mistake, variant="line", words=words)
 
 
+def _other_value(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a counter that is something else than a number, by the form of the text."""
+    head, tail = suspect.output.text.split("{n}")
+    text = suspect.text
+    if not text.startswith(head) or not text.endswith(tail):
+        return None
+    source = suspect.source
+    found = other_value(source, text[len(head) : len(text) - len(tail)])
+    if found is None:
+        return None
+    code, start = found.module.text.code, suspect.output.start
+    words: dict[str, Value] = {"what": WHAT[found.sort], "line": str(found.start.lineno)}
+    words["attribute"] = found.name
+    if found.element is not None:
+        name = source.module_of(found.element).text.code(found.element)
+        mistake = suspect.finding(
+            "counter_other_value", found.element, name=name, written=f"int({name})"
+        )
+        return replace(mistake, words={**mistake.words, **words}, variant="element")
+    written = f"{found.name} = {start}"
+    mistake = suspect.finding(
+        "counter_other_value", found.start, name=code(found.start), written=written
+    )
+    words["others"] = ", ".join(str(node.lineno) for node in found.others)
+    variant = "changes" if found.others else ""
+    return replace(mistake, words={**mistake.words, **words}, variant=variant)
+
+
+WHAT = {
+    "array": say("an array of numpy"),
+    "list": say("a list"),
+    "tuple": say("a tuple"),
+    "dict": say("a dictionary"),
+    "set": say("a set"),
+    "complex": say("a complex number"),
+    "time": say("a time"),
+    "decimal": say("a number with its own form"),
+}
 _node = Family("node", links.PYTHON_ERRORS)
 KINDS = (
     _node(
@@ -83,6 +123,45 @@ KINDS = (
                 "counter_is_list",
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = []"),
                 Replace(NODE, "self.counter_ += 1", "self.counter_.append(1)"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "counter_other_value",
+        "counter",
+        msg("The counter is not a plain number"),
+        msg(
+            "{attribute} is {what}, made in line {line}. A text shows it in its own form, with its "
+            "brackets and points. An integer is shown as the plain number."
+        ),
+        INSTEAD,
+        links.PYTHON_CLASSES,
+        whys={
+            "element": msg(
+                "{attribute} is {what}, made in line {line}. Its elements are numbers with a "
+                "decimal point, if nothing else is said."
+            )
+        },
+        fixes={
+            "changes": msg(
+                "Write {written} instead of {name}, and {attribute} += {step} instead of what "
+                "changes it (line {others})."
+            )
+        },
+        behind={"run.wrong_text": _other_value},
+        fixed_by=(node_lists.plain_start, lines.written),
+        examples=(
+            example(
+                "counter_is_array",
+                Replace(NODE, "import rclpy\nfrom", "import numpy as np\nimport rclpy\nfrom"),
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = np.zeros(1)"),
+                Replace(NODE, "self.counter_ += 1", "self.counter_ = self.counter_ + 1"),
+                fails="run.output",
+            ),
+            example(
+                "counter_is_complex",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0j"),
                 fails="run.output",
             ),
         ),

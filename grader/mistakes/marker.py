@@ -154,7 +154,13 @@ KINDS = (
             "index. setup.py copies it there from resource/ when you build. colcon still adds "
             "a missing one itself, but warns that it will stop doing so."
         ),
-        whys={"other": OTHER_MARKER},
+        whys={
+            "other": OTHER_MARKER,
+            "place": msg(
+                "ROS finds a package by an empty file with the package's name in the package index. "
+                "The index is the folder {wanted}: a file in another folder is not in it."
+            ),
+        },
         fix=msg(
             "Add to data_files: ('share/ament_index/resource_index/packages', ['resource/' + "
             "package_name]),"
@@ -163,12 +169,21 @@ KINDS = (
             "other": msg(
                 "Make that line install 'resource/{package}': set package_name in setup.py "
                 "to '{package}'. Then build again."
-            )
+            ),
+            "place": msg("Write '{wanted}' instead of '{folder}' in that line, then build again."),
         },
         link=links.DEVELOPING,
         seen=r"doesn't explicitly install a marker in the package index",
-        fixed_by=(setup_py.marker,),
+        fixed_by=(setup_py.marker_place, setup_py.marker),
         examples=(
+            example(
+                "marker_in_misspelt_folder",
+                Replace(
+                    SETUP, "share/ament_index/resource_index", "share/ament_index/ressource_index"
+                ),
+                fails="package.marker",
+                note="colcon warns and makes one itself",
+            ),
             example(
                 "marker_not_installed",
                 Replace(

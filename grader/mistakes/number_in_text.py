@@ -301,10 +301,23 @@ def _in_text(suspect: Suspect) -> RecognisedMistake | None:
     if f"{{{counter}}}" in suspect.text and f"{{{{{counter}}}}}" not in row:
         return None
     found = suspect.finding("counter_in_text", place, name=counter)
-    doubled = f"{{{{{counter}}}}}" in row
-    return replace(
-        found, variant="doubled" if doubled else "round" if "f'" in row or 'f"' in row else ""
-    )
+    return _in_f_string(found, counter, row)
+
+
+def _in_f_string(found: RecognisedMistake, counter: str, row: str) -> RecognisedMistake:
+    """Name what an f-string has around the name of the counter."""
+    equals = re.search(rf"\{{(\s*{re.escape(counter)}\s*)=\s*(?:[!:][^{{}}]*)?\}}", row)
+    if equals is not None:
+        words = {**found.words, "found": equals[0], "written": f"{{{counter}}}"}
+        return replace(found, words=words, variant="equals")
+    if f"{{{{{counter}}}}}" in row:
+        return replace(found, variant="doubled")
+    if "f'" not in row and 'f"' not in row:
+        return found
+    signs = re.search(rf"([(\[<$%])\s*{re.escape(counter)}", row)
+    opened = signs[1] if signs is not None else ""
+    variant = "round" if opened == "(" else "signs" if opened else "bare"
+    return replace(found, words={**found.words, "found": opened}, variant=variant)
 
 
 _node = Family("node", links.FIRST_NODE)
@@ -376,7 +389,16 @@ KINDS = (
                 "In an f-string, a value is in braces. Round brackets and what is in them are "
                 "shown as they are."
             ),
+            "signs": msg(
+                "In an f-string, a value is in braces. {found} and the name behind it are shown as "
+                "they are."
+            ),
+            "bare": msg(
+                "In an f-string, a value is in braces. A name without braces is shown as it is."
+            ),
+            "equals": msg("= in the braces also writes the code that is before it."),
         },
+        fixes={"equals": msg("Write {written} instead of {found}.")},
         behind={"run.wrong_text": _in_text},
         fixed_by=(node_log.in_braces, node_log.text),
         examples=(

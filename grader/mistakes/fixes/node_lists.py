@@ -7,10 +7,12 @@ from dataclasses import dataclass
 
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
-from grader.package.source.counter import logged_counter, targets_of
+from grader.package.source.counter import changes_of, logged_counter, targets_of
 from grader.package.source.module import Module
 from grader.package.source.names import dotted
 from grader.package.source.node import NodeSource
+from grader.package.source.other_values import adds_plainly
+from grader.package.source.place import statement_at
 
 
 def len_call(module: Module, line: int | None) -> ast.Call | None:
@@ -114,3 +116,16 @@ def number_for_list(case: Case) -> Files | None:
         text.swap(found.start.value, repr(output.start)),
         text.swap(change, f"{found.name} += {output.step}"),
     )
+
+
+def plain_start(case: Case) -> Files | None:
+    """Let the counter begin with the plain number, if each change of it only adds to it."""
+    module, written = case.module, str(case.finding.params.get("written", ""))
+    statement = statement_at(module, case.finding.line) if module is not None else None
+    if module is None or case.node is None or not isinstance(statement, ast.Assign | ast.AnnAssign):
+        return None
+    name = written.partition(" = ")[0]
+    adds = [node for node in changes_of(case.node, name) if node is not statement]
+    if name not in targets_of(statement) or not all(adds_plainly(node, name) for node in adds):
+        return None
+    return case.changed(module, module.text.swap(statement, written)) if adds else None

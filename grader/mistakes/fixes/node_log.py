@@ -198,6 +198,10 @@ def in_braces(case: Case) -> Files | None:
         return None
     module = node.module_of(call)
     code = module.text.code(call.args[0])
+    equals = rf"\{{\s*{re.escape(name)}\s*=\s*\}}"
+    if len(re.findall(equals, code)) == 1 and code.count(name) == 1:
+        new = re.sub(equals, f"{{{name}}}", code)
+        return case.changed(module, module.text.swap(call.args[0], new))
     for written in (f"{{{{{name}}}}}", f"({name})", f"[{name}]"):
         if code.count(name) == 1 and code.count(written) == 1:
             new = code.replace(written, f"{{{name}}}")

@@ -103,6 +103,18 @@ def marker(case: Case) -> Files | None:
     return case.with_data(FILE, setup.source.spliced(splices)) if splices else None
 
 
+def marker_place(case: Case) -> Files | None:
+    """Correct the folder into which data_files installs the marker."""
+    setup, folder = read_setup_call(case), str(case.finding.params.get("folder", ""))
+    data_files = setup.argument("data_files") if setup is not None else None
+    items = data_files.elts if isinstance(data_files, ast.List | ast.Tuple) else []
+    pairs = [pair for item in items if (pair := _pair(item)) and pair[0].value == folder]
+    pairs = [pair for pair in pairs if pair[0].lineno == case.finding.line]
+    if setup is None or not folder or len(pairs) != 1:
+        return None
+    return case.with_data(FILE, setup.source.spliced([setup.text(pairs[0][0], INDEX)]))
+
+
 def marker_and_line(case: Case) -> Files | None:
     """Rename the marker file, and make data_files install it by that name."""
     setup = read_setup_call(case)

@@ -237,6 +237,28 @@ def _logged_in(source: NodeSource, callback: Function) -> tuple[ast.Call, str] |
     return None
 
 
+def without_effect(source: NodeSource) -> tuple[ast.Expr, str] | None:
+    """Return a statement that only looks as if it counts, and the counter: `++n`, `n + 1`.
+
+    None if another statement changes the counter.
+    """
+    logged = logged_counter(source)
+    name = logged[1] if logged is not None else ""
+    if not name or changes_of(source, name):
+        return None
+    for part in parts_of_callback(source):
+        for node in ast.walk(part):
+            value = node.value if isinstance(node, ast.Expr) else None
+            while isinstance(value, ast.UnaryOp) and isinstance(value.op, ast.UAdd):
+                value = value.operand
+            if isinstance(value, ast.BinOp) and isinstance(value.op, ast.Add):
+                value = value.left
+            changed = isinstance(node, ast.Expr) and value is not node.value
+            if isinstance(node, ast.Expr) and changed and dotted(value or node) == name:
+                return node, name
+    return None
+
+
 def wrapped_at(source: NodeSource) -> tuple[ast.stmt | ast.expr, int] | None:
     """Return what makes the logged counter begin again (`% 60`, `if n == 60`), and that number."""
     logged = logged_counter(source)
@@ -267,11 +289,14 @@ def wrapped_at(source: NodeSource) -> tuple[ast.stmt | ast.expr, int] | None:
 
 
 def _reached(around: ast.If, name: str) -> int | None:
-    """Return the number that a counter has to reach for a condition: `n == 60`, `n >= 60`."""
+    """Return the number that a counter has to reach: `n == 60`, `n >= 60`, `n > 59`."""
     test = around.test
     if not isinstance(test, ast.Compare) or len(test.ops) != 1 or dotted(test.left) != name:
         return None
     limit = test.comparators[0]
     number = limit.value if isinstance(limit, ast.Constant) else None
-    reached = type(number) is int and isinstance(test.ops[0], ast.Eq | ast.GtE)
-    return number if reached and isinstance(number, int) else None
+    if type(number) is not int:
+        return None
+    if isinstance(test.ops[0], ast.Gt):
+        return number + 1
+    return number if isinstance(test.ops[0], ast.Eq | ast.GtE) else None

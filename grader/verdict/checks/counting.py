@@ -14,7 +14,7 @@ from grader.base.nearest import compared, with_difference
 from grader.base.shown import shown as shown_code
 from grader.base.yaml_model import broken
 from grader.course.assignment import Count
-from grader.package.source.counter import logged_counter, wrapped_at
+from grader.package.source.counter import logged_counter, without_effect, wrapped_at
 from grader.package.source.names import dotted, last_part
 from grader.package.source.remarks import remarks_on
 from grader.package.source.time_limit import time_limit
@@ -109,6 +109,7 @@ def _line_by_line(evidence: Evidence, wanted: Count, expected: str) -> Passed:
             where=line_of(evidence, events[0].record),
             params={"text": events[0].text[:200]},
             words=words(evidence),
+            advice=[*_changes_nothing(evidence), *_begins_again(evidence)],
         )
     mistake, text = _count_fault(run, wanted, numbers)
     if mistake == "run.twice":
@@ -151,6 +152,24 @@ def _ends_later(evidence: Evidence) -> list[Message]:
             code=code,
             line=call.lineno,
             spin=spin,
+        )
+    ]
+
+
+def _changes_nothing(evidence: Evidence) -> list[Message]:
+    """Return advice on a line that looks as if it adds to the counter, but has no effect."""
+    source = source_of_node(evidence)
+    found = without_effect(source) if source is not None else None
+    if source is None or found is None:
+        return []
+    statement, name = found
+    return [
+        say(
+            "line {line}: {code} does not change {name}. Write {name} += {step} instead.",
+            line=statement.lineno,
+            code=shown_code(source.module_of(statement).text.code(statement)),
+            name=name,
+            step=evidence.assignment.output.step,
         )
     ]
 

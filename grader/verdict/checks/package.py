@@ -107,12 +107,45 @@ def marker(evidence: Evidence) -> Passed:
         return Passed(actual=path)
     if installed:
         raise _other_marker(evidence, (lost or installed)[0])
+    if (place := _other_place(data_files, package)) is not None:
+        raise _installed_elsewhere(place, path)
     line = data_files.line if data_files is not None else setup.line
     raise Failed(
         "package.marker_not_installed",
         expected=say("setup.py installs {path} in {folder}", path=path, folder=INDEX),
         actual=say("data_files in setup.py has no line for it"),
         where=Where(file="setup.py", line=line),
+    )
+
+
+def _other_place(data_files: Value | None, package: str) -> Text | None:
+    """Return the folder into which data_files installs only the marker, the one most like the right.
+
+    None if it installs it nowhere.
+    """
+    pairs = data_files.items if isinstance(data_files, Listing) else ()
+    found: dict[str, Text] = {}
+    for pair in pairs:
+        place, files = pair.items if isinstance(pair, Listing) and len(pair.items) == 2 else (0, 0)
+        if isinstance(place, Text) and isinstance(files, Listing) and len(files.items) == 1:
+            item = files.items[0]
+            if isinstance(item, Text) and normpath(item.value) == f"resource/{package}":
+                found[place.value] = place
+    close = nearest(INDEX, found) or next(iter(found), "")
+    return found.get(close)
+
+
+def _installed_elsewhere(place: Text, path: str) -> Failed:
+    folder = shown(place.value)
+    actual = say("it installs {path} in {folder}", path=path, folder=folder)
+    return Failed(
+        "package.marker_not_installed",
+        expected=say("setup.py installs {path} in {folder}", path=path, folder=INDEX),
+        actual=with_difference(actual, place.value, INDEX),
+        where=Where(file="setup.py", line=place.line),
+        variant="place",
+        params={"folder": folder},
+        words={"wanted": INDEX},
     )
 
 
