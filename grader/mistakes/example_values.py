@@ -112,6 +112,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "log.wrong_level": {"level": "warn"},
     "lab.not_installed": {"package": "turtlesim"},
+    "node.measures_time": {"others": "17, 21"},
     "node.commented_out": {"written": "self.counter += 1", "line": "24", "wanted": "20"},
     "node.callback_no_self": {"wanted": f"def {CALLBACK}(self):"},
     "node.callback_parameter": {
