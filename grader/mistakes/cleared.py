@@ -40,6 +40,15 @@ def _clears(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+def _by_print(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the print() that only clears, beside the logger: it is no line that is to be logged."""
+    source = suspect.source
+    prints = [call for call, name in source.calls if name == "print"]
+    found = clearing(source)
+    only = {n for each in found if each.only for n in ast.walk(each.statement)}
+    return _clears(suspect) if source.own_logs and prints and set(prints) <= only else None
+
+
 def _is_text(statement: ast.stmt) -> bool:
     return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
 
@@ -59,7 +68,7 @@ KINDS = (
             "if": msg("Delete this line and the if above it."),
             "pass": msg("Write pass instead of this line."),
         },
-        behind={"run.erased": _clears},
+        behind={"run.erased": _clears, "run.print_not_logger": _by_print},
         fixed_by=(lines.deleted,),
         examples=(
             example(

@@ -69,3 +69,13 @@ def test_the_call_of_a_function_that_only_clears_is_deleted(tmp_path: Path) -> N
 )
 def test_what_clears_nothing_is_not_named(edits: list[tuple[str, str]]) -> None:
     assert look("run.erased", changed(*edits)) is None
+
+
+def test_a_print_that_only_clears_is_not_to_be_logged() -> None:
+    clears = changed((STEP, f"{STEP}        print('\\033c', end='')\n"))
+    found = look("run.print_not_logger", clears)
+    assert found is not None
+    assert found.kind == "node.clears_terminal"
+    both = look("run.print_not_logger", clears.replace(STEP, f"{STEP}        print('hi')\n"))
+    assert both is not None
+    assert both.kind == "node.print_used"
