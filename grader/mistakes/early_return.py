@@ -17,7 +17,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import logged_counter, targets_of
 from grader.package.source.imported import full_name
 from grader.package.source.module import Function
-from grader.package.source.names import calls_in, last_part
+from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of
 from grader.package.source.truth import OK, Truth, always_set_to, truth_of
@@ -59,6 +59,33 @@ def _returns_before_log(suspect: Suspect) -> RecognisedMistake | None:
         if test is not None and truth is not None:
             return _return_if_true(suspect, found, test, truth)
     return _return_if(suspect, *reached[0][:2]) if reached else None
+
+
+def _limits(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a return before the log line that depends on the counter: the lines end with it."""
+    source, callback = suspect.source, suspect.source.callback
+    logs = source.logs(callback) if callback is not None else []
+    for found in ast.walk(callback) if callback is not None and logs else ():
+        if not isinstance(found, ast.Return) or found.lineno > logs[0].lineno:
+            continue
+        test = _condition_of(source, found)
+        if test is None or source.function_around(found) is not callback:
+            continue
+        mistake = _return_if(suspect, found, test) if _is_limit(source, test) else None
+        if mistake is not None and mistake.variant == "alone":
+            return replace(mistake, variant="limit")
+    return None
+
+
+def _is_limit(source: NodeSource, test: ast.expr) -> bool:
+    """Whether a condition compares the counter that is logged, and asks nothing else."""
+    logged = logged_counter(source)
+    names = [n for n in ast.walk(test) if isinstance(n, ast.Name | ast.Attribute) and dotted(n)]
+    outer = {dotted(n) for n in names} - {"self"}
+    compares = isinstance(test, ast.Compare) and not any(
+        isinstance(n, ast.Call) for n in ast.walk(test)
+    )
+    return compares and logged is not None and outer == {logged[1]}
 
 
 def _condition_of(source: NodeSource, found: ast.Return) -> ast.expr | None:
@@ -136,7 +163,8 @@ def _condition_changed(case: Case) -> Files | None:
     ]
     test = _condition_of(node, found[0]) if node is not None and len(found) == 1 else None
     truth = truth_of(node, test) if node is not None and test is not None else None
-    return lines.deleted(case) if truth is not None and truth.value else None
+    limit = node is not None and test is not None and _is_limit(node, test)
+    return lines.deleted(case) if limit or (truth is not None and truth.value) else None
 
 
 def _step_after_return(suspect: Suspect) -> RecognisedMistake | None:
@@ -223,6 +251,7 @@ KINDS = (
         whys={
             "choice": IF_TRUE,
             "alone": IF_TRUE,
+            "limit": IF_TRUE,
             "bits": BITS,
             "bits_gone": BITS,
             "ok": RUNS,
@@ -246,6 +275,7 @@ KINDS = (
                 "Delete line {lines}, the if and its return. If the node needs it, write a "
                 "condition that is false when the line is to be logged."
             ),
+            "limit": GONE,
             "bits": CONTRARY,
             "ok": CONTRARY,
             "function": CONTRARY,
@@ -256,6 +286,7 @@ KINDS = (
         },
         behind={
             "run.no_lines": _returns_before_log,
+            "run.stops": _limits,
             "run.constant_counter": _returns,
             "run.exits_at_once": _returns_before_spin,
             "run.no_node": _returns_before_spin,
@@ -294,6 +325,15 @@ KINDS = (
                 ),
                 fails="run.output",
                 blocks=SILENT,
+            ),
+            example(
+                "returns_after_three",
+                Replace(
+                    NODE,
+                    LOG_LINE,
+                    f"        if self.counter_ > 3:\n            return\n{LOG_LINE}",
+                ),
+                fails="run.output",
             ),
             example(
                 "returns_if_not_ok_in_bits",

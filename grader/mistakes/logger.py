@@ -7,7 +7,7 @@ import re
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
-from grader.mistakes import links
+from grader.mistakes import links, print_elsewhere
 from grader.mistakes.example import DEAD, LOG, NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_count, node_log, node_words, node_worked_out
 from grader.mistakes.kind import Family
@@ -180,6 +180,9 @@ def _printed(suspect: Suspect) -> RecognisedMistake | None:
                 return replace(suspect.finding("print_used", given), variant="inside")
     if not prints:
         return None
+    elsewhere = print_elsewhere.printed_outside(suspect, prints[0])
+    if elsewhere is not None and not suspect.source.own_logs:
+        return elsewhere
     written = as_log(suspect.source, prints[0])
     if written is None or suspect.source.own_logs:
         return suspect.finding("print_used", prints[0])
@@ -479,6 +482,7 @@ KINDS = (
         fixes={
             "inside": msg("Remove print( and its ): give the text itself to the logger."),
             "written": INSTEAD,
+            **print_elsewhere.FIXES,
         },
         behind={"run.print_not_logger": _printed},
         fixed_by=(

@@ -475,12 +475,11 @@ KINDS = (
         },
         examples=(
             example(
-                "erased_lines",
+                "printed_and_erased",
                 Replace(
                     NODE,
-                    "        self.counter_ += 1\n",
-                    "        self.counter_ += 1\n"
-                    "        print('\\x1b[1A\\x1b[2K', end='', flush=True)\n",
+                    "self.get_logger().info('Hello time: ' + str(self.counter_))",
+                    "print('Hello time: ' + str(self.counter_) + '\\n\\x1b[1A\\x1b[2K', end='')",
                 ),
                 fails="run.output",
                 blocks=SILENT,

@@ -14,8 +14,9 @@ from grader.mistakes.fixes import lines, node_timer
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, always
 from grader.package.edit.tree import Replace
-from grader.package.source.period import origin_of, seconds_of
+from grader.package.source.period import is_right, origin_of, seconds_of
 
+MOST_EXPONENT = 9
 LONG = 100.0  # seconds; a longer period was meant in milliseconds
 REAL_NUMBER = (
     r"float\(\) argument must be .{1,60}not '(?P<type>\w{1,120})'"
@@ -123,6 +124,43 @@ def _milliseconds(suspect: Suspect) -> RecognisedMistake | None:
     if not isinstance(number, int | float) or not number >= LONG > suspect.output.period:
         return None
     return suspect.finding("period_milliseconds", value, written=f"{number:g}")
+
+
+def _caret(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for ^ in the period, which in other languages is the power."""
+    source = suspect.source
+    for timer in source.timers:
+        value = node_timer.value_of(source, timer.period) if timer.period is not None else None
+        if value is None or not any(map(_is_caret, ast.walk(value))):
+            continue
+        code = source.module_of(value).text.code(value)
+        power = _power(value)
+        right = power is not None and is_right(power[1], suspect.output.period)
+        written = power[0] if power is not None and right else repr(suspect.output.period)
+        return suspect.finding("period_caret", value, name=code, written=written)
+    return None
+
+
+def _is_caret(node: ast.AST) -> bool:
+    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.BitXor)
+
+
+def _power(value: ast.expr) -> tuple[str, float] | None:
+    """Return a power that is written with ^ as Python writes it, and its value."""
+    if not isinstance(value, ast.BinOp) or not isinstance(value.op, ast.BitXor):
+        return None
+    base, exponent = (_integer(part) for part in (value.left, value.right))
+    if base is None or exponent is None or not 0 < base <= LONG or abs(exponent) > MOST_EXPONENT:
+        return None
+    return f"{base}**{exponent}", float(base) ** exponent
+
+
+def _integer(part: ast.expr) -> int | None:
+    if isinstance(part, ast.UnaryOp) and isinstance(part.op, ast.USub):
+        inner = _integer(part.operand)
+        return -inner if inner is not None else None
+    value = part.value if isinstance(part, ast.Constant) else None
+    return value if type(value) is int else None
 
 
 _node = Family("node", links.FIRST_NODE)
@@ -253,6 +291,26 @@ KINDS = (
         fixed_by=(lines.written,),
         examples=(
             example("period_negative", Replace(NODE, "(1.0,", "(-1.0,"), fails="run.starts"),
+        ),
+    ),
+    _node(
+        "period_caret",
+        "timer",
+        msg("^ is not the power"),
+        msg("In Python, ^ compares the bits of two numbers, and ** is the power."),
+        msg("Write {written} instead of {name} in this line."),
+        links.PYTHON_ERRORS,
+        behind=dict.fromkeys(
+            ("run.wrong_period", "run.no_lines", "run.too_much_output", "run.stops"), _caret
+        ),
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "period_with_caret",
+                Replace(NODE, "\n\nclass MyFirstNode", "PERIOD = 10^0\n\n\nclass MyFirstNode"),
+                Replace(NODE, "(1.0,", "(PERIOD,"),
+                fails="run.period",
+            ),
         ),
     ),
     _node(

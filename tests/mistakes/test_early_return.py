@@ -63,12 +63,29 @@ def test_an_if_that_is_always_true_is_deleted_with_its_return(
 
 
 def test_a_condition_that_the_source_does_not_decide_is_only_named(tmp_path: Path) -> None:
-    text = with_if("self.counter_ < 1")
+    text = with_if("self.limit < 1", "        self.limit = 0\n")
     found = look("run.no_lines", text)
-    first = line_of(text, "if self.counter_ < 1")
+    first = line_of(text, "if self.limit < 1")
     assert fix_of(found).startswith(f"Delete line {first}-{first + 1}, the if and its return. If")
-    assert "while the condition self.counter_ < 1 is true" in why_of(found)
+    assert "while the condition self.limit < 1 is true" in why_of(found)
     assert not patched(found, text, tmp_path)
+
+
+@pytest.mark.parametrize(
+    "condition", ["self.counter_ > 3", "self.counter_ == 10", "5 <= self.counter_"]
+)
+def test_a_limit_of_the_count_is_deleted(condition: str, tmp_path: Path) -> None:
+    text = with_if(condition)
+    found = look("run.stops", text)
+    first = line_of(text, f"if {condition}")
+    assert fix_of(found) == f"Delete line {first}-{first + 1}, the if and its return."
+    assert patched(found, text, tmp_path) == changed()
+
+
+@pytest.mark.parametrize("condition", ["self.limit", "self.counter_ > self.limit", "not self.on"])
+def test_another_condition_is_no_limit_of_the_count(condition: str) -> None:
+    found = look("run.stops", with_if(condition))
+    assert found is None or found.kind != "node.return_early"
 
 
 @pytest.mark.parametrize(

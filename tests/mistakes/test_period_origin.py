@@ -140,3 +140,28 @@ def test_a_parameter_in_milliseconds() -> None:
     assert found.kind == "node.period_milliseconds"
     assert found.where is not None
     assert "declare_parameter" in text.splitlines()[(found.where.line or 0) - 1]
+
+
+@pytest.mark.parametrize(
+    ("code", "constant", "old", "written"),
+    [
+        ("T", "T = 10^0\n\n\n", "10^0", "10**0"),
+        ("T", "T = 10^1\n\n\n", "10^1", "1.0"),
+        ("10^0", "", "10^0", "10**0"),
+        ("T", "T = 1000 * 10^-3\n\n\n", "1000 * 10^-3", "1.0"),
+    ],
+)
+def test_a_caret_is_no_power(code: str, constant: str, old: str, written: str) -> None:
+    text = with_period(code, constant=constant)
+    found = behind_symptom("run.wrong_period", Suspect(source_in(text), ASSIGNMENT))
+    assert found is not None
+    assert found.where is not None
+    assert old in text.splitlines()[(found.where.line or 0) - 1]
+    fix = CATALOGUE[found.kind].fix_text({**found.params, **found.words}, found.variant)
+    assert str(fix) == f"Write {written} instead of {old} in this line."
+
+
+def test_a_period_that_is_right_is_not_to_be_written() -> None:
+    for code, constant in (("1.0", ""), ("T", "T = 1\n\n\n"), ("2 / 2", "")):
+        told = told_of_period(source_in(with_period(code, constant=constant)), 1.0)
+        assert told.variant == "there"

@@ -35,11 +35,14 @@ def imitates_record(call: ast.Call) -> bool:
     return isinstance(text, str) and RECORD.match(text) is not None
 
 
-def as_log(source: NodeSource, call: ast.Call) -> str | None:
-    """Return the call of the logger with the same text; None if it is long or not known."""
+def as_log(source: NodeSource, call: ast.Call, node: str = "") -> str | None:
+    """Return the call of the logger with the same text; None if it is long or not known.
+
+    `node` is how the node is called at this place, if it is not self.
+    """
     module = source.module_of(call)
     text = _text_of(module, call)
-    logger = _logger_at(source, call)
+    logger = f"{node}.get_logger()" if node else _logger_at(source, call)
     code = module.text.code(call)
     if text is None or not logger or "\n" in code:
         return None
