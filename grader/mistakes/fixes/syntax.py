@@ -7,6 +7,7 @@ import re
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import SourceText, Splice, indent_of, read_source
+from grader.package.source.documents import document_of
 from grader.package.source.other_encoding import declaration
 from grader.package.source.pasted import cleaned, labels_in
 from grader.package.source.python import PythonFault, parse_python
@@ -37,6 +38,9 @@ def fault_of(found: bytes) -> PythonFault | None:
 
 def _fixed(case: Case, path: str) -> Files | None:
     found = _without_declaration(case.files.data(path))
+    document = document_of(found) if found is not None else None
+    if document is not None:
+        return case.with_data(path, document.fixed)
     for _ in range(TRIES):
         fault = fault_of(found) if found is not None else None
         text = read_source(found)
