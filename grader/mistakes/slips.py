@@ -123,6 +123,15 @@ LANGUAGE = {
     "comment": msg("A comment begins with # in Python. Write: {wanted}"),
     "compare": msg("Python compares with == and !=. Write: {wanted}"),
     "operator": msg("Python has the words and, or, not instead of &&, ||, !. Write: {wanted}"),
+    "dots_inside": msg(
+        "Other languages write {found} at the end of a line that goes on. Inside of brackets, a line "
+        "of Python goes on without a sign. Write: {wanted}"
+    ),
+    "dots_outside": msg(
+        "Other languages write {found} at the end of a line that goes on. Python has a \\ there, with "
+        "nothing behind it. Write: {wanted}"
+    ),
+    "cast": msg("Python converts a value with a call of its type. Write: {wanted}"),
     "elif": msg("Python has the word elif. Write: {wanted}"),
     "capital": msg("The words of Python are written in small letters. Write: {wanted}"),
     "declaration": msg("A Python variable has no type before its name. Write: {wanted}"),
@@ -367,6 +376,25 @@ SIGNS = {
     "plus_missing": msg("A + joins the parts of a text. Write: {wanted}"),
     "comma_missing": msg("A comma separates two values. Write: {wanted}"),
     "colon_missing": msg("A line that begins a block ends with a colon. Write: {wanted}"),
+    "goes_on": msg(
+        "Outside of brackets, a statement ends with its line. Write a \\ at the end of this line, "
+        "with nothing behind it, so that it goes on in line {line}: {wanted}"
+    ),
+    "goes_on_joined": msg(
+        "Outside of brackets, a statement ends with its line. Write this line and line {line} as one "
+        "line: {wanted}"
+    ),
+    "dot_missing": msg("A dot is between an object and its part. Write: {wanted}"),
+    "number_unit": msg("A number has no unit in Python. Write: {wanted}"),
+    "number_other_unit": msg(
+        "A number has no unit in Python. Delete {wanted}, and write the number of seconds, such as "
+        "0.5."
+    ),
+    "braces_outside": msg(
+        "A value in braces belongs inside of the quotes of an f-string. Write: {wanted}"
+    ),
+    "comma_instead": msg("Inside of brackets, a comma separates two values. Write: {wanted}"),
+    "text_unquoted": msg("A text is in quotes. Write: {wanted}"),
     "loop_word": msg(
         "{wanted} works only inside a loop (for, while), and this line is in none. Delete it, or "
         "write pass if its block has no other line."

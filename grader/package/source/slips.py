@@ -18,6 +18,7 @@ from grader.package.source.pasted import WHOLE_LINES, cleaned, pasted_in
 from grader.package.source.slip_blocks import BLOCK_LOOKS, two_statements
 from grader.package.source.slip_brackets import open_bracket
 from grader.package.source.slip_indent import behind_colon, first_of_block, further_in
+from grader.package.source.slip_joined import JOINED_LOOKS
 from grader.package.source.slip_output import OUTPUT_LOOKS
 from grader.package.source.slip_statements import STATEMENT_LOOKS
 from grader.package.source.slip_tabs import tab
@@ -498,5 +499,5 @@ def _global(text: Broken) -> Slip | None:
 
 LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
     _conflict, _prose, *OUTPUT_LOOKS, _numbers, _brace, _global, _do_while, _constructor, _braces, _comment, _commas, _apostrophe, *QUOTE_LOOKS, _quotes, _keys, open_bracket, tab, behind_colon, try_block,
-    *TYPED_LOOKS, *STATEMENT_LOOKS, first_of_block, *BLOCK_LOOKS, further_in, _other_sign, *LATE_LOOKS, two_statements,
+    *JOINED_LOOKS, *TYPED_LOOKS, *STATEMENT_LOOKS, first_of_block, *BLOCK_LOOKS, further_in, _other_sign, *LATE_LOOKS, two_statements,
 )  # fmt: skip
