@@ -549,11 +549,11 @@ KINDS = (
             "package for a C++ one and looks for a CMakeLists.txt."
         ),
         whys={
-            "outside": DEGRADES,
+            **dict.fromkeys(("outside", "into", "outside_too", "out_of_other"), DEGRADES),
             "several": msg("The build type tells colcon how to build: a package has only one."),
         },
         fix=msg(
-            "Write in package.xml, then build again: "
+            "Write above </package> in package.xml, then build again: "
             "<export><build_type>ament_python</build_type></export>"
         ),
         fixes={
@@ -561,8 +561,27 @@ KINDS = (
                 "Write <export> before this tag and </export> after it: "
                 "<export><build_type>ament_python</build_type></export>"
             ),
+            "into": msg(
+                "Delete this tag here, and write it into the <export> of line {first}, so that "
+                "package.xml has: <export><build_type>ament_python</build_type></export>. Then build "
+                "again."
+            ),
+            "out_of_other": msg(
+                "Delete this tag here: it does not belong into <{within}>. Write above </package>, "
+                "then build again: <export><build_type>ament_python</build_type></export>"
+            ),
+            "outside_too": msg(
+                "Delete this tag: the right one is in <export>, in line {first}. Then build again."
+            ),
+            "in_export": msg(
+                "The <export> of line {first} has no build type. Write into it, so that package.xml "
+                "has: <export><build_type>ament_python</build_type></export>. Then build again."
+            ),
             "renamed": msg("Write <{tag}> instead of <{close}>, and the same in its end tag."),
-            "line": msg("Write ament_python in this line instead, then build again."),
+            "line": msg(
+                "Write in this line instead, then build again: "
+                "<build_type>ament_python</build_type>"
+            ),
             "several": msg(
                 "Keep only one of them: <build_type>ament_python</build_type>. Delete the others, "
                 "then build again."
@@ -602,6 +621,15 @@ KINDS = (
                 "build_type_outside",
                 Replace(MANIFEST, "  <export>\n    <build_type>", "  <build_type>"),
                 Replace(MANIFEST, "  </export>\n", ""),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "build_type_above_export",
+                Replace(MANIFEST, "    <build_type>ament_python</build_type>\n", ""),
+                Replace(
+                    MANIFEST, "  <export>", "  <build_type>ament_python</build_type>\n  <export>"
+                ),
                 fails="package.manifest",
                 blocks=UNBUILT,
             ),

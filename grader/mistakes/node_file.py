@@ -30,6 +30,11 @@ OWN_COPIES = msg(
     "A build copies your files into build and install. Only the files in src are yours: each build "
     "overwrites the copies."
 )
+NOTEBOOK = msg(
+    "Copy the code of the notebook's cells, without lines that begin with ! or %, into the file "
+    "{path}. Write #!/usr/bin/env python3 as its first line, and make the file executable: chmod +x "
+    "{path}"
+)
 BUILT = msg("Copy your code from {copy} into {path}, and edit only that file from now on.")
 
 
@@ -48,12 +53,13 @@ KINDS = (
         fixes={
             "built": BUILT,
             "several": msg("Keep the one that is to be marked, and give it the path {path} (mv)."),
-            "notebook": msg("Write the code of the notebook's cells into a new file {path}."),
+            "notebook": NOTEBOOK,
         },
         link=links.FIRST_NODE,
         fixed_by=(
             layout.node_file,
             layout.node_name,
+            layout.out_of_notebook,
         ),
         examples=(
             example(
@@ -271,7 +277,10 @@ KINDS = (
         fix=msg("Save the file in your editor (Ctrl+S), then look at it with: cat {path}"),
         whys={
             "built": OWN_COPIES,
-            "beside": msg("The exercise asks for the node in {path}. That file is empty."),
+            **dict.fromkeys(
+                ("beside", "notebook"),
+                msg("The exercise asks for the node in {path}. That file is empty."),
+            ),
         },
         fixes={
             "built": BUILT,
@@ -279,9 +288,10 @@ KINDS = (
                 "Copy your node into the empty file, and delete the other one. In the package's "
                 "folder, run: cp {there} {path} && rm {there}. Then build again."
             ),
+            "notebook": NOTEBOOK,
         },
         link=links.FIRST_NODE,
-        fixed_by=(layout.node_beside,),
+        fixed_by=(layout.node_beside, layout.out_of_notebook),
         examples=(
             example(
                 "node_empty",

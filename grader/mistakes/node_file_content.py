@@ -38,6 +38,27 @@ def _label(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     )
 
 
+NOTEBOOK = """{
+ "cells": [
+  {
+   "cell_type": "code",
+   "execution_count": null,
+   "outputs": [],
+   "source": [
+    "import rclpy\\n",
+    "from rclpy.node import Node\\n",
+    "\\n",
+    "def main(args=None):\\n",
+    "    rclpy.init(args=args)\\n",
+    "    rclpy.spin(Node('my_first_node'))\\n"
+   ]
+  }
+ ],
+ "nbformat": 4,
+ "nbformat_minor": 5
+}
+"""
+
 KINDS = (
     Kind(
         id="source.not_utf8",
@@ -183,6 +204,18 @@ KINDS = (
                     "import rclpy\\\n"
                     "}\n",
                 ),
+                fails="source.node_file",
+                blocks=("source.shebang", *UNSTARTED),
+            ),
+            example(
+                "word_document",
+                Write(NODE, b"PK\x03\x04\x14\x00\x06\x00\x08\x00\x00\x00!\x00[Content_Types].xml"),
+                fails="source.node_file",
+                blocks=("source.shebang", *UNSTARTED),
+            ),
+            example(
+                "node_as_notebook",
+                Write(NODE, NOTEBOOK),
                 fails="source.node_file",
                 blocks=("source.shebang", *UNSTARTED),
             ),
@@ -422,13 +455,6 @@ KINDS = (
                 fails="source.node_file",
                 blocks=UNSTARTED,
                 note="UTF-16, or a damaged copy",
-            ),
-            example(
-                "word_document",
-                Write(NODE, b"PK\x03\x04\x14\x00\x06\x00\x08\x00\x00\x00!\x00"),
-                fails="source.node_file",
-                also={"source.shebang": "source.no_shebang"},
-                blocks=UNSTARTED,
             ),
         ),
     ),

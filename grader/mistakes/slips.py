@@ -23,12 +23,17 @@ TYPED = msg(
     "What was typed for another program is now a line of this file. Python reads each line."
 )
 NO_CODE = msg("Python reads the whole file, and stops at the first line that is not Python code.")
+NO_TEXT = msg(
+    "A Python file contains plain text: its code, and nothing else. Another name does not make a "
+    "file one of another kind."
+)
 PASTED_WHYS = {
     "sign": KEYBOARD,
     **dict.fromkeys(("command", "heredoc", "editor"), TYPED),
     **dict.fromkeys(
         ("page", "markup", "notebook", "word", "conflict", "numbers", "prose", "around"), NO_CODE
     ),
+    **dict.fromkeys(("office", "pdf", "compiled", "archive"), NO_TEXT),
     **dict.fromkeys(("output", "note", "patch", "number_lines"), NO_CODE),
 }
 PASTED = {
@@ -78,7 +83,27 @@ DOCUMENTS = {
     ),
     "markup": msg("This file contains XML, as package.xml does. Write the Python code into it."),
     "notebook": msg(
-        "This file is a notebook. Write the code of its cells into the file, as plain text."
+        "This file is a Jupyter notebook: the code is in it as texts, and Python runs none of them. "
+        "Rename the file so that its name ends with .ipynb, and open it in Jupyter or VS Code. Copy "
+        "the code of its cells, without lines that begin with ! or %, into a new file with the name "
+        "of this one. Write #!/usr/bin/env python3 as its first line, and make it executable with "
+        "chmod +x."
+    ),
+    "office": msg(
+        "This file is a document of a word processor. Open it there, copy the code, and save it with "
+        "a code editor (such as VS Code) as a new file with the name of this one."
+    ),
+    "pdf": msg(
+        "This file is a PDF document. Write the code into a new file with the name of this one, in a "
+        "code editor (such as VS Code), and save it as plain text."
+    ),
+    "compiled": msg(
+        "This file is a compiled program, not the code that a person writes. Hand in the file with "
+        "the code."
+    ),
+    "archive": msg(
+        "This file is an archive (such as .zip). Extract it, and put the file with the code in its "
+        "place."
     ),
     "word": msg(
         "This file is a document in the format RTF, not a plain text. Open it in the program that "
@@ -98,6 +123,15 @@ LANGUAGE = {
     "comment": msg("A comment begins with # in Python. Write: {wanted}"),
     "compare": msg("Python compares with == and !=. Write: {wanted}"),
     "operator": msg("Python has the words and, or, not instead of &&, ||, !. Write: {wanted}"),
+    "dots_inside": msg(
+        "Other languages write {found} at the end of a line that goes on. Inside of brackets, a line "
+        "of Python goes on without a sign. Write: {wanted}"
+    ),
+    "dots_outside": msg(
+        "Other languages write {found} at the end of a line that goes on. Python has a \\ there, with "
+        "nothing behind it. Write: {wanted}"
+    ),
+    "cast": msg("Python converts a value with a call of its type. Write: {wanted}"),
     "elif": msg("Python has the word elif. Write: {wanted}"),
     "capital": msg("The words of Python are written in small letters. Write: {wanted}"),
     "declaration": msg("A Python variable has no type before its name. Write: {wanted}"),
@@ -367,6 +401,25 @@ SIGNS = {
     "plus_missing": msg("A + joins the parts of a text. Write: {wanted}"),
     "comma_missing": msg("A comma separates two values. Write: {wanted}"),
     "colon_missing": msg("A line that begins a block ends with a colon. Write: {wanted}"),
+    "goes_on": msg(
+        "Outside of brackets, a statement ends with its line. Write a \\ at the end of this line, "
+        "with nothing behind it, so that it goes on in line {line}: {wanted}"
+    ),
+    "goes_on_joined": msg(
+        "Outside of brackets, a statement ends with its line. Write this line and line {line} as one "
+        "line: {wanted}"
+    ),
+    "dot_missing": msg("A dot is between an object and its part. Write: {wanted}"),
+    "number_unit": msg("A number has no unit in Python. Write: {wanted}"),
+    "number_other_unit": msg(
+        "A number has no unit in Python. Delete {wanted}, and write the number of seconds, such as "
+        "0.5."
+    ),
+    "braces_outside": msg(
+        "A value in braces belongs inside of the quotes of an f-string. Write: {wanted}"
+    ),
+    "comma_instead": msg("Inside of brackets, a comma separates two values. Write: {wanted}"),
+    "text_unquoted": msg("A text is in quotes. Write: {wanted}"),
     "loop_word": msg(
         "{wanted} works only inside a loop (for, while), and this line is in none. Delete it, or "
         "write pass if its block has no other line."
@@ -422,6 +475,16 @@ KINDS = {
 """The mistakes of the node's file by the cause of a slip; the others are syntax errors."""
 
 
+NO_PYTHON = {
+    "notebook": say("the file is a Jupyter notebook"),
+    "office": say("the file is a document of a word processor"),
+    "pdf": say("the file is a PDF document"),
+    "compiled": say("the file is a compiled program"),
+    "archive": say("the file is an archive"),
+}
+"""What a file is, if none of its lines is to be quoted."""
+
+
 def words_of(slip: Slip | Pasted) -> dict[str, str]:
     """Return the values of the placeholders in the texts above."""
     wanted = slip.wanted if isinstance(slip, Slip) else ""
@@ -433,6 +496,8 @@ def words_of(slip: Slip | Pasted) -> dict[str, str]:
 def description(slip: Slip | Pasted) -> Message:
     """Return what was found at the place of a slip."""
     found = shown(slip.found)
+    if isinstance(slip, Slip) and slip.variant in NO_PYTHON:
+        return NO_PYTHON[slip.variant]
     if isinstance(slip, Slip) and slip.cause in ("signs", "document", "shebang"):
         return say("in: {code}", code=found)
     if isinstance(slip, Slip) and slip.cause == "language":

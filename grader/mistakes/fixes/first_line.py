@@ -8,6 +8,7 @@ from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.syntax import without_labels
 from grader.package.edit.files import Files
 from grader.package.edit.text import BOM, MOST_BYTES, read_source
+from grader.package.source.documents import document_of
 from grader.package.source.numbers_above import numbers_above
 from grader.package.source.python import SHEBANG, can_parse
 
@@ -43,6 +44,8 @@ def shebang(case: Case) -> Files | None:
     """Put the shebang on line 1: moved up, fixed, or added."""
     found = case.files.data(case.judged_path)
     found = without_labels(found) if found is not None else None
+    if found is not None and document_of(found) is not None:
+        return None
     if found is not None:
         found = b"".join(found.splitlines(keepends=True)[numbers_above(found) :])
     text = read_source(found)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
-from grader.package.edit.files import Files
+from grader.package.edit.files import EXECUTABLE, Files
+from grader.package.source.documents import script_of
 from grader.package.source.python import has_no_code
 
 
@@ -78,6 +79,18 @@ def node_beside(case: Case) -> Files | None:
         return None
     data = case.files.data(old) if case.files.file(old) else None
     return case.with_data(case.node_path, data) if data else None
+
+
+def out_of_notebook(case: Case) -> Files | None:
+    """Write the code of a notebook's cells into the node's file, which is missing or empty."""
+    path = case.node_path
+    notebook = case.files.data(str(case.finding.params.get("notebook", "")))
+    script = script_of(notebook) if notebook is not None else None
+    taken = path in case.files.by_path and case.files.data(path) != b""
+    if script is None or taken or case.package in _files(case):
+        return None
+    files = case.files.with_data(path, script)
+    return files if path in case.files.by_path else files.with_mode(path, EXECUTABLE)
 
 
 def out_of_inner_folder(case: Case) -> Files | None:

@@ -141,30 +141,39 @@ def build_type(case: Case) -> Files | None:
     places = _places(case.files.data(FILE))
     if places is None or "CMakeLists.txt" in case.files.by_path:
         return None
-    found = places.found
     tags = [tag for tag in places.closed if tag.name == "build_type"]
+    inside = [tag for tag in tags if tag.within == "export"]
+    outside = [tag for tag in tags if tag.within != "export"]
     root, export = _one(places, "package", ""), _one(places, "export")
-    if root is None or root.inside[0] < 0 or len(tags) > 1:
+    if root is None or root.inside[0] < 0 or len(inside) > 1 or len(outside) > 1:
         return None
-    if tags and tags[0].within == "export":
-        return _put(case, tags[0].start, tags[0].end, TYPE)
-    if tags and (tags[0].within != "package" or export is not None):
+    others = any(tag.name == "export" for tag in places.closed) and export is None
+    if inside and not outside:
+        return _put(case, inside[0].start, inside[0].end, TYPE)
+    if others:
         return None
-    if tags:  # it is outside of <export>: wrap it
-        return _put(case, tags[0].start, tags[0].end, b"<export>" + TYPE + b"</export>")
-    if any(tag.name == "export" for tag in places.closed) and export is None:
-        return None
+    if outside and export is None and outside[0].within == "package":  # wrap it
+        return _put(case, outside[0].start, outside[0].end, b"<export>" + TYPE + b"</export>")
+    changes = [_whole_line(places.found, tag) for tag in outside]
+    changes += [] if inside else [_typed(places.found, root, export)]
+    new = places.found
+    for start, end, text in sorted(changes, reverse=True):
+        new = new[:start] + text + new[end:]
+    return case.with_data(FILE, new)
+
+
+def _typed(found: bytes, root: Tag, export: Tag | None) -> tuple[int, int, bytes]:
+    """Return the change that writes the build type into <export>, which is added if there is none."""
     newline = _newline(found)
     if export is None:
         end = root.inside[1]
         end -= len(_indent(found, end))
         rows = (b"  <export>", b"    " + TYPE, b"  </export>")
-        return _put(case, end, end, b"".join(row + newline for row in rows))
-    indent = _indent(found, export.start)
+        return end, end, b"".join(row + newline for row in rows)
     if export.inside[0] < 0:
-        return _put(case, export.start, export.end, b"<export>" + TYPE + b"</export>")
-    at = export.inside[0]
-    return _put(case, at, at, newline + indent * 2 + TYPE if indent else TYPE)
+        return export.start, export.end, b"<export>" + TYPE + b"</export>"
+    indent, at = _indent(found, export.start), export.inside[0]
+    return at, at, newline + indent * 2 + TYPE if indent else TYPE
 
 
 def depend(case: Case) -> Files | None:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import re
-
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import SourceText, Splice, indent_of, read_source
+from grader.package.source.documents import document_of
 from grader.package.source.other_encoding import declaration
 from grader.package.source.pasted import cleaned, labels_in
 from grader.package.source.python import PythonFault, parse_python
@@ -37,6 +36,9 @@ def fault_of(found: bytes) -> PythonFault | None:
 
 def _fixed(case: Case, path: str) -> Files | None:
     found = _without_declaration(case.files.data(path))
+    document = document_of(found) if found is not None else None
+    if document is not None:
+        return case.with_data(path, document.fixed)
     for _ in range(TRIES):
         fault = fault_of(found) if found is not None else None
         text = read_source(found)
@@ -63,7 +65,7 @@ def _fixed_once(text: SourceText, found: bytes, fault: PythonFault) -> bytes | N
     if fault.kind == "tabs" and (new := _without_tabs(text)) is not None:
         return new
     slip = slip_of(found)
-    return slip.fixed if slip is not None else _smaller(text, fault)
+    return slip.fixed if slip is not None else None
 
 
 def without_labels(found: bytes) -> bytes:
@@ -86,45 +88,3 @@ def _without_tabs(text: SourceText) -> bytes | None:
         if new is not None and fault_of(new) is None:
             fitting.append(new)
     return fitting[0] if len(fitting) == 1 else None
-
-
-def _smaller(text: SourceText, fault: PythonFault) -> bytes | None:
-    """Return the file with the single character that Python reports as missing."""
-    number = fault.line or 0
-    line = text.line(number)
-    if not line.strip():
-        return None
-    end = text.start_of(number) + len(_without_comment(line))
-    if "expected ':'" in fault.text and re.match(
-        r"\s*(def|class|if|else|elif|try|except|finally|"
-        r"for|while|with)\b",
-        line,
-    ):
-        return text.spliced([Splice(end, end, ":")])
-    if "was never closed" in fault.text and _open_brackets(line) == ["("]:
-        return text.spliced([Splice(end, end, ")")])
-    if "forgot a comma" in fault.text and not line.rstrip().endswith((",", "(", "[", "{", "\\")):
-        return text.spliced([Splice(end, end, ",")])
-    return None
-
-
-def _open_brackets(line: str) -> list[str]:
-    """Return the brackets that a line leaves open; `?` for one that does not match."""
-    pairs = {")": "(", "]": "[", "}": "{"}
-    waiting: list[str] = []
-    quote = ""
-    for sign in line:
-        if quote or sign in "'\"":
-            quote = "" if sign == quote else quote or sign
-        elif sign in "([{":
-            waiting.append(sign)
-        elif sign in pairs and (not waiting or waiting.pop() != pairs[sign]):
-            return ["?"]
-    return [*waiting, quote] if quote else waiting
-
-
-def _without_comment(line: str) -> str:
-    """Return a line without a comment at its end (only if no quote comes before the `#`)."""
-    before, hash_sign, _ = line.partition("#")
-    plain = hash_sign and not {"'", '"'} & set(before)
-    return (before if plain else line).rstrip()

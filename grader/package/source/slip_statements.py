@@ -35,9 +35,15 @@ MISSPELT = {"form": "from", "fro": "from", "dfe": "def", "fi": "if"}
 PARAMETERS = re.compile(r"^[ \t]*def[ \t]+\w+[ \t]*\([^)]*\b\w+\.\w")
 FROM_PARTS = re.compile(r"^[ \t]*from[ \t]+[\w.]+(?P<blank>[ \t]+)(?!import\b)[\w.]+[ \t]+import\b")
 NO_NAME = re.compile(r"^[ \t]*(?:from[ \t]+[\w.]+[ \t]+)?import(?:[ \t]+[\w.]+[ \t]+as)?[ \t]*$")
-CALL_WITHOUT = re.compile(rf"^[ \t]*(?P<name>{PLACE})(?P<blank>[ \t]+)(?P<given>[\w'\"].*?)[ \t]*$")
+CALL_WITHOUT = re.compile(
+    rf"^[ \t]*(?P<name>{PLACE}(?:\(\)\.[\w.]{{1,80}})?)(?P<blank>[ \t]+)(?P<given>[\w'\"].*?)[ \t]*$"
+)
 HANDLER = re.compile(r"^[ \t]*except[ \t]+(?P<types>[\w.]+[ \t]*,[ \t]*(?P<last>\w+))[ \t]*:")
 OPERANDS = re.compile(r"(?P<before>[\w'\")\]}])(?P<blank>[ \t]+|[ \t]*[\r\n][ \t\r\n]*)(?=[\w'\"])")
+ASSIGNS = re.compile(r"[ \t]*(?:return\b|[A-Za-z_][\w.]{0,80}[ \t]*\+?=(?!=))")
+CONVERTED = re.compile(r"str[ \t]*\(")
+LONE_NAME = re.compile(r"(?P<name>[A-Za-z_][\w.]{0,80})(?=[ \t]*(?:[,)+]|$))", re.M)
+NAME_BEFORE = re.compile(r"(?<![\w.)\]])(?P<name>[A-Za-z_][\w.]{0,80})\Z")
 LINES_BETWEEN = 5  # lines, at most, of which the last has the next value
 TEXTS = re.compile(r"(?:\.(?:info|warn|warning|error|debug|fatal)|\bprint|\bstr)\(")
 
@@ -176,16 +182,19 @@ def _handler(text: Broken) -> Slip | None:
 
 def _between(text: Broken) -> Slip | None:
     """Return two values with nothing between them: a comma or a + is missing."""
-    if "forgot a comma" not in text.fault.text:
+    inside = "forgot a comma" in text.fault.text
+    if not inside and ASSIGNS.match(text.line) is None:
         return None
-    for splice, variant in _ways(text):
-        new = text.changed(splice)
+    for splices, variant in _ways(text):
+        if variant == "comma_missing" and not inside:
+            continue
+        new = text.changed(*splices)
         if new is not None:
-            return text.slip("signs", variant, text.source.line(text.number), splice, fixed=new)
+            return text.slip("signs", variant, text.source.line(text.number), *splices, fixed=new)
     return None
 
 
-def _ways(text: Broken) -> Iterator[tuple[Splice, str]]:
+def _ways(text: Broken) -> Iterator[tuple[list[Splice], str]]:
     """Yield what could stand between the values of the line, and of it and the next one."""
     start, end = text.code.start_of(text.number), text.code.end_of(text.number + LINES_BETWEEN)
     code = text.code.text[start:end]
@@ -194,10 +203,25 @@ def _ways(text: Broken) -> Iterator[tuple[Splice, str]]:
             break
         at = start + match.start("blank")
         quoted = {match["before"], code[match.end()]} & {"'", '"'}
-        shown = TEXTS.search(code[: match.end()]) or _ends_path(text, at)
+        is_text = any((TEXTS.search(code[: match.end()]), CONVERTED.match(code, match.end())))
+        shown = is_text or _ends_path(text, at) or ASSIGNS.match(code)
         if quoted and shown and match["blank"].strip("\r\n"):
-            yield Splice(at, at + len(match["blank"]), " + "), "plus_missing"
-        yield Splice(at, at, ","), "comma_missing"
+            plus = Splice(at, at + len(match["blank"]), " + ")
+            values = [] if _ends_path(text, at) else [*_as_text(code, match, start)]
+            yield [plus, *values], "plus_missing"
+        yield [Splice(at, at, ",")], "comma_missing"
+
+
+def _as_text(code: str, match: re.Match[str], start: int) -> Iterator[Splice]:
+    """Yield the splices that make a text of a plain name beside a text: + joins only texts."""
+    name = LONE_NAME.match(code, match.end())
+    if name is not None:
+        yield Splice(start + name.start(), start + name.start(), "str(")
+        yield Splice(start + name.end(), start + name.end(), ")")
+    before = NAME_BEFORE.search(code[: match.start("blank")])
+    if before is not None:
+        yield Splice(start + before.start(), start + before.start(), "str(")
+        yield Splice(start + before.end(), start + before.end(), ")")
 
 
 def _ends_path(text: Broken, end: int) -> bool:

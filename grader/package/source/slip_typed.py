@@ -33,6 +33,8 @@ RULES = (
     _typed("dot_bracket", r"(?<=\w)[ \t]*\.[ \t]*(?=[(\[])", ""),
     _typed("parameter_outside", r"\([ \t]*\)[ \t]*(?P<inside>self|args(?:[ \t]*=[ \t]*None)?)[ \t]*(?=:)",
            r"(\g<inside>)"),
+    _typed("def_brackets", r"^(?P<start>[ \t]*def[ \t]+\w+)[ \t]+(?P<inside>self(?:[ \t]*,[ \t]*\w+){0,4})[ \t]*(?=:)",
+           r"\g<start>(\g<inside>)"),
     _typed("call_brackets", r"\b(?P<name>str|int|float|len|repr|round)[ \t]+(?P<given>[A-Za-z_][\w.]*)(?![\w.(\[])",
            r"\g<name>(\g<given>)"),
     _typed("import_comma", r"^(?P<all>[ \t]*(?:from[ \t].*|import[ \t].*?))[ \t]*,[ \t]*$", r"\g<all>"),

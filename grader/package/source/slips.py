@@ -13,12 +13,14 @@ from dataclasses import dataclass
 from grader.package.edit.text import SourceText, Splice, indent_of, read_source
 from grader.package.source.broken_python import BLOCK, LONGEST, MOST_TRIES, Broken, Slip, fault_of
 from grader.package.source.code_only import code_only
+from grader.package.source.documents import document_of
 from grader.package.source.pasted import WHOLE_LINES, cleaned, pasted_in
 from grader.package.source.slip_blocks import BLOCK_LOOKS, two_statements
 from grader.package.source.slip_brackets import open_bracket
 from grader.package.source.slip_fields import FIELD_LOOKS
 from grader.package.source.slip_future import FUTURE_LOOKS
 from grader.package.source.slip_indent import behind_colon, first_of_block, further_in
+from grader.package.source.slip_joined import JOINED_LOOKS
 from grader.package.source.slip_output import OUTPUT_LOOKS
 from grader.package.source.slip_statements import STATEMENT_LOOKS
 from grader.package.source.slip_tabs import tab
@@ -44,31 +46,12 @@ def slip_of(found: bytes) -> Slip | None:
     code = SourceText(code_only(source.text), source.encoding)
     text = Broken(source, code, fault, fault.line)
     return (
-        _document(text)
+        document_of(found)
         or _shebang(text)
         or _answer(text)
         or _pasted(text)
         or next(filter(None, (look(text) for look in LOOKS)), None)
     )
-
-
-DOCUMENTS = {
-    "page": re.compile(r"\s*<(?:!doctype\s+html|html|head)\b", re.I),
-    "markup": re.compile(r"\s*<\?xml\b|\s*<package\b"),
-    "notebook": re.compile(r"\s*\{\s*\"cells\"\s*:"),
-    "word": re.compile(r"\{\\rtf"),
-}
-"""How files begin that are no Python at all."""
-
-
-def _document(text: Broken) -> Slip | None:
-    """Return a file of another kind under the name of a Python file."""
-    for variant, pattern in DOCUMENTS.items():
-        match = pattern.match(text.source.text)
-        if match is not None:
-            line = _line_at(text.source, match.end())
-            return Slip("document", variant, line, text.source.line(line).strip())
-    return None
 
 
 SHEBANG = "#!/usr/bin/env python3"
@@ -518,5 +501,5 @@ def _global(text: Broken) -> Slip | None:
 
 LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
     _conflict, *FUTURE_LOOKS, _prose, *OUTPUT_LOOKS, _numbers, *FIELD_LOOKS, _brace, _global, _do_while, _constructor, _braces, _comment, _commas, _apostrophe, *QUOTE_LOOKS, _quotes, _keys, open_bracket, tab, behind_colon, try_block,
-    *TYPED_LOOKS, *STATEMENT_LOOKS, first_of_block, *BLOCK_LOOKS, further_in, _other_sign, *LATE_LOOKS, two_statements,
+    *JOINED_LOOKS, *TYPED_LOOKS, *STATEMENT_LOOKS, first_of_block, *BLOCK_LOOKS, further_in, _other_sign, *LATE_LOOKS, two_statements,
 )  # fmt: skip

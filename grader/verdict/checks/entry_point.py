@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import say
 from grader.base.nearest import nearest, there_is, with_difference
 from grader.base.shown import shown
+from grader.package.source.documents import document_of
 from grader.package.source.python import PythonFault, parse_python
 from grader.report.model import Where
 from grader.verdict.checks import entry_faults
@@ -112,6 +113,8 @@ def _advice(evidence: Evidence) -> list[str]:
     path = module.replace(".", "/") + ".py"
     file = file_of(evidence, path)
     if file is None or path != node_path(evidence) or not file.data.strip():
+        return []
+    if document_of(file.data) is not None:  # Python takes a notebook for a dict
         return []
     try:
         names = _top_names(parse_python(file.data).tree)

@@ -325,16 +325,30 @@ def _check_setup_name(evidence: Evidence) -> None:
 
 
 def _check_build_type_place(manifest: Manifest) -> None:
-    for element in manifest.all("build_type"):
+    """Raise Failed for a <build_type> that is not in <export>."""
+    there = manifest.effective("build_type", within="export")
+    for element in manifest.elements:
+        if element.tag != "build_type" or element.within == "export":
+            continue
+        if element.within not in TAGS and nearest("export", [element.within], cutoff=0.75):
+            continue  # the name of the tag around it is wrong
         outside = say("<build_type> is outside of <export>")
-        raise _build_type(element, outside, "" if manifest.all("export") else "outside")
+        exports = manifest.all("export")
+        variant = "outside_too" if there else "into" if exports else "outside"
+        if element.within != "package" and not exports:
+            variant = "out_of_other"
+        line = (there or exports)[0].line if there or exports else 0
+        raise _build_type(element, outside, variant, first=line)
 
 
 def _check_build_type(evidence: Evidence, manifest: Manifest) -> None:
     elements = manifest.effective("build_type", within="export")
     if not elements:
         _check_tag_name(manifest, "build_type", within="export")
-        raise _build_type(manifest.first("export"), say("there is no <build_type>"))
+        export, missing = manifest.first("export"), say("there is no <build_type>")
+        if export is None:
+            raise _build_type(None, missing)
+        raise _build_type(export, missing, "in_export", first=export.line)
     if len(elements) > 1:
         many = say("there are {count} <build_type> tags", count=len(elements))
         raise _build_type(elements[1], many, "several")
@@ -342,7 +356,8 @@ def _check_build_type(evidence: Evidence, manifest: Manifest) -> None:
         _check_created(evidence, elements[0])
         said = f"<build_type>{shown(elements[0].text)}</build_type>"
         differs = with_difference(said, elements[0].text, "ament_python")
-        raise _build_type(elements[0], differs, "" if _not_there(evidence) else "line")
+        created = "cmake" in elements[0].text and bool(_not_there(evidence))
+        raise _build_type(elements[0], differs, "cmake" if created else "line")
 
 
 def _check_created(evidence: Evidence, element: Element) -> None:
@@ -376,14 +391,17 @@ def _not_there(evidence: Evidence) -> list[str]:
     return [path for path in files if evidence.submission.file(path) is None]
 
 
-def _build_type(element: Element | None, actual: str, variant: str = "") -> Failed:
+def _build_type(
+    element: Element | None, actual: str, variant: str = "", *, first: int = 0
+) -> Failed:
     return _failed(
         "package.build_type",
         actual,
         element.line if element else None,
         expected=BUILD_TYPE,
-        variant=variant or ("cmake" if "cmake" in actual else ""),
+        variant=variant,
         params={"build_type": element.text[:80] if element and element.text.isprintable() else ""},
+        words={"first": str(first), "within": shown(element.within) if element else ""},
     )
 
 

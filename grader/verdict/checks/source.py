@@ -14,6 +14,7 @@ from grader.mistakes.hints import hints
 from grader.mistakes.slips import KINDS, description, words_of
 from grader.package.edit.text import read_source
 from grader.package.source.broken_python import Slip
+from grader.package.source.documents import code_cells, document_of
 from grader.package.source.newer_python import SINCE, first_difference, with_older_quotes
 from grader.package.source.numbers_above import numbers_above
 from grader.package.source.other_encoding import declaration, kind_of_encoding
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 MOST_ADVICE = 5
+MOST_NOTEBOOKS = 9
 UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 PYTHON3 = re.compile(
     rb"#![ \t]{0,9}(?:/usr/bin/env[ \t]{1,9}(?:-S[ \t]{1,9})?|/usr/bin/|/bin/|/usr/local/bin/)"
@@ -64,6 +66,9 @@ def node_file(evidence: Evidence) -> Passed:
         )
     if not file.data.strip() or (has_no_code(file.data) and _beside_empty(evidence, path) != path):
         raise _empty(evidence, path, file.data)
+    document = document_of(file.data)
+    if document is not None:
+        raise _document(path, document)
     try:
         parsed = parse_python(file.data)
     except PythonFault as fault:
@@ -164,6 +169,17 @@ def _empty(evidence: Evidence, path: str, data: bytes) -> Failed:
             params={"there": shown(other)},
             words={"path": path, "copy": "", "there": shlex.quote(shown(other))},
         )
+    notebook = _notebook(evidence)
+    if notebook:
+        return Failed(
+            "source.empty_node_file",
+            expected=say("your node's code in {path}", path=path),
+            actual=say("the file is empty: your node is in {path}", path=shown(notebook)),
+            where=Where(file=path),
+            variant="notebook",
+            params={"notebook": shown(notebook)},
+            words={"path": path, "copy": "", "there": shown(notebook)},
+        )
     copy = shown(evidence.submission.newer_copy)
     but = say("the file is empty, but {copy} is not", copy=copy)
     return Failed(
@@ -182,6 +198,17 @@ def _lone_node(evidence: Evidence, path: str) -> str:
     names = [n for n in names_in(evidence, inner) if n.endswith(".py") and n != "__init__.py"]
     paths = [f"{inner}/{name}" for name in names]
     found = [there for there in paths if there != path and is_the_node(evidence, there)]
+    return found[0] if len(found) == 1 else ""
+
+
+def _notebook(evidence: Evidence) -> str:
+    """Return the one notebook of the package whose code imports ROS; "" if there is none."""
+    files = [f for f in evidence.submission.files if f.path.endswith(".ipynb")]
+    found = [
+        file.path
+        for file in files[:MOST_NOTEBOOKS]
+        if file.kind == "file" and "rclpy" in "".join(code_cells(file.data) or ())
+    ]
     return found[0] if len(found) == 1 else ""
 
 
@@ -231,13 +258,15 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
     if elsewhere and not (inside and inside[0].rpartition("/")[0] == inner):
         return _misplaced(evidence, elsewhere[0], is_inside=bool(inside))
     close = found or near_name(evidence)
-    if close.endswith(".ipynb"):
+    notebook = close if close.endswith(".ipynb") else "" if close else _notebook(evidence)
+    if notebook:
         return Failed(
             "source.no_node_file",
             expected=expected,
-            actual=say("there is {path}", path=shown(close)),
-            where=Where(file=shown(close)),
+            actual=say("there is {path}", path=shown(notebook)),
+            where=Where(file=shown(notebook)),
             variant="notebook",
+            params={"notebook": shown(notebook)},
             words={"path": path, "copy": ""},
         )
     if close:
@@ -347,6 +376,18 @@ def _slip(path: str, text: str, kind: str, slip: Slip) -> Failed:
     )
 
 
+def _document(path: str, document: Slip) -> Failed:
+    return Failed(
+        "source.pasted",
+        expected=say("a file that Python can read"),
+        actual=description(document),
+        where=Where(file=path, line=document.line),
+        variant=document.variant,
+        params={"what": document.variant},
+        words={**words_of(document), "file": shown(path.rpartition("/")[2])},
+    )
+
+
 def _node(evidence: Evidence) -> tuple[str, SourceFile]:
     """Return the node's file where it is; Blocked if there is none (a syntax error does not matter)."""
     path = actual_path(evidence)
@@ -422,15 +463,9 @@ def shebang(evidence: Evidence) -> Passed:
         through_env = b"/env" in first and b"-S" not in first
         if not (rest.strip() and through_env):
             return Passed(actual=_of(evidence, path, shown(first.decode("utf-8", "replace"))))
-    if _is_document(file.data):
+    if document_of(file.data) is not None:
         raise Blocked(by="source.node_file")
     raise _no_shebang(evidence, path, file.data, first)
-
-
-def _is_document(found: bytes) -> bool:
-    """Whether the file is a document, and so has no first line of Python."""
-    slip = slip_of(found)
-    return slip is not None and slip.cause == "document" and slip.variant != "conflict"
 
 
 def _beside_empty(evidence: Evidence, path: str) -> str:
