@@ -407,7 +407,9 @@ def test_the_files_of_a_package_inside_are_not_to_be_moved_out(bench: Bench) -> 
 def test_a_wrong_build_type_alone_is_one_line_to_change(bench: Bench) -> None:
     bench.change("package.xml", "ament_python", "ament_cmake")
     failed = bench.fails(package.manifest)
-    assert failed.fix == "Write ament_python in this line instead, then build again."
+    assert failed.fix == (
+        "Write in this line instead, then build again: <build_type>ament_python</build_type>"
+    )
     (bench.root / "setup.cfg").unlink()
     assert "create a new package" in bench.fails(package.manifest).fix
 

@@ -64,7 +64,7 @@ def _missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
 
 def _attribute(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """An attribute is looked for that the student's line does not have."""
-    if match["type"] in (*raised.source.known_classes, "NoneType"):
+    if match["type"] in (*raised.source.known_classes, "NoneType", "super"):
         return None
     if match["name"] in raised.module.line(raised.line) or not any(_calls(raised)):
         return None

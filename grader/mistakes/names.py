@@ -141,7 +141,7 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return replace(found, variant="period")
     if (own := _class_for(raised, name)) is not None:
         return _instead(raised.finding("name_unknown", name=name, close=own))
-    close = nearest(name, _known(raised, name) - {name}, 0.7)
+    close = nearest(name, _known(raised, name) - {name, "None", "True", "False"}, 0.7)
     if isinstance(statement, ast.ClassDef) and close:
         return _instead(raised.finding("name_unknown", name=name, close=close, written=close))
     variables = raised.source.node_variables

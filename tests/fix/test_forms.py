@@ -232,7 +232,6 @@ UNCERTAIN: dict[str, tuple[Edit, ...]] = {
     "another entry that nobody can read": (points(POINTS.replace(ENTRY, f"{ENTRY}, 'x y z'")),),
     "a CMake package": (Replace(MANIFEST, "ament_python", "ament_cmake"),
                         Write("CMakeLists.txt", "project(x)\n")),
-    "two build types": (export(EXPORT + "  <build_type>ament_python</build_type>\n"),),
     "two files of the node's name": (Move(NODE, "a/my_first_node.py"),
                                      Write("b/my_first_node.py", "x = 1\n")),
     "no licence": (Replace(MANIFEST, "  <license>Apache-2.0</license>\n", ""),),

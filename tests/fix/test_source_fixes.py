@@ -16,6 +16,7 @@ from tests.recorded import mark
 BY_NAME = {package.name: package for package in BROKEN}
 # The only fix of these is exactly the solution.
 BACK_TO_SOLUTION = (
+    "returns_if_zero",
     *("node_made_after_try", "shutdown_before_node", "destroyed_before_spin", "spin_missing"),
     *("node_without_variable", "node_line_missing", "node_name_without_quotes"),
     *("guard_without_quotes", "step_outside_callback", "step_at_margin", "self_in_main"),
@@ -119,7 +120,7 @@ OTHERWISE = {
 }
 # Only the student knows what these should be.
 NOT_FIXED = (
-    *("error_hidden_in_main", "returns_if_zero", "rate_in_callback"),
+    *("error_hidden_in_main", "rate_in_callback"),
     *(
         "start_outside_init",
         "to_string",

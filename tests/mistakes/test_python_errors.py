@@ -144,3 +144,10 @@ def test_the_meaning_of_an_error_is_told(error: str, kind: str, variant: str) ->
     mistake = found(error, "self.work()")
     assert mistake is not None
     assert (mistake.kind, mistake.variant) == (f"node.{kind}", variant)
+
+
+def test_a_class_that_is_imported_elsewhere_is_not_told_to_be_none() -> None:
+    mistake = found("NameError: name 'Nodes' is not defined", "Nodes()")
+    assert mistake is not None
+    assert mistake.words.get("close") != "None"
+    assert mistake.params.get("close") != "None"

@@ -94,7 +94,7 @@ def test_a_name_that_only_rclpy_writes_is_not_misspelt() -> None:
     error = "AttributeError: 'Window' object has no attribute 'subscriptions'"
     found = raised(error, text, line_of(text, "rclpy.spin"))
     assert found is not None
-    assert (found.kind, found.variant) == ("node.attribute_unknown", "")
+    assert (found.kind, found.variant) == ("node.inside_call", "type")
 
 
 def test_a_node_that_is_spun_is_no_object_that_has_one() -> None:
