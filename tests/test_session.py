@@ -124,6 +124,40 @@ def test_who_is_run_plainly(
     assert opened.run(unheard).confirmed is (True if made else None)
 
 
+def died(*, counted: int = 0) -> Run:
+    """Return a run whose program ended by itself after some lines."""
+    run = right_run()
+    run.watch.events[counted:] = []
+    run.ended_by_itself = True
+    return run
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "taken"),
+    [
+        pytest.param(right_run(), None, 0, id="it counts with the arguments"),
+        pytest.param(died(), right_run(), 1, id="the arguments stop it"),
+        pytest.param(
+            died(), died(), 1, id="it dies without them too, with the error a person sees"
+        ),
+        pytest.param(died(counted=5), right_run(), 1, id="it ends with them only"),
+        pytest.param(died(counted=5), died(counted=5), 0, id="it ends with and without them"),
+    ],
+)
+def test_a_program_that_reads_its_command_line_is_run_without_arguments(
+    runs: Callable[..., Session], first: Run, second: Run | None, taken: int
+) -> None:
+    made = [first, *([] if second is None else [second])]
+    opened = runs(*made)
+    opened._reads_command_line = True
+    assert opened.run(unheard) is made[taken]
+
+
+def test_a_program_that_does_not_read_it_is_not(runs: Callable[..., Session]) -> None:
+    first = died()
+    assert runs(first).run(unheard) is first
+
+
 @pytest.mark.parametrize(
     ("error", "limit"),
     [

@@ -117,6 +117,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "name": "pool.submit(rclpy.spin, node)",
         "written": "rclpy.spin(node)",
     },
+    "node.arguments_needed": {"name": "--start"},
     "node.arguments_refused": {
         "name": "parser.parse_args()",
         "written": "parser.parse_known_args()[0]",

@@ -95,7 +95,8 @@ class Suspect:
     """A source with a known symptom, and its assignment.
 
     If a line of the output is wrong, `text` is that line and `place` is where it was logged.
-    `lines` are the lines of the output that came, none if they are not known.
+    `lines` are the lines of the output that came, none if they are not known. `transcript` is
+    what the program wrote to its terminal.
     """
 
     source: NodeSource
@@ -103,6 +104,7 @@ class Suspect:
     text: str = ""
     place: Where | None = None
     lines: tuple[str, ...] = ()
+    transcript: str = ""
 
     @property
     def output(self) -> Output:

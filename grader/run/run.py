@@ -21,6 +21,7 @@ from grader.run.screen import stays
 from grader.run.terminal import Terminal
 from grader.sandbox.base import UNRUNNABLE, Pipe, Sandbox
 
+SIM_TIME = ("--ros-args", "-p", "use_sim_time:=true")
 UNSEEN_SECONDS = 5.0  # wall time from the first line within which a node appears on the graph
 COMPLETE_SECONDS = 2.0  # wall time within which all endpoints of a visible node appear
 OWN_TRACEBACK = '/bin/ros2", line '  # in a traceback of the ros2 command itself
@@ -97,6 +98,11 @@ class Run:
         return next((node for node in self.nodes if node.name == self.counting), None)
 
     @property
+    def plain(self) -> bool:
+        """Whether the command had no arguments of ours."""
+        return bool(self.command) and SIM_TIME[0] not in self.command
+
+    @property
     def doubts_ros2(self) -> bool:
         """Whether `ros2` itself may have failed to run (the student's code can cause this too)."""
         unrunnable = self.status in UNRUNNABLE or OWN_TRACEBACK in self.transcript
@@ -125,10 +131,12 @@ def observe(
     real_time: bool = False,
     more_ticks: int = 0,
     stay_seconds: float = 0,
+    plain: bool = False,
 ) -> Run:
     """Run the node, drive its clock (in `fine` steps or coarse), press Ctrl+C, return the result.
 
-    With `real_time` ROS time is as fast as the wall clock.     The clock shows `more_ticks` beyond those that the assignment announces; the last of them comes
+    With `real_time` ROS time is as fast as the wall clock. With `plain` the command has no arguments
+    of ours, so that the node follows the wall clock. The clock shows `more_ticks` beyond those that the assignment announces; the last of them comes
     `stay_seconds` of wall time after the node at the earliest.
 
     The run ends at `until` (by time.monotonic()) at the latest. Raises ProbeError if our own side
@@ -136,8 +144,10 @@ def observe(
     flooded it, or if the node still runs beyond its time limit when the probe fails.
     """
     limits = sandbox.limits
-    words = (assignment.package, assignment.executable, "--ros-args", "-p", "use_sim_time:=true")
-    run = Run(command=ros2_run(sandbox.ros.distro, *words))
+    added = () if plain else SIM_TIME
+    run = Run(
+        command=ros2_run(sandbox.ros.distro, assignment.package, assignment.executable, *added)
+    )
     probe.until = until - limits.stop_seconds - END_SECONDS
     probe.ready()
     begin = time.monotonic()

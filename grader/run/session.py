@@ -13,6 +13,7 @@ from types import TracebackType
 from grader.base.unheard import unheard
 from grader.course.assignment import Assignment
 from grader.course.scenario import RunPlan
+from grader.package.source.command_line import reads_command_line
 from grader.package.source.real_time import reads_real_time
 from grader.package.source.remarks import Remark, remarks_on
 from grader.package.submission import Submission
@@ -60,6 +61,7 @@ class Session:
         self._interfaces = b""  # those of the submission, for the probe
         self._remarks: list[Remark] = []
         self._reads_real_time = False
+        self._reads_command_line = False
         self._unforeseen = Unforeseen(more_ticks=0, stay_seconds=0, draw=1)
         self._built = b""  # the workspace after the build, for a plain run or another scenario
         self._planned = False  # whether a run of a scenario was made
@@ -88,6 +90,7 @@ class Session:
         self._probe = self._probe or self._new_probe()
         self._remarks = remarks_on(submission.files)
         self._reads_real_time = reads_real_time(submission.files)
+        self._reads_command_line = reads_command_line(submission.files)
         could_end = any(remark.kind in ("ends", "hides") for remark in self._remarks)
         self._unforeseen = unforeseen(submission.sha256, could_end=could_end)
         try:
@@ -109,8 +112,9 @@ class Session:
         `named` is the assignment with the names that the built package has, if they differ.
         A run that would cost points for its timing is repeated too, with the clock in fine steps,
         because load or a jump of the clock must not look like the node's fault; with a clock as fast
-        as the wall clock, if the package reads that. A run is repeated
-        only if the verdict's time limit leaves time for it.
+        as the wall clock, if the package reads that. A package that reads its command line gets a run
+        without our arguments, if it does not count with them. A run is repeated only if the verdict's
+        time limit leaves time for it.
         Raises Unobserved if our own side failed each time, BrokenRosError if ros2 itself does not
         run.
         """
@@ -144,6 +148,10 @@ class Session:
     def _compared(self, run: Run, named: Assignment) -> Run:
         """Return a run after another one, if one run does not say enough about the node."""
         # the second run reports no ticks: the listener already has those of the first
+        if self._reads_command_line and not self._begins_right(run):
+            plain = self._run(unheard, named, plain=True)
+            died = run.ended_by_itself and not run.watch.counted
+            return plain if died or self._begins_right(plain) else run
         if self._holds_up(run):
             again = self._run(unheard, named)
             if self._holds_up(again):
@@ -165,6 +173,7 @@ class Session:
         *,
         fine: bool = False,
         real_time: bool = False,
+        plain: bool = False,
     ) -> Run:
         observed = partial(
             observe,
@@ -172,6 +181,7 @@ class Session:
             named,
             fine=fine,
             real_time=real_time,
+            plain=plain,
             more_ticks=self._unforeseen.more_ticks,
             stay_seconds=self._unforeseen.stay_seconds,
         )
@@ -214,14 +224,15 @@ class Session:
 
     def _may_only_work_here(self, run: Run) -> bool:
         """Whether to see if the node also works without our arguments, as a person runs it."""
-        output = self.assignment.output
-        begins_right = [event.n for event in run.watch.counted[:2]] == [
-            output.start,
-            output.start + output.step,
-        ]
-        if not begins_right or run.ended_by_itself or not self._on_time(run):
+        if not self._begins_right(run) or not self._on_time(run):
             return False  # (it has failed already)
         return self._is_confirmed()
+
+    def _begins_right(self, run: Run) -> bool:
+        """Whether a node counts from the start, and did not end by itself."""
+        output = self.assignment.output
+        begin = [event.n for event in run.watch.counted[:2]]
+        return begin == [output.start, output.start + output.step] and not run.ended_by_itself
 
     def _is_confirmed(self) -> bool:
         """Whether the package is run plainly too, if it counts."""

@@ -135,7 +135,8 @@ def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedM
         return other
     text = str(diagnosis.mistakes[0].params.get("text", ""))
     lines = tuple(event.text for event in evidence.run.watch.counted)
-    suspect = Suspect(source, evidence.assignment, text, diagnosis.where, lines)
+    said = (ended_program(evidence.run) or evidence.run).transcript
+    suspect = Suspect(source, evidence.assignment, text, diagnosis.where, lines, said)
     return behind_symptom(symptom, suspect)
 
 

@@ -32,6 +32,15 @@ class Ticker:
         self.logger.info(f'Hello time: {self.count}')
         self.count += 1
 """
+PARSER = """\
+    parser = argparse.ArgumentParser()
+    parser.add_argument('--verbose', action='store_true')
+    parser.parse_args()
+"""
+NO_ARGUMENTS = """\
+    if len(sys.argv) > 1:
+        sys.exit('usage: test_node')
+"""
 COMPOSED = f"""\
 #!/usr/bin/env python3
 import rclpy
@@ -98,6 +107,13 @@ NODES = (
           _node(LINE, f"self.speaker.info({TEXT})")),
     right("helper_class_with_the_timer", Write(NODE, COMPOSED, 0o755),
           Write(f"{INNER}/ticker.py", TICKER)),
+    right("argparse_refuses_ros_arguments", _imports("import argparse"), _before(PARSER),
+          wall_clock=True, note="a person at a terminal gives no arguments"),
+    right("usage_without_arguments_only", _imports("import sys"), _before(NO_ARGUMENTS),
+          wall_clock=True),
+    right("start_from_the_number_of_arguments", _imports("import sys"),
+          _node(COUNT, "self.counter_ = len(sys.argv) - 1"), wall_clock=True,
+          note="starts at 0 only without arguments"),
     right("timer_of_a_helper_module",
           Write(f"{INNER}/start.py", "def start(node, callback):\n"
                 "    return node.create_timer(1.0, callback)\n"),

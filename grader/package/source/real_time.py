@@ -6,10 +6,10 @@ import ast
 from collections.abc import Sequence
 
 from grader.package.intake.model import SourceFile
-from grader.package.source.module import Module, parse_module
+from grader.package.source.module import Module
 from grader.package.source.names import calls_in, dotted, last_part
-from grader.package.source.python import PythonFault
-from grader.package.source.remarks import MOST_BYTES, NOT_THE_NODE, OTHER_CLOCKS
+from grader.package.source.node_modules import node_modules
+from grader.package.source.remarks import OTHER_CLOCKS
 
 THROTTLE = "throttle_duration_sec"
 CLOCKS = {
@@ -32,21 +32,9 @@ def reads_real_time(files: Sequence[SourceFile]) -> bool:
     clock of Python or another clock of ROS. Files that cannot be read count as not.
     """
     return any(
-        _in_file(file)
-        for file in files
-        if file.kind == "file"
-        and file.path.endswith(".py")
-        and len(file.data) <= MOST_BYTES
-        and not NOT_THE_NODE.search(file.path)
+        _names(module) or any(_is_clock(name) for _, name in calls_in(module.tree))
+        for module in node_modules(files)
     )
-
-
-def _in_file(file: SourceFile) -> bool:
-    try:
-        module = parse_module(file.path, file.data)
-    except PythonFault:
-        return False
-    return _names(module) or any(_is_clock(name) for _, name in calls_in(module.tree))
 
 
 def _names(module: Module) -> bool:

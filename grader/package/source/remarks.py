@@ -168,11 +168,11 @@ def _names(module: Module) -> Iterator[Remark]:
         if not isinstance(node, ast.Attribute | ast.Name) or not isinstance(node.ctx, ast.Load):
             continue
         name = dotted(node)
-        if (name in ASKS and not _is_passed_on(module, node)) or last_part(name) in OTHER_CLOCKS:
+        if (name in ASKS and not is_passed_on(module, node)) or last_part(name) in OTHER_CLOCKS:
             yield Remark("asks", module.path, node.lineno, name)
 
 
-def _is_passed_on(module: Module, node: ast.AST) -> bool:
+def is_passed_on(module: Module, node: ast.AST) -> bool:
     """Whether a name is only handed to rclpy.init or main, as many examples do."""
     outer = module.parents.get(node)
     if isinstance(outer, ast.keyword):

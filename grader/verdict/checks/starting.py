@@ -45,7 +45,7 @@ def starts(evidence: Evidence) -> Passed:
         _others_start(evidence)
         seconds = f"{run.node_seconds or 0:.1f}"
         said = say("the node was on the ROS graph after {seconds} s", seconds=seconds)
-        return Passed(actual=said)
+        return Passed(actual=said, advice=_refused_arguments(evidence))
     if run.resource:
         raise resource(evidence, say("the node starts within the limits of the sandbox"))
     if run.flooded:
@@ -55,6 +55,19 @@ def starts(evidence: Evidence) -> Passed:
     seconds = f"{run.seconds - (run.stop_seconds or 0):.0f}"
     said = say("the program runs, but no node was seen within {seconds} s", seconds=seconds)
     raise _no_node(evidence, said)
+
+
+def _refused_arguments(evidence: Evidence) -> list[str]:
+    """Return that the node works without ROS arguments only, if it was marked without them."""
+    if not evidence.run.plain:
+        return []
+    return [
+        say(
+            "Your program reads the command line itself and does not work with the arguments of ROS, "
+            "so it was marked without them. ros2 run … --ros-args and launch files will stop it: with "
+            "argparse, write parse_known_args()[0] instead of parse_args()."
+        )
+    ]
 
 
 def _ended(evidence: Evidence) -> Outcome:
