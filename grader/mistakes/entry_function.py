@@ -11,15 +11,16 @@ from grader.base.nearest import nearest
 from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.example import BODY_OF_MAIN, NODE, example
-from grader.mistakes.fixes import node_input, node_life, node_main, node_names
+from grader.mistakes.fixes import lines, node_input, node_life, node_main, node_names
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.guard import guarded_code
-from grader.package.source.names import calls_in
+from grader.package.source.names import calls_in, last_part
 from grader.package.source.sleeps import SLEEPS
 from grader.report.model import Where
 
+SPINS = ("spin", "spin_once", "spin_until_future_complete")
 WAITS = ("input", *SLEEPS)
 NO_FUNCTION = r"AttributeError: module '[\w.]{1,200}' has no attribute '(?P<function>\w{1,120})'"
 MAIN = 'def main(args=None):\n    """Run the node until Ctrl+C."""\n'
@@ -113,6 +114,15 @@ def _asks_first(suspect: Suspect) -> RecognisedMistake | None:
     call = node_input.input_before_spin(suspect.source)
     if call is None:
         return None
+    node = min(suspect.source.node_variables, default="node")
+    if not any(last_part(name) in SPINS for _, name in suspect.source.calls):
+        found = suspect.finding(
+            "waits_first",
+            call,
+            name=suspect.source.module_of(call).text.code(call),
+            written=f"rclpy.spin({node})",
+        )
+        return replace(found, variant="no_spin")
     found = suspect.finding("waits_first", call, name="input()")
     counter = node_input.counter_of_input(suspect.source, call)
     if not counter:
@@ -274,17 +284,31 @@ KINDS = (
         whys={
             "input": ASKS,
             "counter": ASKS,
+            "no_spin": msg(
+                "{name} waits until someone types a line and presses Enter, and then the program goes "
+                "on to its end. It never calls rclpy.spin, so nothing calls the node's callbacks. "
+                "rclpy.spin also keeps the program running."
+            ),
         },
         fixes={
             "input": msg("Write the value in the code instead of {name}, or delete this line."),
             "counter": msg("Write {counter} = {start} on this line, without {name}."),
+            "no_spin": msg("Write {written} instead of {name}."),
         },
         behind={"run.no_node": _waits_first, "run.never_spins": _asks_first},
-        fixed_by=(node_input.number, node_input.deleted),
+        fixed_by=(lines.written, node_input.number, node_input.deleted),
         examples=(
             example(
                 "counter_from_input",
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = int(input('start? '))"),
+                fails="run.spins",
+                blocks=("run.output", "run.logger", "run.period"),
+            ),
+            example(
+                "input_in_place_of_spin",
+                Replace(
+                    NODE, "        rclpy.spin(node)\n", "        input('Enter ends the node')\n"
+                ),
                 fails="run.spins",
                 blocks=("run.output", "run.logger", "run.period"),
             ),

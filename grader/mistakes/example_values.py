@@ -93,6 +93,13 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "there": "my_node.py",
         "folder": "My_Package",
         "inner": "my_package",
+        "module": "my_package.my_node",
+        "module_there": "my_package.nodes.my_node",
+    },
+    "node.import_inside": {
+        "name": "Node",
+        "written": "from rclpy.node import Node",
+        "function": "main",
     },
     "run.wrong_node_name": {"wanted": "my_node"},
     "node.of_tutorial": {

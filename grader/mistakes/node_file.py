@@ -116,7 +116,11 @@ KINDS = (
                 "Move the code from {init} into {wanted}, and leave __init__.py empty."
             ),
             "inside": MOVE,
-            "entry": MOVE,
+            "entry": msg(
+                "Move it into the inner folder, and let setup.py name it: write {module} instead of "
+                "{module_there} there. Then build again. In the package's folder, run: mv {there} "
+                "{wanted}"
+            ),
             "folder": msg("Rename the folder {folder} to {inner}, to the letter: case matters."),
         },
         whys={

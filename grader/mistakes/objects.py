@@ -18,7 +18,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.imported import full_name, imports, name_of_node
 from grader.package.source.module import Function
-from grader.package.source.names import called_name, dotted, last_part, own_name
+from grader.package.source.names import called_name, dotted, last_part, module_name, own_name
 from grader.package.source.place import statement_at
 
 NO_BASE = (
@@ -259,7 +259,7 @@ def _own_import(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
     statement = statement_at(raised.module, raised.line)
     if not isinstance(statement, ast.ImportFrom):
         return None
-    own = raised.module.path.removesuffix(".py").replace("/", ".")
+    own = module_name(raised.module.path)
     if match["module"] != own or last_part(statement.module or "") != last_part(own):
         return None
     return raised.finding("import_own", at=statement, name=match["name"])

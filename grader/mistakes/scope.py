@@ -54,6 +54,26 @@ def _quotes(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     return replace(found, variant="guard") if name == "__main__" else found
 
 
+def _imported_inside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The name is imported inside of another function, and exists only there."""
+    name, module = match["name"], raised.module
+    here = function_at(module, raised.line)
+    for node in module.nodes:
+        if not isinstance(node, ast.Import | ast.ImportFrom) or name not in _bound_by(node):
+            continue
+        inside = function_at(module, node.lineno)
+        if inside is None or inside is here:
+            return None
+        return raised.finding(
+            "import_inside", at=node, name=name, written=ast.unparse(node), function=inside.name
+        )
+    return None
+
+
+def _bound_by(node: ast.Import | ast.ImportFrom) -> set[str]:
+    return {(alias.asname or alias.name).partition(".")[0] for alias in node.names}
+
+
 def creates_timer(raised: Raised) -> bool:
     """Return whether the statement that raised an exception creates a timer."""
     statement = statement_at(raised.module, raised.line)
@@ -148,6 +168,29 @@ def _is_method(raised: Raised, function: Function) -> bool:
 
 _node = Family("node", links.PYTHON_CLASSES)
 KINDS = (
+    _node(
+        "import_inside",
+        "start",
+        msg("The name is imported inside of another function"),
+        msg(
+            "This line is inside of {function}, so {name} exists only while {function} runs, and only "
+            "in it. The class and the other functions do not know it."
+        ),
+        msg("Move {written} to the top of the file, without indentation."),
+        raised={NAME_ERROR: _imported_inside},
+        examples=(
+            example(
+                "imports_in_main",
+                Replace(NODE, "import rclpy\nfrom rclpy.node import Node\n", ""),
+                Replace(
+                    NODE,
+                    "    rclpy.init(args=args)\n",
+                    "    import rclpy\n    from rclpy.node import Node\n    rclpy.init(args=args)\n",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
     _node(
         "quotes_missing",
         "class",

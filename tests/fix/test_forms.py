@@ -261,3 +261,18 @@ def test_an_entry_that_exists_twice_is_not_added_again(tmp_path: Path) -> None:
     wrong = entry.replace("first", "frist")
     old = plan_of(edited(tmp_path, Replace(SETUP, f"{entry},", f"{entry} {wrong},")))
     assert contents(old.new)[SETUP].count(b"test_node") == 2
+
+
+def test_a_moved_node_is_named_by_its_entry_at_once(tmp_path: Path) -> None:
+    nodes, below = f"{INNER}/nodes", "my_robot_controller.nodes.my_first_node"
+    root = edited(
+        tmp_path,
+        Move(NODE, f"{nodes}/my_first_node.py"),
+        Write(f"{nodes}/__init__.py", ""),
+        Replace(SETUP, "my_robot_controller.my_first_node", below),
+    )
+    plan = plan_of(root)
+    new = contents(plan.new)
+    assert (NODE in new, f"{nodes}/my_first_node.py" in new) == (True, False)
+    assert ENTRY in new[SETUP].decode()
+    assert below not in new[SETUP].decode()

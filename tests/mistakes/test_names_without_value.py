@@ -77,3 +77,27 @@ def test_an_object_of_the_own_class_in_init_is_found() -> None:
     )
     assert found is not None
     assert (found.kind, found.variant) == ("node.makes_itself", "")
+
+
+INSIDE = RIGHT.replace("import rclpy\nfrom rclpy.node import Node\n", "")
+
+
+def test_an_import_inside_of_a_function_is_moved_to_the_top() -> None:
+    inside = "    import rclpy\n    from rclpy.node import Node\n    rclpy.init("
+    text = INSIDE.replace("    rclpy.init(", inside)
+    found = raised(not_defined("Node"), text, line_of(text, "class "))
+    assert found is not None
+    assert found.kind == "node.import_inside"
+    assert found.params["written"] == "from rclpy.node import Node"
+    assert found.where is not None
+    assert found.where.line == line_of(text, "from rclpy.node")
+
+
+def test_an_import_at_the_top_or_in_the_same_function_is_not_told_as_one_inside() -> None:
+    within = RIGHT.replace(
+        "    rclpy.init(", "    print(sleep)\n    from time import sleep\n    rclpy.init("
+    )
+    text = RIGHT + "\n\nprint(Nod)\n"
+    for name, source, at in (("sleep", within, "print("), ("Nod", text, "print(Nod")):
+        found = raised(not_defined(name), source, line_of(source, at))
+        assert found is None or found.kind != "node.import_inside"

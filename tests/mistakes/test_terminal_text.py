@@ -149,6 +149,14 @@ SHOWN = {
     "node.timer_argument_missing": [
         "TypeError: Node.create_timer() missing 1 required positional argument: 'callback'"
     ],
+    "node.arguments_needed": [
+        "usage: test_node [-h] --start START\n"
+        "test_node: error: the following arguments are required: --start"
+    ],
+    "node.arguments_refused": [
+        "usage: test_node [-h]\n"
+        "test_node: error: unrecognized arguments: --ros-args -p use_sim_time:=true"
+    ],
     "node.timer_arguments_swapped": [
         "TypeError: float() argument must be a string or a real number, not 'method'"
     ],

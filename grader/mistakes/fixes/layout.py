@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
+
 from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import EXECUTABLE, Files
 from grader.package.source.documents import script_of
+from grader.package.source.names import module_name
 from grader.package.source.python import has_no_code
 
 
@@ -54,7 +57,17 @@ def node_file(case: Case) -> Files | None:
         path = _only_one_named(case.files, name) or ""
     if case.files.file(path) is None or case.package in _files(case):
         return None
-    return case.files.with_move(path, case.node_path)
+    return _with_entry(case.files.with_move(path, case.node_path), path, case.node_path)
+
+
+def _with_entry(files: Files, old: str, new: str) -> Files:
+    """Let setup.py name the module of a moved file, if it names it exactly once."""
+    before, after = (module_name(path) for path in (old, new))
+    setup = files.data("setup.py")
+    named = re.compile(rf"(?<![\w.]){re.escape(before)}(?![\w.])".encode())
+    if setup is None or len(named.findall(setup)) != 1:
+        return files
+    return files.with_data("setup.py", named.sub(after.encode(), setup))
 
 
 def out_of_init(case: Case) -> Files | None:

@@ -44,6 +44,11 @@ def own_name(node: ast.AST | None) -> str:
     return ""
 
 
+def module_name(path: str) -> str:
+    """Return the name by which Python imports a file of a package: `a.b` for `a/b.py`."""
+    return path.removesuffix(".py").replace("/", ".")
+
+
 def calls_in(node: ast.AST) -> Iterator[tuple[ast.Call, str]]:
     """Yield every call in a part of the source, in order, with the called name."""
     for found in sorted(

@@ -15,6 +15,7 @@ from grader.mistakes.slips import KINDS, description, words_of
 from grader.package.edit.text import read_source
 from grader.package.source.broken_python import Slip
 from grader.package.source.documents import code_cells, document_of
+from grader.package.source.names import module_name
 from grader.package.source.newer_python import SINCE, first_difference, with_older_quotes
 from grader.package.source.numbers_above import numbers_above
 from grader.package.source.other_encoding import declaration, kind_of_encoding
@@ -321,6 +322,8 @@ def _misplaced(evidence: Evidence, place: str, *, is_inside: bool) -> Failed:
             "folder": place.partition("/")[0],
             "inner": inner,
             "there": shlex.quote(place),
+            "module": module_name(path),
+            "module_there": module_name(place),
         },
     )
 
