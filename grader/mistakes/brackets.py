@@ -34,6 +34,10 @@ OF_PARTIAL = (
     r"\d{1,2} w(?:as|ere) given|got an unexpected keyword argument '(?P<keyword>\w{1,120})'"
     r"|missing \d{1,2} required positional arguments?: '(?P<missing>\w{1,120})')"
 )
+REFUSED_PARTIAL = (
+    r"ValueError: partial object functools\.partial\(<bound method \w{1,120}\.(?P<function>\w{1,120}) "
+    r"of .{1,400} has incorrect arguments"
+)
 IMPORT = "import rclpy\nfrom"
 DECORATOR = """\
 def logged(function):
@@ -138,12 +142,21 @@ def _meets(raised: Raised, decorated: Function) -> bool:
 
 def _partial(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A timer's partial gives its method other arguments than its def has."""
+    return _of_partial(raised, match["function"], match["missing"])
+
+
+def _refused_partial(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """From kilted on rclpy looks at the parameters before it calls a callback."""
+    return _of_partial(raised, match["function"], None)
+
+
+def _of_partial(raised: Raised, function: str, missing: str | None) -> RecognisedMistake | None:
     for timer in raised.source.timers:
         call = timer.callback
         if not isinstance(call, ast.Call) or last_part(dotted(call.func)) != "partial":
             continue
         method = raised.source.method(own_name(call.args[0])) if call.args else None
-        if method is None or method.name != match["function"] or raised.line is None:
+        if method is None or method.name != function or raised.line is None:
             continue
         if raised.line in lines_of(call) or method.args.vararg or method.args.kwarg:
             continue
@@ -152,7 +165,7 @@ def _partial(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         code = raised.source.module_of(call).text.code
         line = str(method.lineno)
         params = {"name": " ".join(code(call).split()), "method": method.name, "line": line}
-        if (missing := match["missing"]) is not None:
+        if missing is not None:
             params["parameter"] = missing
             mistake = raised.finding("partial_arguments", at=call, params=params)
             return replace(mistake, variant="missing")
@@ -237,7 +250,7 @@ KINDS = (
                 "def in line {line}, if it is not needed."
             )
         },
-        raised={OF_PARTIAL: _partial},
+        raised={OF_PARTIAL: _partial, REFUSED_PARTIAL: _refused_partial},
         fixed_by=(lines.written,),
         examples=(
             example(

@@ -468,6 +468,8 @@ KINDS = (
                     "    try:\n        with MyFirstNode() as node:\n            rclpy.spin(node)",
                 ),
                 fails="run.starts",
+                right_from="kilted",
+                note="a Node can be used with `with` from kilted on",
             ),
         ),
     ),

@@ -311,6 +311,24 @@ def test_partial_gets_no_more_than_the_method_takes(given: str, error: str, tmp_
     )
 
 
+def test_a_partial_that_rclpy_refuses_before_it_calls_it_is_named(tmp_path: Path) -> None:
+    """From kilted on rclpy looks at the parameters first; the words are of a real run."""
+    text = changed(FROM_PARTIAL, (TIMER, "self.create_timer(1.0, partial(self.timer_callback, 1))"))
+    error = (
+        "ValueError: partial object functools.partial(<bound method MyFirstNode.timer_callback of "
+        "<my_robot_controller.my_first_node.MyFirstNode object at 0x7fac840c6410>>, 1) has incorrect "
+        "arguments"
+    )
+    found = raised(error, text, line_of(text, "rclpy.spin"))
+    assert (
+        fix_of(found)
+        == "Write partial(self.timer_callback) instead of partial(self.timer_callback, 1)."
+    )
+    assert patched(found, text, tmp_path) == changed(
+        FROM_PARTIAL, (TIMER, "self.create_timer(1.0, partial(self.timer_callback))")
+    )
+
+
 def test_partial_without_a_value_is_not_told_to_change_the_def_alone() -> None:
     text = changed(
         FROM_PARTIAL,
