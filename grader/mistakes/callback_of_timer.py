@@ -24,6 +24,7 @@ from grader.mistakes.recognised import (
 from grader.mistakes.timer_period import TIMER
 from grader.package.edit.tree import Replace
 from grader.package.source.place import function_at
+from grader.package.source.timer import Timer
 
 WORDS = ("timer", "callback", "on", "log", "hello", "say", "count", "counter", "tick", "time")
 """Words that names of callbacks have; of two names, one with fewer of them is misspelt."""
@@ -36,14 +37,24 @@ CALLED = msg(
 def _called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     del match
     called = [timer for timer in raised.source.timers if timer.called]
-    return raised.finding("callback_called", at=called[0].call) if called else None
+    return _without_brackets(raised, called[0]) if called else None
+
+
+def _without_brackets(where: Raised | Suspect, timer: Timer) -> RecognisedMistake:
+    """Return that a timer's callback is called where it should be passed, and how it is passed."""
+    call = timer.callback
+    named = call.func if isinstance(call, ast.Call) else timer.call
+    written = where.source.module_of(named).text.code(named)
+    if isinstance(where, Suspect):
+        return where.finding("callback_called", timer.call, written=written)
+    return where.finding("callback_called", at=timer.call, written=written)
 
 
 def _called_with(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """The callback is called with arguments where the timer is created."""
     for timer in raised.source.timers:
         if timer.called and timer.method == match["name"] and raised.line == timer.call.lineno:
-            return raised.finding("callback_called", at=timer.call)
+            return _without_brackets(raised, timer)
     return None
 
 
@@ -53,7 +64,7 @@ def _called_early(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     inside = list(ast.walk(early.needs)) if early is not None else []
     for timer in raised.source.timers:
         if timer.called and timer.call in inside:
-            return raised.finding("callback_called", at=timer.call)
+            return _without_brackets(raised, timer)
     return None
 
 
@@ -71,7 +82,7 @@ def _in_quotes(suspect: Suspect) -> RecognisedMistake | None:
 def _calls_back_at_once(suspect: Suspect) -> RecognisedMistake | None:
     for timer in suspect.source.timers:
         if timer.called:
-            return suspect.finding("callback_called", timer.call)
+            return _without_brackets(suspect, timer)
     return None
 
 
@@ -134,7 +145,7 @@ KINDS = (
         "timer",
         msg("create_timer gets a call instead of the callback"),
         CALLED,
-        msg("Remove the () after the callback's name: create_timer({period}, self.{callback})"),
+        msg("Remove the () after the callback's name: create_timer({period}, {written})"),
         seen=r"TypeError: 'NoneType' object is not callable"
         r"|UnboundLocalError: .{0,60}'arg_name'",
         raised={

@@ -311,10 +311,13 @@ KINDS = (
         "timer",
         msg("A line comes before any time has passed"),
         msg(
-            "The timer calls the callback when it is due. Your own call of {callback} before that "
-            "is one too many."
+            "A timer calls its callback for the first time after one period. This line was logged "
+            "before that, while the program started."
         ),
-        msg("Remove that call. Pass the callback's name to create_timer, which calls it."),
+        msg(
+            "Look for what logs it: a call of {callback}, or a log call outside of it, that runs before "
+            "rclpy.spin. Remove that call."
+        ),
         fixed_by=(
             node_timer.by_hand,
             node_timer.callback,

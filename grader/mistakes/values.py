@@ -45,7 +45,10 @@ def _joined(suspect: Suspect) -> RecognisedMistake | None:
     value = node_values.number_in(start) if start is not None else ""
     if start is None or logged is None or not value:
         return None
-    return suspect.finding("start_is_text", start, name=logged[1], value=value)
+    found = suspect.finding("start_is_text", start, name=logged[1], value=value)
+    module = suspect.source.module_of(start)
+    grows = node_values.appended(module, logged[1]) or node_values.joined(module, logged[1])
+    return replace(found, variant="joined") if grows else found
 
 
 def _hidden(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -103,6 +106,17 @@ KINDS = (
         msg("The counter starts as a string"),
         msg("A number in quotes is a string, and Python cannot add a string to a number."),
         msg("Write {name} = {value}, without quotes."),
+        whys={
+            "joined": msg(
+                "A number in quotes is a string. Adding to a string makes it longer: '0' + '1' is '01'."
+            )
+        },
+        fixes={
+            "joined": msg(
+                "Write {name} = {value}, and {name} += {step} where it grows, without quotes. Where + "
+                "joins it to a text, write str({name})."
+            )
+        },
         raised={ADDED: _start_is_text},
         behind={"run.wrong_text": _joined, "run.wrong_step": _joined},
         fixed_by=(node_values.number,),

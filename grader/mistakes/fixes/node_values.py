@@ -9,6 +9,7 @@ from grader.mistakes.fixes.rename import splices_of
 from grader.package.edit.files import Files
 from grader.package.source.counter import starts_of
 from grader.package.source.module import Module
+from grader.package.source.names import dotted
 
 
 def number_in(start: ast.Constant) -> str:
@@ -17,15 +18,51 @@ def number_in(start: ast.Constant) -> str:
     return str(int(value)) if value.isascii() and value.isdigit() and len(value) < 10 else ""
 
 
+def appended(module: Module, name: str) -> list[ast.Constant]:
+    """Return the numbers in quotes that `+=` appends to a name."""
+    values = [
+        n.value for n in module.nodes if isinstance(n, ast.AugAssign) and dotted(n.target) == name
+    ]
+    return [v for v in values if isinstance(v, ast.Constant) and number_in(v)]
+
+
+def joined(module: Module, name: str) -> list[ast.expr]:
+    """Return the uses of a name that `+` joins to a text, without str()."""
+    found: list[ast.expr] = []
+    for node in module.nodes:
+        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Add):
+            continue
+        for side, other in ((node.left, node.right), (node.right, node.left)):
+            if dotted(side) == name and _is_text(other):
+                found.append(side)
+    return found
+
+
+def _is_text(value: ast.expr) -> bool:
+    while isinstance(value, ast.BinOp):
+        if _is_text(value.right):
+            return True
+        value = value.left
+    return isinstance(value, ast.JoinedStr) or (
+        isinstance(value, ast.Constant) and isinstance(value.value, str)
+    )
+
+
 def number(case: Case) -> Files | None:
-    """Let the counter start with the number without quotes."""
+    """Let the counter be a number: where it starts, grows, and is joined to a text."""
     node = case.node
+    name = str(case.finding.params.get("name", ""))
     starts = starts_of(node, str) if node is not None else {}
-    start = starts.get(str(case.finding.params.get("name", "")))
+    start = starts.get(name)
     if node is None or start is None or not number_in(start):
         return None
     module = node.module_of(start)
-    return case.changed(module, module.text.swap(start, number_in(start)))
+    text = module.text
+    return case.changed(
+        module,
+        *(text.swap(value, number_in(value)) for value in (start, *appended(module, name))),
+        *(text.swap(use, f"str({text.code(use)})") for use in joined(module, name)),
+    )
 
 
 def _uses(module: Module, name: str) -> list[ast.Name]:

@@ -14,7 +14,7 @@ from grader.base.nearest import compared, with_difference
 from grader.base.shown import shown as shown_code
 from grader.base.yaml_model import broken
 from grader.course.assignment import Count
-from grader.package.source.counter import logged_counter, without_effect, wrapped_at
+from grader.package.source.counter import logged_counter, starts_of, without_effect, wrapped_at
 from grader.package.source.names import dotted, last_part
 from grader.package.source.remarks import remarks_on
 from grader.package.source.time_limit import time_limit
@@ -29,6 +29,7 @@ from grader.verdict.outcome import Blocked, Failed, Passed
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from grader.package.source.node import NodeSource
     from grader.run.observer import Event, Watch
     from grader.run.run import Run
     from grader.verdict.evidence import Evidence
@@ -356,7 +357,12 @@ def _is_named(evidence: Evidence) -> bool:
         return False
     call, name = found
     items = [n for n in ast.walk(call) if isinstance(n, ast.Subscript) and dotted(n.value) == name]
-    return not items and last_part(name) not in source.methods
+    return not items and last_part(name) not in source.methods and _is_number(source, name)
+
+
+def _is_number(source: NodeSource, name: str) -> bool:
+    """Whether a counter starts as a number; the length of a list, for example, grows otherwise."""
+    return name in starts_of(source) or name in starts_of(source, float)
 
 
 def _is_silent(evidence: Evidence) -> bool:
