@@ -8,6 +8,7 @@ from itertools import pairwise
 import pytest
 
 from grader.package.intake.model import SourceFile
+from grader.package.source.ends_after import ends_after
 from grader.package.source.real_time import reads_real_time
 from grader.report.blocks import quotation
 from grader.report.page import Page
@@ -84,3 +85,21 @@ def test_only_lines_that_are_closer_than_a_real_clock_makes_them_are_explained(
     page = Page(width=200, styled=False)
     quotation(page, "\n".join(lines), "ros2 run printed", lines=10, whole=True, faster=True)
     assert ("grader's clock runs faster" in str(page)) == faster
+
+
+@pytest.mark.parametrize(
+    ("text", "seconds"),
+    [
+        ("rclpy.spin_until_future_complete(node, done, timeout_sec=10)", 10.0),
+        ("rclpy.spin_until_future_complete(node, done, None, 2 * 4)", 8.0),
+        ("executor.spin_until_future_complete(done, 8)", 8.0),
+        ("END = 12.5\nrclpy.spin_until_future_complete(node, done, timeout_sec=END)", 12.5),
+        ("END = 1\nEND = 9\nrclpy.spin_until_future_complete(node, done, timeout_sec=END)", 0.0),
+        ("rclpy.spin_until_future_complete(node, done)", 0.0),
+        ("while time.time() - start < 15:\n    rclpy.spin_once(node)", 15.0),
+        ("while self.count < 15:\n    rclpy.spin_once(node)", 0.0),
+        ("rclpy.spin(node)", 0.0),
+    ],
+)
+def test_the_time_after_which_a_node_ends_is_read(text: str, seconds: float) -> None:
+    assert ends_after([SourceFile(NODE, "file", data=text.encode())]) == seconds

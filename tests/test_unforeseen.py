@@ -47,6 +47,14 @@ def test_every_number_of_ticks_and_a_twentieth_of_the_sample_occur() -> None:
     assert all(3 <= one.stay_seconds <= 6 for one in longer)
 
 
+def test_a_node_that_says_when_it_ends_is_watched_until_then() -> None:
+    for could_end in (False, True):
+        observed = [unforeseen(one, could_end=could_end, ends_after=10) for one in HASHES]
+        assert {one.stay_seconds for one in observed} == {11.0}
+        longer = [unforeseen(one, could_end=could_end, ends_after=3600) for one in HASHES]
+        assert longer == [unforeseen(one, could_end=could_end) for one in HASHES]
+
+
 def test_the_secret_is_readable_by_its_owner_only(own_installation: Path) -> None:
     key = installation_key()
     file = own_installation / KEY_FILE

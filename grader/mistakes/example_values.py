@@ -263,6 +263,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.len_of_number": {"name": "self.counter", "written": "self.counter"},
     "node.counter_is_list": {"name": "self.counter", "line": "16"},
     "node.main_prints": {"name": "while"},
+    "node.spin_has_timeout": {"timeout": "timeout_sec=10.0", "written": "rclpy.spin(node)"},
     "node.waits_first": {"name": "input()", "written": "rclpy.spin(node)"},
     "node.callback_called": {"written": "self.callback"},
     "node.logs_before_timer": {"function": "__init__"},

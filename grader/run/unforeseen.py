@@ -23,6 +23,7 @@ KEY_BYTES = 32
 MORE_TICKS = 3  # that are watched beyond the announced ones: one to this many
 MORE_IF_IT_COULD_END = 24
 STAY_SECONDS = (3.0, 6.0)  # of wall time, in which a node that could end must not
+MOST_STAY_SECONDS = 20.0  # for a node whose source says when it ends
 
 
 @dataclass(frozen=True)
@@ -34,15 +35,21 @@ class Unforeseen:
     draw: float
 
 
-def unforeseen(sha256: str, *, could_end: bool) -> Unforeseen:
-    """Return how the submission with this hash is observed on this installation."""
+def unforeseen(sha256: str, *, could_end: bool, ends_after: float = 0) -> Unforeseen:
+    """Return how the submission with this hash is observed on this installation.
+
+    `ends_after` is the time in seconds after which its source says that it ends, 0 if it says none.
+    Longer times than MOST_STAY_SECONDS are not waited for.
+    """
     digest = hmac.new(installation_key(), sha256.encode(), hashlib.sha256).digest()
     ticks, stay, draw = (int.from_bytes(digest[at : at + 8], "big") for at in (0, 8, 16))
     least, most = STAY_SECONDS
-    share = stay / 2**64
+    seconds = least + stay / 2**64 * (most - least) if could_end else 0.0
+    if 0 < ends_after < MOST_STAY_SECONDS:
+        seconds = max(seconds, ends_after + 1)
     return Unforeseen(
         more_ticks=1 + ticks % (MORE_IF_IT_COULD_END if could_end else MORE_TICKS),
-        stay_seconds=least + share * (most - least) if could_end else 0.0,
+        stay_seconds=seconds,
         draw=draw / 2**64,
     )
 

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import ast
 
+from grader.package.source.ends_after import LIMITED, constant, timeout_of
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
-
-LIMITED = "spin_until_future_complete"
 
 
 def time_limit(source: NodeSource) -> tuple[ast.Call, str, str] | None:
@@ -23,11 +22,15 @@ def time_limit(source: NodeSource) -> tuple[ast.Call, str, str] | None:
     module = source.module_of(call)
     if any(isinstance(part, ast.While | ast.For) for part in module.around(call)):
         return None
-    words = [w for w in call.keywords if w.arg == "timeout_sec"]
-    limited = [w for w in words if isinstance(w.value, ast.Constant) and w.value.value]
+    timeout = timeout_of(call)
     owner = name.rpartition(".")[0]
     node = dotted(call.args[0]) if call.args else ""
-    if not limited or not owner or (owner == "rclpy" and not node):
+    if (
+        timeout is None
+        or not constant(module, timeout)
+        or not owner
+        or (owner == "rclpy" and not node)
+    ):
         return None
     spin = f"rclpy.spin({node})" if owner == "rclpy" else f"{owner}.spin()"
-    return call, f"timeout_sec={module.text.code(limited[0].value)}", spin
+    return call, f"timeout_sec={module.text.code(timeout)}", spin
