@@ -95,14 +95,17 @@ test:  ## Run the tests that need no Docker
 	@$(BOOTSTRAP) --tests
 	@$(MAKE) --no-print-directory --jobs=2 lint fast
 
+# (the images are made beside the first part: they mostly wait for downloads)
 test-all:  ## Run all tests (as root: installs and starts Docker if it is missing)
-	@$(MAKE) --no-print-directory test
+	@$(BOOTSTRAP) --tests
 	@if [ "$${GRADER_TESTS_WITHOUT_DOCKER:-}" = 1 ]; then \
 	  echo "make test-all: GRADER_TESTS_WITHOUT_DOCKER=1: the tests that need Docker are skipped" >&2; \
-	  $(call run_tests,full and not docker and not long); \
+	  $(MAKE) --no-print-directory test && { $(call run_tests,full and not docker and not long); }; \
 	else \
 	  trap '.venv/bin/python -m tests.engine down' EXIT; \
-	  .venv/bin/python -m tests.engine up && { $(call run_tests,(full or docker) and not long); }; \
+	  .venv/bin/python -m tests.engine up & engine=$$!; \
+	  $(MAKE) --no-print-directory test; tested=$$?; \
+	  wait $$engine && [ $$tested = 0 ] && { $(call run_tests,(full or docker) and not long); }; \
 	fi
 
 test-long:  ## Run what counts in dozens: every package for real, attacks, kills (as root; part: PYTEST_ARGS=path)
