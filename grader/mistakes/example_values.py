@@ -45,6 +45,7 @@ NAMES: Mapping[str, Value] = {
     "written": 1000,
 }
 COUNTER: Mapping[str, Value] = {"name": "self.counter"}
+MADE_BY: Mapping[str, Value] = {"lines": "line 9: self.counter = 0"}
 BARE_COUNTER: Mapping[str, Value] = {"name": "counter"}
 OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "package.setup_cfg_wrong": {"wanted": "$base/lib/my_package", "line": "2, 4"},
@@ -455,6 +456,21 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.log_option": {"name": "once"},
     "node.sum_not_kept": COUNTER,
+    "node.prefix_increment": {**COUNTER, "form": "++", "first": 9},
+    "node.result_dropped": {
+        "name": "self.state.next()",
+        "written": "self.state = self.state.next()",
+        "attribute": "self.state",
+    },
+    "node.next_twice": {
+        "name": "next(self.numbers)",
+        "written": "number = next(self.numbers)",
+        "function": CALLBACK,
+        "lines": "12, 14",
+    },
+    "run.constant_counter": MADE_BY,
+    "run.wrong_start": MADE_BY,
+    "run.wrong_step": MADE_BY,
     "node.other_language": {"name": "null"},
     "node.value_forgotten": {"name": "%d", "written": "self.counter"},
     "node.callback_outside": {"name": "callback"},
@@ -478,6 +494,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.period_not_number": {"name": "1.0,", "written": "1.0"},
     "node.threading_timer": {"line": "13"},
     "node.number_format": {
+        "lines": "line 9: self.counter = 0.0",
         "name": "{self.counter:03d}",
         "written": "{self.counter}",
         "form": ":03d",
