@@ -36,7 +36,7 @@ MORE_PIECES = msg("Write {written} instead of {name}. Write also: {others}.")
 
 
 def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    del match
+    number_first = match[0].startswith("unsupported")
     statement = statement_at(raised.module, raised.line)
     if isinstance(statement, ast.Assign) and text_added(statement):
         return None
@@ -49,7 +49,8 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
             name, written, variant = sum_of
             found = raised.finding("str_plus_int", name=name, written=written)
             return replace(found, variant=variant)
-        operand = next((part for part in (node.right, node.left) if _may_be_number(part)), None)
+        sides = (node.left,) if number_first else (node.right,)
+        operand = next((part for part in sides if _may_be_number(part)), None)
         if operand is not None:
             text = raised.module.text
             number = operand
@@ -57,8 +58,11 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
                 number = operand.args[0] if dotted(operand.func) in ("int", "float") else operand
             written = f"str({text.code(number)})"
             return raised.finding("str_plus_int", name=text.code(operand), written=written)
-    counter = str(raised.words["counter"])
-    return raised.finding("str_plus_int", name=counter, written=f"str({counter})")
+    added = statement.value if isinstance(statement, ast.AugAssign) else None
+    if added is None or number_first or not _may_be_number(added):
+        return None
+    name = raised.module.text.code(added)
+    return raised.finding("str_plus_int", at=statement, name=name, written=f"str({name})")
 
 
 def _number_added_last(node: ast.BinOp, text: SourceText) -> tuple[str, str, str] | None:
