@@ -333,12 +333,12 @@ def test_an_error_after_a_line_is_no_exit_to_look_for(
     assert (caught.value.mistake.id, caught.value.variant) == ("run.ended_early", variant)
 
 
-def test_a_fix_names_no_counter_that_the_file_does_not_have(bench: Bench) -> None:
+def test_a_number_that_does_not_change_is_followed_to_the_lines_that_make_it(bench: Bench) -> None:
     run = on_time([1.0, 2.0, 3.0])
     run.watch.events[:] = [replace(event, n=0) for event in run.watch.events]
     for source, variant in (
-        (RIGHT, ""),
-        (RIGHT.replace("self.counter_", "next(NUMBERS)"), "unnamed"),
+        (RIGHT, "lines"),
+        (RIGHT.replace("self.counter_", "next(NUMBERS)"), ""),
     ):
         with pytest.raises(Failed) as caught:
             ask(counts, bench, run, source.replace("next(NUMBERS) = 0", "pass"))

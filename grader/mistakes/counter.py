@@ -18,8 +18,17 @@ from grader.mistakes.worked_out import INSTEAD, first_of, worked_out
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.asked_attribute import never_there
-from grader.package.source.counter import adds_to, parts_of_callback, starts_of, targets_of
+from grader.package.source.counter import (
+    adds_to,
+    declares,
+    outer_word,
+    parts_of_callback,
+    starts_of,
+    targets_of,
+)
+from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
+from grader.package.source.plain_counter import plain_start
 
 SUM = ast.Add | ast.Sub
 MODULO = msg(
@@ -67,14 +76,30 @@ def _reset(suspect: Suspect) -> RecognisedMistake | None:
         if isinstance(node.value, ast.Constant):
             value = str(node.value.value)[:40]
             found = suspect.finding("counter_reset", node, name=counter.name, value=value)
-            if "." not in counter.name:
-                return replace(found, variant="local")
             around = suspect.source.function_around(node)
+            if "." not in counter.name:
+                return _in_variable(suspect, around, found)
             if around is None or around is suspect.source.callback:
                 return _in_callback(suspect, node, counter.name, found)
             words = {**found.words, "function": around.name}
             return replace(found, variant="helper", words=words)
     return None
+
+
+def _in_variable(
+    suspect: Suspect, around: Function | None, found: RecognisedMistake
+) -> RecognisedMistake | None:
+    """Say where a variable of a function goes that is set in each call."""
+    if around is None:
+        return None
+    module = suspect.source.module_of(around)
+    scope = next((n for n in module.around(around) if isinstance(n, Function | ast.Module)), None)
+    words = {**found.words, "function": around.name}
+    if around in suspect.source.own_methods:
+        return replace(found, words=words, variant="local")
+    words["word"] = "nonlocal" if isinstance(scope, Function) else "global"
+    declared = declares(around, str(found.words["name"]))
+    return replace(found, words=words, variant="declared" if declared else "outside")
 
 
 def _in_callback(
@@ -106,7 +131,8 @@ def _reset_if(suspect: Suspect) -> RecognisedMistake | None:
         around = suspect.source.module_of(node).parents.get(node)
         if counter is None or not isinstance(around, ast.If) or around.orelse:
             continue
-        if isinstance(node.value, ast.Constant):
+        start = starts_of(suspect.source).get(counter.name)
+        if isinstance(node.value, ast.Constant) and start not in (None, node.value):
             found = suspect.finding("counter_reset", node, name=counter.name)
             return replace(found, variant="if")
     return None
@@ -128,13 +154,21 @@ def _copy_increased(suspect: Suspect) -> RecognisedMistake | None:
         value = dotted(node.value) if isinstance(node, ast.Assign) else ""
         if isinstance(target, ast.Name) and value.startswith("self."):
             copies[target.id] = value
-        if isinstance(node, ast.AugAssign) and dotted(node.target) in copies:
+        kept = copies.get(dotted(node.target), "") if isinstance(node, ast.AugAssign) else ""
+        if isinstance(node, ast.AugAssign) and kept and _is_only_read(suspect, kept):
             module, name = suspect.source.module_of(node), copies[dotted(node.target)]
             code = module.text.code(node)
             new = code.replace(dotted(node.target), name, 1)
             params = {"name": code, "written": new, "attribute": name}
             return suspect.finding("copy_increased", node, **params)
     return None
+
+
+def _is_only_read(suspect: Suspect, name: str) -> bool:
+    """Whether an attribute is a plain number that the callback never sets."""
+    parts = parts_of_callback(suspect.source)
+    set_here = any(name in targets_of(node) for part in parts for node in ast.walk(part))
+    return not set_here and plain_start(suspect.source, name) is not None
 
 
 def _is_under_if(suspect: Suspect, node: ast.stmt) -> bool:
@@ -144,35 +178,41 @@ def _is_under_if(suspect: Suspect, node: ast.stmt) -> bool:
 
 
 def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
-    counter = counter_in(suspect)
-    if counter is None or counter.added or not _is_number(suspect, counter.name):
+    counter, source = counter_in(suspect), suspect.source
+    if counter is None or counter.added or plain_start(source, counter.name) is None:
         return None
     if any(not _is_under_if(suspect, node) for node in counter.set):
         return None
-    for node in suspect.source.own_nodes:
-        changed = isinstance(node, ast.AugAssign) and dotted(node.target)
-        if changed and last_part(changed) == last_part(counter.name):
-            return None  # (it is increased elsewhere)
-    return suspect.finding("counter_not_increased", counter.logged, name=counter.name)
+    if _changes_elsewhere(suspect, counter.name):
+        return None
+    found = suspect.finding("counter_not_increased", counter.logged, name=counter.name)
+    around = source.function_around(counter.logged)
+    word = outer_word(source, around, counter.name) if around is not None else ""
+    if around is None or not word or declares(around, counter.name):
+        return found
+    words = {**found.words, "word": word, "function": around.name}
+    return replace(found, words=words, variant="outer")
 
 
-def _is_number(suspect: Suspect, name: str) -> bool:
-    """Whether an attribute may be a number: it is no method, and no text is assigned to it."""
-    if last_part(name) in suspect.source.methods:
-        return False
-    for node in suspect.source.own_nodes:
-        if isinstance(node, ast.Assign) and name in targets_of(node):
-            value = node.value
-            text = isinstance(value, ast.Constant) and isinstance(value.value, str)
-            if text or isinstance(value, ast.JoinedStr | ast.BinOp):
-                return False
-    return True
+def _changes_elsewhere(suspect: Suspect, name: str) -> bool:
+    """Whether a sum is assigned to the counter, or to an attribute of its name of another object."""
+    source = suspect.source
+    own = set(source.own_nodes)
+    for node in source.all_nodes:
+        value = node.value if isinstance(node, ast.Assign) else None
+        if not isinstance(node, ast.AugAssign) and not isinstance(value, ast.BinOp):
+            continue
+        same = [n for n in targets_of(node) if last_part(n) == last_part(name)]
+        if same and (node in own or not same[0].startswith("self.")):
+            return True
+    return False
 
 
 def _multiplied(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a product: a counter that starts at 0 stays there."""
     counter = counter_in(suspect)
-    for node in counter.added if counter is not None else ():
+    start = plain_start(suspect.source, counter.name) if counter is not None else None
+    for node in counter.added if counter is not None and start is not None else ():
         if isinstance(node.op, ast.Mult) and counter is not None:
             return suspect.finding("counter_multiplied", node, name=counter.name)
     return None
@@ -191,10 +231,17 @@ def _added_instead(case: Case) -> Files | None:
 
 def _adds_twice(suspect: Suspect) -> RecognisedMistake | None:
     counter, step = counter_in(suspect), suspect.output.step
-    added = [n for n in counter.added if isinstance(n.op, SUM)] if counter is not None else []
-    if counter is None or len(added) < 2:
+    if counter is None or plain_start(suspect.source, counter.name) is None:
         return None
-    return suspect.finding("adds_twice", added[1], name=counter.name, step=step)
+    if len(counter.added) < 2 or not all(_is_plain_sum(suspect, n) for n in counter.added):
+        return None
+    return suspect.finding("adds_twice", counter.added[1], name=counter.name, step=step)
+
+
+def _is_plain_sum(suspect: Suspect, node: ast.AugAssign) -> bool:
+    """Whether a sum is in no block of its function: under an if, in a loop or in a try."""
+    around = suspect.source.module_of(node).parents.get(node)
+    return isinstance(node.op, SUM) and isinstance(around, Function)
 
 
 _added_elsewhere = worked_out("adds_twice", "doubled", variant="line")
@@ -203,13 +250,14 @@ _step_worked_out = worked_out("other_step", "step", variant="written")
 
 def _other_step(suspect: Suspect) -> RecognisedMistake | None:
     counter, step = counter_in(suspect), suspect.output.step
-    for node in counter.added if counter is not None else ():
-        if not isinstance(node.op, SUM):
+    if counter is None or plain_start(suspect.source, counter.name) is None:
+        return None
+    for node in counter.added:
+        value = node.value.value if isinstance(node.value, ast.Constant) else None
+        if not isinstance(node.op, SUM) or not isinstance(value, int | float):
             continue
-        added = isinstance(node.op, ast.Add) and isinstance(node.value, ast.Constant)
-        if not added or getattr(node.value, "value", 1) != step:
-            name = counter.name if counter else ""
-            return suspect.finding("other_step", node, name=name, step=step)
+        if not isinstance(node.op, ast.Add) or value != step:
+            return suspect.finding("other_step", node, name=counter.name, step=step)
     return None
 
 
@@ -271,8 +319,12 @@ KINDS = (
         msg("Move {name} = {value} to __init__."),
         whys={
             "local": msg(
-                "{name} is a variable of the callback: each call creates it again, with the value "
+                "{name} is a variable of {function}: each call creates it again, with the value "
                 "{value}. Only an attribute (self.…) keeps its value from one call to the next."
+            ),
+            "outside": msg(
+                "{name} is a variable of {function}: each call creates it again, with the value "
+                "{value}."
             ),
             "if": msg("Each time the condition above this line is true, {name} starts again."),
             "always": ALWAYS,
@@ -286,7 +338,15 @@ KINDS = (
         fixes={
             "local": msg(
                 "Write self.{name} = {value} in __init__ instead of this line, and self.{name} "
-                "in the callback."
+                "instead of {name} in {function}."
+            ),
+            "outside": msg(
+                "Move {name} = {value} to the line above def {function}, with the same indentation as "
+                "that def. Write {word} {name} as the first line of {function}."
+            ),
+            "declared": msg(
+                "Move {name} = {value} to the line above def {function}, with the same indentation as "
+                "that def."
             ),
             "if": ONLY_DELETE,
             "always": msg("Move {name} = {value} to __init__."),
@@ -361,6 +421,12 @@ KINDS = (
         msg("Nothing is added to the counter"),
         msg("The callback logs the counter; without += every line shows the same number."),
         msg("Add to the callback, after the log line: {name} += {step}"),
+        fixes={
+            "outer": msg(
+                "Write {word} {name} as the first line of {function}, and after the log line: "
+                "{name} += {step}"
+            )
+        },
         behind={"run.constant_counter": _not_increased},
         fixed_by=(node_count.step,),
         examples=(

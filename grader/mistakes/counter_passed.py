@@ -35,8 +35,11 @@ def _passed(suspect: Suspect) -> RecognisedMistake | None:
             if dotted(value) != counter.name or added is None:
                 continue
             written = f"{counter.name} += {suspect.output.step}"
-            if any(isinstance(n, ast.Return) and n.value for n in ast.walk(function)):
+            back = [n.value for n in ast.walk(function) if isinstance(n, ast.Return) and n.value]
+            if back and all(dotted(value) == parameter for value in back):
                 written = f"{counter.name} = {module.text.code(call)}"
+            elif len(function.body) > 1 or back:
+                return None  # (its call may do more than add)
             return suspect.finding(
                 "counter_passed",
                 call,

@@ -23,6 +23,7 @@ from grader.package.source.counter import (
 )
 from grader.package.source.module import Function
 from grader.package.source.names import dotted
+from grader.package.source.plain_counter import plain_start
 
 
 def _adds_before_log(suspect: Suspect) -> RecognisedMistake | None:
@@ -42,9 +43,13 @@ def _adds_before_log(suspect: Suspect) -> RecognisedMistake | None:
 
 def _before_log(suspect: Suspect, added: ast.stmt, counter: Counter) -> RecognisedMistake:
     found = suspect.finding("adds_before_log", added, name=counter.name)
+    start = plain_start(suspect.source, counter.name)
+    other = start is not None and start.number != suspect.output.start
     written = suspect.source.module_of(added).text.code(added)
     words = {**found.words, "written": written[:80], "line": str(counter.logged.lineno)}
-    return replace(found, words=words)
+    if other and start is not None:
+        words["first"] = str(start.at.lineno)
+    return replace(found, words=words, variant="other" if other else "")
 
 
 def _added_before(suspect: Suspect) -> RecognisedMistake | None:
@@ -95,6 +100,17 @@ def _is_number(suspect: Suspect, name: str, value: ast.AST) -> bool:
     return True
 
 
+def _is_written(value: ast.AST) -> bool:
+    """Return whether the source itself says which number a value is: 1, -1, 2 - 1, int('1')."""
+    if isinstance(value, ast.UnaryOp):
+        return _is_written(value.operand)
+    if isinstance(value, ast.BinOp):
+        return _is_written(value.left) and _is_written(value.right)
+    if isinstance(value, ast.Call) and dotted(value.func) in ("int", "float"):
+        return all(isinstance(given, ast.Constant) for given in value.args)
+    return isinstance(value, ast.Constant) and isinstance(value.value, int | float)
+
+
 def _starts_elsewhere(suspect: Suspect) -> RecognisedMistake | None:
     counter = counter_in(suspect)
     if counter is None:
@@ -110,6 +126,8 @@ def _starts_elsewhere(suspect: Suspect) -> RecognisedMistake | None:
     start = suspect.output.start
     value = at.value if isinstance(at, ast.Assign) else at
     if isinstance(value, ast.Constant) and value.value == start:
+        return None
+    if not _is_written(value):
         return None
     if not _is_number(suspect, counter.name, value):
         return None
@@ -132,14 +150,18 @@ KINDS = (
             "Then the first line shows {start}."
         ),
         fixes={
+            "other": msg(
+                "Move this line ({written}) below line {line}, which logs: log first, and then count. "
+                "In line {first}, write {start} as the first value of {name}."
+            ),
             "returned": msg(
                 "{function} adds to {name} before it returns the number. Keep the old value "
                 "first, and return that: {written}"
-            )
+            ),
         },
         behind={"run.wrong_start": first_of(_adds_before_log, _added_before)},
         fixed_by=(node_count.start, node_worked_out.change("before", "returned")),
-        deletes=("",),
+        deletes=("", "other"),
         examples=(
             example(
                 "adds_before_logging",

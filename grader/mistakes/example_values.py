@@ -45,6 +45,7 @@ NAMES: Mapping[str, Value] = {
     "written": 1000,
 }
 COUNTER: Mapping[str, Value] = {"name": "self.counter"}
+MADE_BY: Mapping[str, Value] = {"lines": "line 9: self.counter = 0"}
 BARE_COUNTER: Mapping[str, Value] = {"name": "counter"}
 OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "package.setup_cfg_wrong": {"wanted": "$base/lib/my_package", "line": "2, 4"},
@@ -374,7 +375,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.str_plus_int": {"name": "self.counter", "written": "str(self.counter)"},
     "node.step_is_text": COUNTER,
     "node.plus_reversed": COUNTER,
-    "node.counter_not_increased": COUNTER,
+    "node.counter_not_increased": {**COUNTER, "word": "global", "function": CALLBACK},
     "node.line_in_parts": {
         "line": "14",
         "at": "15",
@@ -415,11 +416,16 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "name": "self.counter",
         "value": "0",
         "function": "reset",
+        "word": "global",
         "code": "not hasattr(self, 'count')",
         "asked": "count",
         "first": "9",
     },
-    "node.adds_before_log": {"written": "self.counter += 1", "line": "12"},
+    "node.adds_before_log": {
+        "written": "self.counter += 1",
+        "line": "12",
+        "first": 9,
+    },
     "node.starts_elsewhere": COUNTER,
     "node.adds_twice": COUNTER,
     "node.other_step": COUNTER,
@@ -456,6 +462,21 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.log_option": {"name": "once"},
     "node.sum_not_kept": COUNTER,
+    "node.prefix_increment": {**COUNTER, "form": "++", "first": 9},
+    "node.result_dropped": {
+        "name": "self.state.next()",
+        "written": "self.state = self.state.next()",
+        "attribute": "self.state",
+    },
+    "node.next_twice": {
+        "name": "next(self.numbers)",
+        "written": "number = next(self.numbers)",
+        "function": CALLBACK,
+        "lines": "12, 14",
+    },
+    "run.constant_counter": MADE_BY,
+    "run.wrong_start": MADE_BY,
+    "run.wrong_step": MADE_BY,
     "node.other_language": {"name": "null"},
     "node.value_forgotten": {"name": "%d", "written": "self.counter"},
     "node.callback_outside": {"name": "callback"},
@@ -479,6 +500,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.period_not_number": {"name": "1.0,", "written": "1.0"},
     "node.threading_timer": {"line": "13"},
     "node.number_format": {
+        "lines": "line 9: self.counter = 0.0",
         "name": "{self.counter:03d}",
         "written": "{self.counter}",
         "form": ":03d",

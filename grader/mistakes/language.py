@@ -18,7 +18,7 @@ from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import logged_counter, targets_of
 from grader.package.source.module import Function
-from grader.package.source.names import dotted, last_part
+from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import NodeSource
 
 CLOCKS = ("time", "monotonic", "perf_counter", "now", "strftime", "seconds_nanoseconds", "ctime")
@@ -262,8 +262,10 @@ def _condition(suspect: Suspect) -> RecognisedMistake | None:
 def _time(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a clock whose time the callback logs."""
     source, callback = suspect.source, suspect.source.callback
-    shown = _shown(suspect, callback) if callback is not None else set()
-    for call in source.calls_of(*CLOCKS, within=callback) if callback is not None else ():
+    if callback is None or not source.logs(callback):
+        return None
+    shown = _shown(suspect, callback)
+    for call in source.calls_of(*CLOCKS):
         if call in shown:
             found = suspect.finding("time_for_count", call, name=ast.unparse(call.func)[:60])
             past = any(_is_difference(n) for n in shown)
@@ -305,10 +307,21 @@ def _shown(suspect: Suspect, callback: Function) -> set[ast.AST]:
     shown = {n for text in _logged(suspect.source, callback) for n in ast.walk(text)}
     for _ in range(MOST_STEPS):
         names = {dotted(n) for n in shown} - {"", "self"}
-        for node in ast.walk(callback):
+        called = _called(suspect.source, shown)
+        for node in (n for part in (callback, *called) for n in ast.walk(part)):
+            given = isinstance(node, ast.Return) and node.value is not None and node not in shown
+            if given and suspect.source.function_around(node) in called:
+                shown |= set(ast.walk(node))
             if isinstance(node, ast.Assign | ast.AugAssign) and names & set(_targets(node)):
                 shown |= set(ast.walk(node.value))
     return shown
+
+
+def _called(source: NodeSource, parts: set[ast.AST]) -> list[Function]:
+    """Return the node's methods that are called in these parts."""
+    calls = [part for part in parts if isinstance(part, ast.Call)]
+    methods = [source.method(own_name(call.func)) for call in calls]
+    return [method for method in dict.fromkeys(methods) if method is not None]
 
 
 def _targets(node: ast.Assign | ast.AugAssign) -> list[str]:

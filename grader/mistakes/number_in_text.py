@@ -12,9 +12,10 @@ from grader.mistakes.counted import counter_in, text_added
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import lines, node_log, node_words
 from grader.mistakes.kind import Family
+from grader.mistakes.made_by import lines_that_make
 from grader.mistakes.placeholders import placeholder_values
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
-from grader.mistakes.worked_out import INSTEAD
+from grader.mistakes.worked_out import INSTEAD, change_of
 from grader.package.edit.text import SourceText
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import starts_of, targets_of
@@ -35,7 +36,7 @@ MORE_PIECES = msg("Write {written} instead of {name}. Write also: {others}.")
 
 
 def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    del match
+    number_first = match[0].startswith("unsupported")
     statement = statement_at(raised.module, raised.line)
     if isinstance(statement, ast.Assign) and text_added(statement):
         return None
@@ -48,7 +49,8 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
             name, written, variant = sum_of
             found = raised.finding("str_plus_int", name=name, written=written)
             return replace(found, variant=variant)
-        operand = next((part for part in (node.right, node.left) if _may_be_number(part)), None)
+        sides = (node.left,) if number_first else (node.right,)
+        operand = next((part for part in sides if _may_be_number(part)), None)
         if operand is not None:
             text = raised.module.text
             number = operand
@@ -56,8 +58,11 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
                 number = operand.args[0] if dotted(operand.func) in ("int", "float") else operand
             written = f"str({text.code(number)})"
             return raised.finding("str_plus_int", name=text.code(operand), written=written)
-    counter = str(raised.words["counter"])
-    return raised.finding("str_plus_int", name=counter, written=f"str({counter})")
+    added = statement.value if isinstance(statement, ast.AugAssign) else None
+    if added is None or number_first or not _may_be_number(added):
+        return None
+    name = raised.module.text.code(added)
+    return raised.finding("str_plus_int", at=statement, name=name, written=f"str({name})")
 
 
 def _number_added_last(node: ast.BinOp, text: SourceText) -> tuple[str, str, str] | None:
@@ -235,6 +240,10 @@ def _number_format(suspect: Suspect) -> RecognisedMistake | None:
     if not re.fullmatch(rf"{head} *(?:{number}) *{tail}", suspect.text):
         return None
     found = _other_form(suspect)
+    change = change_of(suspect, "step") if found is None else None
+    if change is not None:
+        step = suspect.finding("number_format", change.at, name=change.name, written=change.written)
+        return replace(step, variant="step")
     counter = counter_in(suspect) if found is None else None
     for node in counter.added if counter is not None else ():
         if counter is not None and not _is_integer(suspect, node.value):
@@ -242,7 +251,16 @@ def _number_format(suspect: Suspect) -> RecognisedMistake | None:
             code = suspect.source.module_of(node).text.code(node)
             step = suspect.finding("number_format", node, name=code, written=new)
             return replace(step, variant="step")
-    return found or suspect.finding("number_format", _place_of_text(suspect))
+    return found or _form_unknown(suspect)
+
+
+def _form_unknown(suspect: Suspect) -> RecognisedMistake:
+    """Say which lines make the number, if nothing is known that gives it its form."""
+    found = suspect.finding("number_format", _place_of_text(suspect))
+    made = lines_that_make(suspect.source, suspect.place)
+    if made is None:
+        return found
+    return replace(found, words={**found.words, "lines": made}, variant="lines")
 
 
 def _padded(suspect: Suspect) -> RecognisedMistake | None:
@@ -283,10 +301,14 @@ def _is_integer(suspect: Suspect, value: ast.expr) -> bool:
 
 
 def _is_float_name(suspect: Suspect, name: str) -> bool:
+    owner, _, last = name.rpartition(".")
+    source, known = suspect.source, {name}
+    of_class = last if owner == "self" or owner in source.class_names else ""
     values = (
         getattr(node, "value", None)
-        for node in suspect.source.own_nodes
-        if isinstance(node, ast.Assign | ast.AnnAssign) and name in targets_of(node)
+        for node in source.own_nodes
+        if isinstance(node, ast.Assign | ast.AnnAssign)
+        and (known | ({of_class} if node in source.class_body else set())) & set(targets_of(node))
     )
     return any(isinstance(v, ast.Constant) and isinstance(v.value, float) for v in values)
 
@@ -572,10 +594,13 @@ KINDS = (
         "text",
         msg("The number is written in a different form"),
         msg(
-            "The counter is an integer, and str() writes it without a decimal point and leading "
-            "zeros."
+            "The number has to be written as a plain integer: digits only, without a decimal point, "
+            "blanks or leading zeros. str() and an f-string write an integer so."
         ),
-        msg("Begin with {counter} = {start} (not {start}.0), and log str({counter})."),
+        msg(
+            "Find what gives the number its form: where it is made, what is added to it, or how the "
+            "text is put together. Change that, so that an integer is logged."
+        ),
         whys={
             "step": FLOAT_STEP,
             "step_and_more": FLOAT_STEP,
@@ -592,6 +617,10 @@ KINDS = (
             "step": msg("Write {written} instead of {name}: the counter counts the lines."),
             "start": ONE_PIECE,
             "form": ONE_PIECE,
+            "lines": msg(
+                "The log line shows what these lines make or change: {lines}. Change the one that "
+                "gives the number its form, or the log line, so that an integer is logged."
+            ),
             "step_and_more": MORE_PIECES,
             "start_and_more": MORE_PIECES,
             "form_and_more": MORE_PIECES,

@@ -16,6 +16,14 @@ COUNT = msg(
     "A node that counts sets its counter once, before the first callback, and adds {step} to it in "
     "each callback."
 )
+FOLLOW = msg(
+    "Find where the log line gets its number, and what changes it. The number must be {start} in the "
+    "first line, and {step} more in each line after it."
+)
+FOLLOW_LINES = msg(
+    "These lines make or change what the log line shows: {lines}. Follow the number through them and "
+    "through the log line: it must be {start} in the first line, and {step} more in each line after it."
+)
 RECORD = msg(
     "A log record has a level, a time and the node's name, and goes to /rosout, where other "
     "programs can read it. print() only writes text to this terminal."
@@ -259,13 +267,8 @@ KINDS = (
         "counter",
         msg("The number never changes"),
         COUNT,
-        msg("Let each callback run {counter} += {step} once, and set it to {start} only before."),
-        fixes={
-            "unnamed": msg(
-                "Let each callback add {step} to the counter once, and set it to {start} only "
-                "before."
-            )
-        },
+        FOLLOW,
+        fixes={"lines": FOLLOW_LINES},
         fixed_by=(node_count.step,),
     ),
     _run(
@@ -273,7 +276,8 @@ KINDS = (
         "counter",
         msg("The count starts at a different number"),
         COUNT,
-        msg("Set the counter to {start} before the first callback, and increase it after logging."),
+        FOLLOW,
+        fixes={"lines": FOLLOW_LINES},
         fixed_by=(node_count.start,),
     ),
     _run(
@@ -281,7 +285,8 @@ KINDS = (
         "counter",
         msg("The count increases by a different number"),
         COUNT,
-        msg("Add {step} to the counter once in each callback, and nowhere else."),
+        FOLLOW,
+        fixes={"lines": FOLLOW_LINES},
         fixed_by=(
             node_count.plus,
             node_count.by,
@@ -312,11 +317,11 @@ KINDS = (
         msg("A line comes before any time has passed"),
         msg(
             "A timer calls its callback for the first time after one period. This line was logged "
-            "before that, while the program started."
+            "before that."
         ),
         msg(
-            "Look for what logs it: a call of {callback}, or a log call outside of it, that runs before "
-            "rclpy.spin. Remove that call."
+            "Look for what logs this line before the first period has passed, such as a call of "
+            "{callback} before rclpy.spin. Let only the timer log the lines of the count."
         ),
         fixed_by=(
             node_timer.by_hand,

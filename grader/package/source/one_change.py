@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function, Module
-from grader.package.source.names import called_name, dotted
+from grader.package.source.names import called_name, calls_in, dotted
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of
 from grader.package.source.played import played
@@ -383,14 +383,13 @@ def _modulos(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[
     text = module.text
     for node in module.nodes:
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mod):
-            number = _number(node.right)
-            if number is not None:
-                yield _of(module, "modulo", node, text.code(node.left), str(number))
+            if isinstance(node.right, ast.Constant | ast.Name | ast.Attribute):
+                form = text.code(node.right)
+                yield _of(module, "modulo", node, text.code(node.left), form)
         elif isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Mod):
             for change in _without(module, "modulo", node):
-                yield Change(
-                    "modulo", node, change.name, "", change.splices, str(_number(node.value))
-                )
+                form = text.code(node.value)
+                yield Change("modulo", node, change.name, "", change.splices, form)
 
 
 def _logged_twice(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
@@ -401,6 +400,63 @@ def _logged_twice(module: Module, wanted: Wanted, before: Sequence[str]) -> Iter
             around = module.parents.get(node)
             if isinstance(around, Function) and node.end_lineno == node.lineno:
                 yield from _without(module, "logged", node)
+
+
+def _digits(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
+    """Yield a number as text in place of a character with a code that depends on it."""
+    del wanted, before
+    for node in module.nodes:
+        if isinstance(node, ast.Call) and dotted(node.func) == "chr" and len(node.args) == 1:
+            total = node.args[0]
+            for part in (total.left, total.right) if isinstance(total, ast.BinOp) else ():
+                yield _of(module, "digit", node, f"str({module.text.code(part)})")
+
+
+def _kept(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
+    """Yield an assignment in place of a call whose result is dropped: `x = x.next()`."""
+    del wanted, before
+    for node in module.nodes:
+        call = node.value if isinstance(node, ast.Expr) else None
+        if not isinstance(node, ast.Expr) or not isinstance(call, ast.Call):
+            continue
+        on = [call.func.value] if isinstance(call.func, ast.Attribute) else []
+        for part in (*on, *call.args[:1]):
+            name = dotted(part)
+            if name and name != "self" and "(" not in name and called_name(call) != "__init__":
+                code = module.text.code(node)
+                yield _of(module, "kept", node, f"{name} = {code}")
+
+
+def _next_once(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
+    """Yield one call of next() for all those of a function with the same iterator."""
+    del wanted, before
+    text = module.text
+    for function in (n for n in module.nodes if isinstance(n, Function)):
+        calls: dict[str, list[ast.Call]] = {}
+        for call, name in calls_in(function):
+            if name == "next" and len(call.args) == 1 and dotted(call.args[0]):
+                calls.setdefault(text.code(call), []).append(call)
+        for code, found in calls.items():
+            if len(found) < 2 or "number" in module.names or not code.startswith("next("):
+                continue
+            begin = next(
+                s for s in function.body if s.end_lineno and s.end_lineno >= found[0].lineno
+            )
+            row = f"{indent_of(text.line(begin.lineno))}number = {code}"
+            swaps = (text.swap(call, "number") for call in found)
+            rows = ", ".join(dict.fromkeys(str(call.lineno) for call in found))
+            splices = (text.before(begin.lineno, row), *swaps)
+            yield Change("next", found[0], code, f"number = {code}", splices, rows)
+
+
+def _next_lines(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
+    """Yield the file without a statement that only calls next()."""
+    del wanted, before
+    for node in module.nodes:
+        call = node.value if isinstance(node, ast.Expr) else None
+        called = dotted(call.func) if isinstance(call, ast.Call) else ""
+        if isinstance(node, ast.Expr) and called == "next":
+            yield from _without(module, "next_line", node)
 
 
 SORTS: dict[str, Callable[[Module, Wanted, Sequence[str]], Iterator[Change]]] = {
@@ -416,4 +472,8 @@ SORTS: dict[str, Callable[[Module, Wanted, Sequence[str]], Iterator[Change]]] = 
     "method": _methods,
     "condition": _conditions,
     "logged": _logged_twice,
+    "digit": _digits,
+    "kept": _kept,
+    "next": _next_once,
+    "next_line": _next_lines,
 }

@@ -13,6 +13,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from grader.package.source.module import Function
+from grader.package.source.names import dotted, last_part
 from grader.package.source.node import LOG_METHODS
 
 MOST_STEPS = 4000
@@ -59,6 +60,9 @@ BUILTINS: Mapping[str, Callable[..., object]] = {
     "hex": hex,
     "bin": bin,
     "oct": oct,
+    "chr": chr,
+    "ord": ord,
+    "sorted": sorted,
 }
 Scope = tuple[dict[str, object], ...]  # the names, the innermost first
 ERRORS = (TypeError, ValueError, ArithmeticError, LookupError, AttributeError, StopIteration)
@@ -512,12 +516,39 @@ class _Player:
             init = self.of_object(made, self.line_of(function.found), "__init__")
             if isinstance(init, _Code):
                 self.call(init, given, named)
+            elif function.found.decorator_list:
+                made.attributes |= self.fields(function.found, given, named)
+            elif (given or named) and not function.found.bases:
+                raise UnplayableError
             return made
         if isinstance(function, _Method):
             return self.method(function, given, named)
         if isinstance(function, _Named):
+            old = given[0] if len(given) == 1 else None
+            if function.name == "dataclasses.replace" and isinstance(old, _Made):
+                return _Made(old.of, {**old.attributes, **named})
             return self.known(function.name, given, named)
         return UNKNOWN
+
+    def fields(
+        self, found: ast.ClassDef, given: list[object], named: dict[str, object]
+    ) -> dict[str, object]:
+        """Return the attributes of a new object of a dataclass."""
+        own = {n.name for n in found.body if isinstance(n, Function)}
+        plain = len(found.decorator_list) == 1 and not found.bases and "__post_init__" not in own
+        if not plain or last_part(dotted(found.decorator_list[0])).rstrip("()") != "dataclass":
+            raise UnplayableError
+        values: dict[str, object] = {}
+        fields = [n for n in found.body if isinstance(n, ast.AnnAssign)]
+        names = [n.target.id for n in fields if isinstance(n.target, ast.Name)]
+        if len(given) > len(names) or not set(named) <= set(names):
+            raise UnplayableError
+        for at, name in enumerate(names):
+            value = self.of_class.get(found, {}).get(name, UNKNOWN)
+            if isinstance(value, _Named | list | dict):  # (field(…), or what all objects share)
+                value = UNKNOWN
+            values[name] = named.get(name, given[at] if at < len(given) else value)
+        return values
 
     def known(self, name: str, given: list[object], named: dict[str, object]) -> object:
         last = name.rpartition(".")[2]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 from collections import Counter
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -14,8 +13,8 @@ from grader.base.nearest import compared, with_difference
 from grader.base.shown import shown as shown_code
 from grader.base.yaml_model import broken
 from grader.course.assignment import Count
-from grader.package.source.counter import logged_counter, starts_of, without_effect, wrapped_at
-from grader.package.source.names import dotted, last_part
+from grader.mistakes.made_by import lines_that_make
+from grader.package.source.counter import without_effect, wrapped_at
 from grader.package.source.remarks import remarks_on
 from grader.package.source.time_limit import time_limit
 from grader.report.model import Where
@@ -29,13 +28,13 @@ from grader.verdict.outcome import Blocked, Failed, Passed
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from grader.package.source.node import NodeSource
     from grader.run.observer import Event, Watch
     from grader.run.run import Run
     from grader.verdict.evidence import Evidence
     from grader.verdict.use import Use
 
 SILENT = 2.5  # of the longest time between two lines, after which none is to come
+FOLLOWED = ("run.constant_counter", "run.wrong_start", "run.wrong_step")
 MISSED = 1.5  # periods after the last line, when the next one should have come
 
 
@@ -116,13 +115,14 @@ def _line_by_line(evidence: Evidence, wanted: Count, expected: str) -> Passed:
     if mistake == "run.twice":
         shown = ", ".join(event.text[:80] for event in _at_one_time(events)[:4])
     if mistake:
+        made = _made_by(evidence) if mistake in FOLLOWED else None
         raise Failed(
             mistake,
             expected=expected,
             actual=joined(text, shown, by=": "),
             where=line_of(evidence, events[0].record),
-            variant="" if _is_named(evidence) else "unnamed",
-            words=words(evidence),
+            variant="lines" if made else "",
+            words={**words(evidence), "lines": made} if made else words(evidence),
         )
     _must_stay_a_count(evidence, wanted, expected)
     _must_go_on(evidence, expected)
@@ -257,6 +257,9 @@ def _count_fault(run: Run, wanted: Count, numbers: list[int]) -> tuple[str, str]
     if numbers[0] != wanted.start:
         first, start = str(numbers[0]), wanted.start
         said = say("the count starts at {first}, not at {start}", first=first, start=start)
+        if steps - {wanted.step}:
+            more = say("it does not go up by {step} each time", step=wanted.step)
+            said = joined(said, more, by="; ")
         return "run.wrong_start", said
     if steps - {wanted.step}:
         said = say("the count does not go up by {step} each time", step=wanted.step)
@@ -346,23 +349,14 @@ def _logs(evidence: Evidence) -> bool:
     return source is not None and bool(source.own_logs)
 
 
-def _is_named(evidence: Evidence) -> bool:
-    """Whether the source shows which variable the logged counter is.
+def _made_by(evidence: Evidence) -> Message | None:
+    """Return the lines that make or change what the first line of the count shows, with their code.
 
-    What is read from an item or from a property is counted elsewhere.
+    None if they are not known, or if they are too many.
     """
     source = source_of_node(evidence)
-    found = logged_counter(source) if source is not None else None
-    if source is None or found is None:
-        return False
-    call, name = found
-    items = [n for n in ast.walk(call) if isinstance(n, ast.Subscript) and dotted(n.value) == name]
-    return not items and last_part(name) not in source.methods and _is_number(source, name)
-
-
-def _is_number(source: NodeSource, name: str) -> bool:
-    """Whether a counter starts as a number; the length of a list, for example, grows otherwise."""
-    return name in starts_of(source) or name in starts_of(source, float)
+    where = line_of(evidence, evidence.run.watch.counted[0].record)
+    return lines_that_make(source, where) if source is not None else None
 
 
 def _is_silent(evidence: Evidence) -> bool:

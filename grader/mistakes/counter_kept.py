@@ -1,0 +1,175 @@
+"""Mistakes in the counter: a result that is dropped, ++ in a text, and next() called too often."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import LOG, NODE, STEP_LINE, example
+from grader.mistakes.fixes import node_worked_out
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.mistakes.worked_out import INSTEAD, change_of, first_of, worked_out
+from grader.package.edit.tree import Replace
+from grader.package.source.counter import changes_of, outer_word, parts_of_callback
+from grader.package.source.names import dotted
+from grader.package.source.plain_counter import plain_start
+
+IMPORTS = "import rclpy\nfrom"
+STATE = """\
+@dataclass(frozen=True)
+class State:
+    seconds: int = 0
+
+    def next(self):
+        return State(self.seconds + 1)
+
+
+class MyFirstNode"""
+
+
+def _prefix(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for ++ or -- before a name in an expression, where nothing else changes the name."""
+    source = suspect.source
+    for part in parts_of_callback(source):
+        for node in ast.walk(part):
+            inner = node.operand if isinstance(node, ast.UnaryOp) else None
+            if not isinstance(node, ast.UnaryOp) or not isinstance(inner, ast.UnaryOp):
+                continue
+            name, both = dotted(inner.operand), (type(node.op), type(inner.op))
+            if not name or both not in ((ast.UAdd, ast.UAdd), (ast.USub, ast.USub)):
+                continue
+            first = plain_start(source, name)
+            if first is None or changes_of(source, name):
+                continue
+            if isinstance(source.module_of(node).parents.get(node), ast.Expr):
+                continue  # (another mistake says how the sum is kept)
+            if "." not in name and outer_word(source, part, name):
+                continue  # (such a variable has to be declared, too)
+            signs = "++" if isinstance(node.op, ast.UAdd) else "--"
+            found = suspect.finding("prefix_increment", node, name=name, form=signs)
+            words = {**found.words, "first": str(first.at.lineno)}
+            right = first.number == suspect.output.start
+            return replace(found, words=words, variant="" if right else "start")
+    return None
+
+
+def _dropped(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a call whose result has to be assigned to what it is called on or gets."""
+    change = change_of(suspect, "kept")
+    if change is None:
+        return None
+    called = change.written.removesuffix(change.name).removesuffix(" = ")
+    found = suspect.finding("result_dropped", change.at, name=change.name, written=change.written)
+    return replace(found, words={**found.words, "attribute": called})
+
+
+def _next_twice(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for several calls of next() in a function, where one gives the right lines."""
+    change = change_of(suspect, "next")
+    if change is None:
+        return None
+    found = suspect.finding("next_twice", change.at, name=change.name, written=change.written)
+    around = suspect.source.function_around(change.at)
+    function = around.name if around is not None else ""
+    words = {**found.words, "function": function, "lines": change.form}
+    return replace(found, words=words)
+
+
+_node = Family("node", links.PYTHON_CLASSES)
+KINDS = (
+    _node(
+        "prefix_increment",
+        "counter",
+        msg("++ or -- is written before a name"),
+        msg(
+            "Python reads {form}{name} as two signs before {name}. They add nothing: {name} stays as "
+            "it is."
+        ),
+        msg(
+            "Write {name} instead of {form}{name}, and below the call that logs, as a line of its own: "
+            "{name} += {step}"
+        ),
+        fixes={
+            "start": msg(
+                "Write {name} instead of {form}{name}. Write below the call that logs, as a line of its "
+                "own: {name} += {step}. In line {first}, write {start} as the first value of {name}."
+            )
+        },
+        behind={"run.constant_counter": _prefix},
+        examples=(
+            example(
+                "increment_sign_in_text",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = -1"),
+                Replace(NODE, LOG, "self.get_logger().info(f'Hello time: {++self.counter_}')"),
+                Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "result_dropped",
+        "counter",
+        msg("The result of a call is not kept"),
+        msg(
+            "{name} returns a new value and leaves {attribute} as it is. This line keeps the new value "
+            "nowhere."
+        ),
+        INSTEAD,
+        behind={"run.constant_counter": _dropped, "run.wrong_text": _dropped},
+        fixed_by=(node_worked_out.change("kept"),),
+        examples=(
+            example(
+                "new_state_not_kept",
+                Replace(NODE, IMPORTS, f"from dataclasses import dataclass\n\n{IMPORTS}"),
+                Replace(NODE, "class MyFirstNode", STATE),
+                Replace(NODE, "self.counter_ = 0", "self.state = State()"),
+                Replace(NODE, "str(self.counter_)", "str(self.state.seconds)"),
+                Replace(NODE, "self.counter_ += 1", "self.state.next()"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "next_twice",
+        "counter",
+        msg("next() is called more than once for a line"),
+        msg(
+            "Each call of next() takes another number from the iterator. {function} calls {name} more "
+            "than once (line {lines})."
+        ),
+        msg(
+            "Call next() once: write {written} as a line of its own at the start of {function}, and "
+            "number instead of each {name} below it."
+        ),
+        fixes={"line": msg("Delete this line: it takes a number that is not logged.")},
+        behind=dict.fromkeys(
+            ("run.wrong_start", "run.wrong_step"),
+            first_of(_next_twice, worked_out("next_twice", "next_line", variant="line")),
+        ),
+        whys={
+            "line": msg(
+                "Each call of next() takes another number from the iterator, also this one."
+            )
+        },
+        fixed_by=(node_worked_out.change("next", "next_line"),),
+        deletes=("line",),
+        examples=(
+            example(
+                "next_called_twice",
+                Replace(NODE, IMPORTS, f"import itertools\n\n{IMPORTS}"),
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = itertools.count()"),
+                Replace(
+                    NODE,
+                    LOG,
+                    "if next(self.counter_) >= 0:\n"
+                    "            self.get_logger().info(f'Hello time: {next(self.counter_)}')",
+                ),
+                Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
+            ),
+        ),
+    ),
+)

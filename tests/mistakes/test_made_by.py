@@ -1,0 +1,180 @@
+"""The number of a line is followed to what makes it, and no counter is invented."""
+
+from __future__ import annotations
+
+import pytest
+
+from grader.mistakes.made_by import lines_that_make
+from grader.mistakes.recognise import behind_symptom
+from grader.mistakes.recognised import Suspect
+from grader.package.source.plain_counter import plain_start
+from tests.marking import ASSIGNMENT
+from tests.mistakes.test_from_source import line_of, look, node_in, raised
+from tests.mistakes.test_named_exactly import LOG, STEP, changed, fix_of
+from tests.mistakes.test_worked_out import found_in
+
+START = "        self.counter_ = 0\n"
+TEXT = "'Hello time: ' + str(self.counter_)"
+COUNT = ("import rclpy\n", "import itertools\n\nimport rclpy\n")
+CLASS = "class MyFirstNode"
+STATE = """\
+@dataclass(frozen=True)
+class State:
+    n: int = 0
+
+    def next(self):
+        return State(self.n + 1)
+
+
+class MyFirstNode"""
+
+
+def of_state(step: str) -> str:
+    """Return a node that counts in a frozen dataclass, with this step."""
+    return changed(
+        ("import rclpy\n", "from dataclasses import dataclass, replace\n\nimport rclpy\n"),
+        (CLASS, STATE),
+        (START, "        self.state = State()\n"),
+        (TEXT, "f'Hello time: {self.state.n}'"),
+        (STEP, f"        {step}\n"),
+    )
+
+
+@pytest.mark.parametrize("step", ["self.state.next()", "replace(self.state, n=self.state.n + 1)"])
+def test_a_new_state_that_is_dropped_is_kept(step: str) -> None:
+    assert fix_of(found_in("run.constant_counter", of_state(step))) == (
+        f"Write self.state = {step} instead of {step}."
+    )
+
+
+def test_an_object_is_not_told_to_grow_by_one() -> None:
+    found = look("run.constant_counter", of_state("self.state.again()"))
+    assert found is None or found.kind != "node.counter_not_increased"
+
+
+def test_the_lines_that_make_the_number_are_named() -> None:
+    text = of_state("self.state.next()")
+    source = node_in(text)
+    made = str(lines_that_make(source, None))
+    for code in ("self.state = State()", "self.state.next()", "return State(self.n + 1)"):
+        assert f"line {line_of(text, code)}: {code}" in made
+
+
+def test_an_iterator_is_asked_once_for_a_line() -> None:
+    line = "if next(self.numbers) < 0:\n            return\n        "
+    shown = "self.get_logger().info(f'Hello time: {next(self.numbers)}')"
+    text = changed(
+        COUNT,
+        (START, "        self.numbers = itertools.count()\n"),
+        (LOG, line + shown),
+        (STEP, ""),
+    )
+    found = found_in("run.wrong_start", text)
+    assert found is not None
+    assert found.kind == "node.next_twice"
+    assert "number = next(self.numbers)" in fix_of(found)
+
+
+def test_a_number_that_is_taken_before_the_first_line_is_left() -> None:
+    text = changed(
+        COUNT,
+        (START, "        self.numbers = itertools.count()\n        next(self.numbers)\n"),
+        (TEXT, "f'Hello time: {next(self.numbers)}'"),
+        (STEP, ""),
+    )
+    found = found_in("run.wrong_start", text)
+    assert found is not None
+    assert found.where is not None
+    assert found.where.line == line_of(text, "count()") + 1
+    assert fix_of(found).startswith("Delete this line")
+
+
+@pytest.mark.parametrize(("start", "first"), [("0", False), ("-1", True)])
+def test_two_signs_before_a_name_add_nothing(start: str, first: bool) -> None:
+    text = changed((START, START.replace("0", start)), (TEXT, "f'{++self.counter_}'"), (STEP, ""))
+    found = look("run.constant_counter", text)
+    assert found is not None
+    assert found.kind == "node.prefix_increment"
+    assert "self.counter_ += 1" in fix_of(found)
+    assert ("write 0 as the first value" in fix_of(found)) is first
+
+
+def test_a_limit_with_a_name_is_taken_away() -> None:
+    text = changed(
+        (CLASS, f"LIMIT = 10\n\n\n{CLASS}"),
+        (STEP, "        self.counter_ = (self.counter_ + 1) % LIMIT\n"),
+    )
+    found = found_in("run.wrong_step", text)
+    assert fix_of(found) == "Write self.counter_ + 1 instead of (self.counter_ + 1) % LIMIT."
+
+
+def test_a_float_of_the_class_that_is_added_is_named() -> None:
+    text = changed(
+        (f"{CLASS}(Node):\n", f"{CLASS}(Node):\n    PERIOD = 1.0\n\n"),
+        (STEP, "        self.counter_ += self.PERIOD\n"),
+    )
+    suspect = Suspect(node_in(text), ASSIGNMENT, "Hello time: 1.0")
+    assert fix_of(behind_symptom("run.wrong_text", suspect)).startswith(
+        "Write self.counter_ += 1 instead of self.counter_ += self.PERIOD"
+    )
+
+
+def test_a_digit_by_its_code_is_written_with_str() -> None:
+    text = changed((TEXT, "'Hello time: ' + chr(ord('0') + self.counter_)"))
+    assert fix_of(found_in("run.wrong_text", text)) == (
+        "Write str(self.counter_) instead of chr(ord('0') + self.counter_)."
+    )
+
+
+def test_a_time_of_a_helper_is_no_count() -> None:
+    helper = (
+        "    def past(self):\n        return (self.get_clock().now() - self.first).nanoseconds\n"
+    )
+    text = changed(
+        (START, "        self.first = self.get_clock().now()\n"),
+        ("    def timer_callback", f"{helper}\n    def timer_callback"),
+        (TEXT, "f'Hello time: {self.past() // 10**9}'"),
+        (STEP, ""),
+    )
+    found = look("run.wrong_start", text)
+    assert found is not None
+    assert found.kind == "node.time_for_count"
+
+
+def test_sums_in_two_branches_are_not_told_to_be_one() -> None:
+    step = "        if self.counter_ % 2:\n            self.counter_ += 1\n"
+    text = changed((STEP, f"{step}        else:\n            self.counter_ += 3\n"))
+    found = look("run.wrong_step", text)
+    assert found is not None
+    assert found.kind == "node.other_step"
+
+
+def test_a_first_line_with_two_causes_names_both() -> None:
+    text = changed(
+        (START, START.replace("0", "1")),
+        (f"        {LOG}\n", ""),
+        (STEP, STEP + f"        {LOG}\n"),
+    )
+    found = look("run.wrong_start", text)
+    assert found is not None
+    assert found.kind == "node.adds_before_log"
+    assert f"In line {line_of(text, 'self.counter_ = 1')}, write 0" in fix_of(found)
+
+
+def test_a_number_before_a_text_is_the_one_that_str_gets() -> None:
+    text = changed((TEXT, "self.counter_ + self.end"))
+    error = "TypeError: unsupported operand type(s) for +: 'int' and 'str'"
+    found = raised(error, text, line_of(text, "self.end"))
+    assert fix_of(found).startswith("Write str(self.counter_) instead of self.counter_:")
+
+
+def test_no_number_is_named_where_the_line_has_no_sum() -> None:
+    text = changed((LOG, "show('Hello time: ', self.counter_)"))
+    error = 'TypeError: can only concatenate str (not "int") to str'
+    assert raised(error, text, line_of(text, "show(")) is None
+
+
+@pytest.mark.parametrize("used", ["len(self.counter_)", "self.counter_.n", "self.counter_[0]"])
+def test_what_is_used_as_an_object_is_no_plain_number(used: str) -> None:
+    assert plain_start(node_in(changed((TEXT, f"str({used})"))), "self.counter_") is None
+    assert plain_start(node_in(changed()), "self.counter_") is not None
