@@ -28,6 +28,7 @@ UNSPUN = msg(
 )
 PERIOD = msg("The first argument of create_timer is the period in seconds.")
 WRITE_NUMBER = msg("Write {written} instead of {old} in line {line}: {code} is then {period} s.")
+WRITE_UNIT = msg("Write {written} instead of {old} in line {line}: the period is then {period} s.")
 SPINS = msg(
     "The line shown spins the node: ROS calls your callbacks there. No other line of yours raised the "
     "error. Compare the parameters of your callbacks, and what "
@@ -388,15 +389,41 @@ KINDS = (
                 "The period is {code}, in seconds. With {old} in line {line} it is {seconds} s: "
                 "{rate} lines a second."
             ),
+            "milliseconds": msg(
+                "The period is {code}, in seconds. With {old} in line {line} it is {seconds} s: a "
+                "second has 1000 ms."
+            ),
+            "unit": msg(
+                "The period is {code}, in seconds. With {old} in line {line} it is {seconds} s."
+            ),
+            "expression": msg(
+                "The first argument of create_timer is the period in seconds. Here it is the value "
+                "of {code}."
+            ),
+            "left_out": msg(
+                "The timer is due every {period} s. A line comes only if its callback is called in "
+                "time, and comes to the line that logs."
+            ),
         },
         fixes={
             "named": msg("Write {value} = {period}."),
-            "several": msg("Write create_timer({period}, self.{callback}) once."),
+            "several": msg(
+                "Let the program create this timer only once, with the period {period}."
+            ),
             "there": msg(
-                "create_timer has the right period. Look for what leaves lines out or holds them up "
-                "in {callback} and in what it calls: an if, a sleep, a loop."
+                "create_timer has the right period: leave it as it is. Log a line at the beginning "
+                "of {callback} and one at its end, and compare their times. If {callback} begins "
+                "every {period} s, follow it to the line that logs. If it begins late, look at what "
+                "takes long before that: this callback or another one."
             ),
             "origin": msg("Write {written} instead of {old} in line {line}."),
+            "milliseconds": WRITE_UNIT,
+            "unit": WRITE_UNIT,
+            "number": msg("Write {period} instead of {code} in this call of create_timer."),
+            "expression": msg(
+                "The value of {code} must be {period}. Correct the numbers from which it comes; or "
+                "write {period} instead of {code} in this call of create_timer."
+            ),
             "calculated": WRITE_NUMBER,
             "rate": WRITE_NUMBER,
         },
