@@ -400,10 +400,6 @@ KINDS = (
                 "The first argument of create_timer is the period in seconds. Here it is the value "
                 "of {code}."
             ),
-            "left_out": msg(
-                "The timer is due every {period} s. A line comes only if its callback is called in "
-                "time, and comes to the line that logs."
-            ),
         },
         fixes={
             "named": msg("Write {value} = {period}."),

@@ -229,7 +229,10 @@ def _advice(evidence: Evidence) -> list[str]:
 
 
 def _wrong_period(evidence: Evidence, expected: str, actual: str, *, seconds: float) -> Failed:
-    told = _period_told(evidence)
+    told, follows = _period_told(evidence), ""
+    if told.variant == "there" and _leaves_numbers_out(evidence):
+        follows = evidence.id_of("log.counts")
+        actual = say("some lines do not come: the count goes on without them")
     return Failed(
         "run.wrong_period",
         expected=expected,
@@ -238,7 +241,29 @@ def _wrong_period(evidence: Evidence, expected: str, actual: str, *, seconds: fl
         variant=told.variant,
         params={"period": round(seconds, 3)},
         words={**words(evidence), **told.words},
+        follows=follows,
     )
+
+
+def _leaves_numbers_out(evidence: Evidence) -> bool:
+    """Whether the count failed because lines are missing, and each missing line is a period.
+
+    Then the node counts in each period, and only some lines do not come.
+    """
+    count, output = evidence.results.get(evidence.id_of("log.counts")), evidence.assignment.output
+    events = [event for event in evidence.run.watch.counted if event.n is not None]
+    if count is None or count.status != "failed" or count.visibility != "visible":
+        return False
+    on_wall = evidence.run.watch.clock == "wall"
+    slack = WALL_SLACK + WALL_TOLERANCE * output.period if on_wall else 0.002
+    most = 0.0
+    for before, after in pairwise(events):
+        periods = ((after.n or 0) - (before.n or 0)) / output.step
+        gap = after.wall - before.wall if on_wall else after.virtual - before.virtual
+        most = max(most, periods)
+        if periods < 1 or abs(gap - periods * output.period) > slack * periods:
+            return False
+    return most > 1
 
 
 @dataclass(frozen=True)
@@ -276,7 +301,8 @@ def told_of_period(source: NodeSource, wanted: float) -> Told:
         return Told(place_of(source, timer.call), "several")
     known = seconds_of(source, timer.period) if timer.period is not None else None
     if is_right(known, wanted):
-        return Told(place_of(source, timer.call), "there")
+        named = {"callback": timer.method} if timer.method else {}
+        return Told(place_of(source, timer.call), "there", named)
     return _told_of_argument(source, timer)
 
 
