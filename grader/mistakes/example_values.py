@@ -280,7 +280,13 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.name_hides_function": {"name": "str", "lines": "12"},
     "node.interrupt_swallowed": {"line": "12", "last": "16"},
     "node.start_is_text": COUNTER,
-    "node.spin_once": {"wanted": "executor.spin()"},
+    "node.spin_once": {
+        "wanted": "executor.spin()",
+        "loop": "while",
+        "name": "node.counter < 5",
+        "written": "node.create_timer(1.0, node.tick)",
+    },
+    "node.sleep_loop": {"wanted": "rclpy.spin(node)", "loop": "while"},
     "node.argument_missing": {
         "name": "name",
         "function": "MyNode.__init__",
