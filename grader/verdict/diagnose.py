@@ -142,7 +142,8 @@ def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedM
     text = str(diagnosis.mistakes[0].params.get("text", ""))
     lines = tuple(event.text for event in evidence.run.watch.counted)
     said = (ended_program(evidence.run) or evidence.run).transcript
-    suspect = Suspect(source, evidence.assignment, text, diagnosis.where, lines, said)
+    stuck = evidence.run.watch.still_answers is False
+    suspect = Suspect(source, evidence.assignment, text, diagnosis.where, lines, said, stuck)
     return behind_symptom(symptom, suspect)
 
 
