@@ -12,7 +12,7 @@ from grader.mistakes.example import LOG_LINE, NODE, STEP_LINE, example
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
-from grader.package.source.endless import calls_of_methods
+from grader.package.source.endless import methods_run_by
 from grader.package.source.imported import full_name
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
@@ -47,22 +47,10 @@ def _made(source: NodeSource, *kinds: str) -> dict[str, ast.Call]:
     }
 
 
-def _run_by(source: NodeSource, part: ast.AST) -> Iterator[Function]:
-    """Yield the methods that a part of the source calls, also through other methods."""
-    seen: list[Function] = []
-    waiting: list[ast.AST] = [part]
-    while waiting:
-        for _, method in calls_of_methods(source, waiting.pop()):
-            if method not in seen:
-                seen.append(method)
-                waiting.append(method)
-                yield method
-
-
 def _callbacks(source: NodeSource) -> list[Function]:
     """Return the methods that the timers call, and those that these call."""
     called = [source.methods[t.method] for t in source.timers if t.method in source.methods]
-    inner = [method for each in called for method in _run_by(source, each)]
+    inner = [method for each in called for method in methods_run_by(source, each)]
     return list(dict.fromkeys([*called, *inner]))
 
 
@@ -93,7 +81,7 @@ def _locked_twice(suspect: Suspect) -> RecognisedMistake | None:
     source, locks = suspect.source, _made(suspect.source, LOCK)
     for callback in _callbacks(source) if locks and suspect.stuck else ():
         for outer in _taken(callback, locks):
-            held = [*outer.block, *(m for s in outer.block for m in _run_by(source, s))]
+            held = [*outer.block, *(m for s in outer.block for m in methods_run_by(source, s))]
             inner = [t for part in held for t in _taken(part, locks) if t.lock == outer.lock]
             if inner and not _releases(outer):
                 return _twice(suspect, outer, inner[0], locks[outer.lock])
@@ -221,6 +209,7 @@ KINDS = (
             "waiting, and the timer calls it again."
         ),
         behind=dict.fromkeys(("run.stops", "run.no_lines"), _waits),
+        deletes=("",),
         examples=(
             example(
                 "queue_in_callback",

@@ -19,6 +19,7 @@ from grader.package.source.endless import Loop, idle_loop
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.place import statement_at
 from grader.package.source.spinning_loop import condition_of, loop_around, only_called, other_work
+from grader.package.source.until_ctrl_c import parts_until_ctrl_c
 
 TWICE = "generator already executing|Executor is already spinning"
 ENDED = ("loop", "condition")  # variants of a loop that ended before Ctrl+C
@@ -249,8 +250,9 @@ def _idle(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _exits(suspect: Suspect) -> RecognisedMistake | None:
+    early = parts_until_ctrl_c(suspect.source)
     for node in suspect.source.all_nodes:
-        if not isinstance(node, ast.Raise | ast.Call):
+        if not isinstance(node, ast.Raise | ast.Call) or node not in early:
             continue
         raised = dotted(node.exc) if isinstance(node, ast.Raise) and node.exc else ""
         called = dotted(node.func) if isinstance(node, ast.Call) else ""

@@ -97,3 +97,28 @@ def test_a_lock_that_is_not_released() -> None:
     )
     assert mistake is not None
     assert told(mistake) == "Write self.lock.release() as the last line of timer_callback."
+
+
+def test_what_a_method_of_the_callback_does_is_told() -> None:
+    """A shutdown in a helper ends the node; a sleep in it holds the lines back."""
+    body = f"{BODY}        self.check()\n"
+    ends = "\n    def check(self):\n        rclpy.shutdown()\n"
+    suspect = Suspect(source_in(with_callback("pass", body, ends)), ASSIGNMENT)
+    mistake = behind_symptom("run.ended_early", suspect)
+    assert mistake is not None
+    assert mistake.kind == "node.ends_in_callback"
+    sleeps = ends.replace("rclpy.shutdown()", "time.sleep(2.0)")
+    text = with_callback("pass", body, sleeps)
+    mistake = behind_symptom("run.wrong_period", Suspect(source_in(text), ASSIGNMENT))
+    assert mistake is not None
+    assert mistake.kind == "node.sleeps_in_callback"
+    assert told(mistake).startswith("Remove the sleep from check:")
+    chosen = text.replace("        time.sleep", "        if self.late:\n            time.sleep")
+    assert behind_symptom("run.wrong_period", Suspect(source_in(chosen), ASSIGNMENT)) is None
+
+
+def test_an_exit_after_spin_does_not_end_a_node_before_ctrl_c() -> None:
+    text = changed(
+        RIGHT, ("        rclpy.try_shutdown()\n", "        rclpy.try_shutdown()\n        exit(0)\n")
+    )
+    assert behind_symptom("run.ended_early", Suspect(source_in(text), ASSIGNMENT)) is None
