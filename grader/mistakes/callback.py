@@ -92,7 +92,9 @@ def _sleeps(suspect: Suspect) -> RecognisedMistake | None:
         or timers not in ([suspect.output.period], [None])
     ):
         return None
-    return suspect.finding("sleeps_in_callback", slept[0], seconds=slept[1])
+    found = suspect.finding("sleeps_in_callback", slept[0], seconds=slept[1])
+    method = suspect.source.function_around(slept[0])
+    return replace(found, words={**found.words, "callback": method.name}) if method else found
 
 
 def _never_ends(suspect: Suspect) -> RecognisedMistake | None:
@@ -215,6 +217,7 @@ KINDS = (
         msg("Remove the sleep from {callback}: the timer alone makes the pauses."),
         links.EXECUTORS,
         behind={"run.wrong_period": _sleeps},
+        deletes=("",),
         examples=(
             example(
                 "sleeps_in_callback",

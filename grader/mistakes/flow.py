@@ -24,6 +24,7 @@ from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.worked_out import worked_out
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import logged_counter, targets_of
+from grader.package.source.endless import methods_run_by
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.place import function_at, statement_at
 
@@ -103,7 +104,9 @@ def _inner(suspect: Suspect) -> RecognisedMistake | None:
 def _ends(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a call in the callback that ends the node."""
     callback = suspect.source.callback
-    for call, name in calls_in(callback) if callback is not None else ():
+    inner = methods_run_by(suspect.source, callback) if callback is not None else ()
+    parts = [] if callback is None else [callback, *inner]
+    for call, name in (found for part in parts for found in calls_in(part)):
         if name in ENDS or last_part(name) == "destroy_node":
             return suspect.finding("ends_in_callback", call, name=f"{name}()")
     return None
@@ -362,8 +365,8 @@ KINDS = (
         "ends_in_callback",
         "callback",
         msg("The callback ends the node"),
-        msg("{name} ends the node. In the callback it runs after the first line already."),
-        msg("Remove this line from the callback: a node ends with Ctrl+C."),
+        msg("{name} ends the node: after that, ROS calls no callback of it."),
+        msg("Remove this line: a node ends with Ctrl+C."),
         links.EXECUTORS,
         behind={
             "run.ended_early": _ends,

@@ -96,7 +96,7 @@ class Suspect:
 
     If a line of the output is wrong, `text` is that line and `place` is where it was logged.
     `lines` are the lines of the output that came, none if they are not known. `transcript` is
-    what the program wrote to its terminal.
+    what the program wrote to its terminal. `stuck` is whether the node stopped answering.
     """
 
     source: NodeSource
@@ -105,6 +105,7 @@ class Suspect:
     place: Where | None = None
     lines: tuple[str, ...] = ()
     transcript: str = ""
+    stuck: bool = False
 
     @property
     def output(self) -> Output:

@@ -36,6 +36,7 @@ UNSPUN = msg(
 )
 PERIOD = msg("The first argument of create_timer is the period in seconds.")
 WRITE_NUMBER = msg("Write {written} instead of {old} in line {line}: {code} is then {period} s.")
+WRITE_UNIT = msg("Write {written} instead of {old} in line {line}: the period is then {period} s.")
 SPINS = msg(
     "The line shown spins the node: ROS calls your callbacks there. No other line of yours raised the "
     "error. Compare the parameters of your callbacks, and what "
@@ -306,8 +307,10 @@ KINDS = (
         ),
         fixes={
             "timer": msg(
-                "A timer is there. Is its line reached, does it belong to the node that is spun, "
-                "and does {callback} reach the line that logs?"
+                "A timer is there. Log a line directly below create_timer and one at the beginning of "
+                "{callback}, and run the node again. If the first does not come, the program does not "
+                "reach create_timer. If only the second does not come, the timer is not due, or is "
+                "not of the node that is spun. If both come, follow {callback} to the line that logs."
             )
         },
     ),
@@ -338,8 +341,10 @@ KINDS = (
             msg("An exception that nothing catches ends the node, also one in a callback."),
         ),
         fix=msg(
-            "Look for what ends the program, in the callback and in what it calls: an exit, a "
-            "limit on the count, or a shutdown. Delete it."
+            "The program ended without a traceback. Log a line at the beginning and at the end of "
+            "each callback, and one directly below the line that spins the node. Run it again: what "
+            "follows the last line that comes ended the program. If the line below spin comes, look "
+            "at what made spin return, or at what ended the loop around it. Delete that."
         ),
         fixes={
             "callback": msg(
@@ -360,8 +365,9 @@ KINDS = (
             "another callback brings, such as the answer of a service, waits for ever."
         ),
         msg(
-            "Do not wait or spin in a callback: use call_async and add_done_callback, and let the "
-            "callback return."
+            "Log a line at the beginning and at the end of each callback: the one whose second line "
+            "does not come is the one that does not return. It must neither wait nor spin. The "
+            "answer of a service comes to a function that add_done_callback gets."
         ),
         links.EXECUTORS,
     ),
@@ -369,11 +375,36 @@ KINDS = (
         "stops",
         "timer",
         msg("The lines stop coming"),
-        SPIN,
+        msg("Something must call the line that logs again and again, until Ctrl+C."),
         msg(
-            "Look for what ends the lines: a timer that does not exist, is cancelled or belongs to "
-            "another node, a limit on the count, or a return before the line that logs."
+            "Follow the program to the line that logs: log another line before and after each call "
+            "in the function that logs, and in what calls it. Run the node again. The last line that "
+            "comes shows where the program waits, returns or ends."
         ),
+        whys={
+            "stuck": msg(
+                "ROS calls one callback after another, and the node answers between them. A node "
+                "that no longer answers is in a callback that does not return, or spins no longer."
+            ),
+            "answers": msg(
+                "The node still answers, so it still spins. Then either the timer no longer calls "
+                "{callback}, or {callback} no longer comes to the line that logs."
+            ),
+        },
+        fixes={
+            "stuck": msg(
+                "Log a line at the beginning of {callback}, one below each call in it, and one at "
+                "its end. Run the node again: below the last line that comes is the call that does "
+                "not return; do the same in what it calls. If the line at the end comes too, follow "
+                "{function}: it no longer spins the node."
+            ),
+            "answers": msg(
+                "Log a line at the beginning of {callback}, and run the node again. If it goes on, "
+                "follow {callback} from there to the line that logs, and look at what that call "
+                "gets. If it stops too, the timer no longer calls {callback}: look at the line that "
+                "creates the timer, and at all lines that use it."
+            ),
+        },
     ),
     _run(
         "wrong_period",
@@ -393,15 +424,37 @@ KINDS = (
                 "The period is {code}, in seconds. With {old} in line {line} it is {seconds} s: "
                 "{rate} lines a second."
             ),
+            "milliseconds": msg(
+                "The period is {code}, in seconds. With {old} in line {line} it is {seconds} s: a "
+                "second has 1000 ms."
+            ),
+            "unit": msg(
+                "The period is {code}, in seconds. With {old} in line {line} it is {seconds} s."
+            ),
+            "expression": msg(
+                "The first argument of create_timer is the period in seconds. Here it is the value "
+                "of {code}."
+            ),
         },
         fixes={
             "named": msg("Write {value} = {period}."),
-            "several": msg("Write create_timer({period}, self.{callback}) once."),
+            "several": msg(
+                "Let the program create this timer only once, with the period {period}."
+            ),
             "there": msg(
-                "create_timer has the right period. Look for what leaves lines out or holds them up "
-                "in {callback} and in what it calls: an if, a sleep, a loop."
+                "create_timer has the right period: leave it as it is. Log a line at the beginning "
+                "of {callback} and one at its end, and compare their times. If {callback} begins "
+                "every {period} s, follow it to the line that logs. If it begins late, look at what "
+                "takes long before that: this callback or another one."
             ),
             "origin": msg("Write {written} instead of {old} in line {line}."),
+            "milliseconds": WRITE_UNIT,
+            "unit": WRITE_UNIT,
+            "number": msg("Write {period} instead of {code} in this call of create_timer."),
+            "expression": msg(
+                "The value of {code} must be {period}. Correct the numbers from which it comes; or "
+                "write {period} instead of {code} in this call of create_timer."
+            ),
             "calculated": WRITE_NUMBER,
             "rate": WRITE_NUMBER,
         },
@@ -573,9 +626,14 @@ KINDS = (
         msg("The node keeps running after Ctrl+C"),
         msg(
             "Ctrl+C sends SIGINT. Python turns it into KeyboardInterrupt, which ends rclpy.spin. "
-            "Code that catches it and goes on, or ignores the signal, leaves the node running."
+            "Then {function} has to return, and every thread has to end."
         ),
-        msg("Catch KeyboardInterrupt only around rclpy.spin, and let {function} end after it."),
+        msg(
+            "Print a line where the program goes on after rclpy.spin, and one at the end of "
+            "{function}. Run the node and press Ctrl+C. If the first does not come, something keeps "
+            "KeyboardInterrupt from rclpy.spin, or spins again. If only the second does not come, a "
+            "line between them waits. If both come, a thread still runs. Remove that."
+        ),
         links.EXECUTORS,
         examples=(
             example(

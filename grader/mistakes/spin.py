@@ -15,11 +15,14 @@ from grader.mistakes.placeholders import placeholder_values
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Edit, Replace, Write
 from grader.package.source.counter import targets_of
-from grader.package.source.endless import idle_loop
+from grader.package.source.endless import Loop, idle_loop
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.place import statement_at
+from grader.package.source.spinning_loop import condition_of, loop_around, only_called, other_work
+from grader.package.source.until_ctrl_c import parts_until_ctrl_c
 
 TWICE = "generator already executing|Executor is already spinning"
+ENDED = ("loop", "condition")  # variants of a loop that ended before Ctrl+C
 SPUN = ("spin", "rclpy.spin", "rclpy.spin_once")
 EXITS = ("exit", "quit", "sys.exit", "os._exit")
 SPIN = msg("rclpy.spin(node) waits and calls the callbacks when they are due, until Ctrl+C.")
@@ -37,9 +40,9 @@ def _once_only(suspect: Suspect) -> RecognisedMistake | None:
 def _never_again(suspect: Suspect) -> RecognisedMistake | None:
     """The program goes on, so that a loop around spin_once has not ended."""
     found = _once_only(suspect)
-    if found is None:
-        return None
-    return replace(found, variant="goes_on" if found.variant == "loop" else "")
+    if found is None or found.variant not in ENDED:
+        return found
+    return replace(found, variant="goes_on")
 
 
 def _by_loop(suspect: Suspect) -> RecognisedMistake | None:
@@ -63,22 +66,36 @@ def _once(suspect: Suspect) -> RecognisedMistake | None:
             found = suspect.finding("spin_once", call)
             node = str(placeholder_values(suspect.assignment, suspect.source)["node"])
             wanted = node_executor.spun_by(suspect.source, node, name)
-            if not _in_while(suspect, call):
+            loop = loop_around(suspect.source, call)
+            if loop is None:
                 own = wanted.startswith("rclpy.spin(")
                 return found if own else _of_executor(suspect, call, wanted)
-            params = {**found.params, "wanted": wanted}
-            return replace(found, variant="loop", params=params)
+            return _once_in_loop(suspect, replace(found, params={"wanted": wanted}), loop)
     return None
+
+
+def _once_in_loop(suspect: Suspect, found: RecognisedMistake, loop: Loop) -> RecognisedMistake:
+    """Return a spin_once in a loop: with a timer, if nothing else does the loop's other work."""
+    source = suspect.source
+    test = condition_of(source, loop)
+    word = "while" if isinstance(loop, ast.While) else "for"
+    words = {**found.words, "loop": word, "name": test}
+    work = other_work(source, loop)
+    if source.timers or not work:
+        return replace(found, words=words, variant="condition" if test else "loop")
+    call = only_called(work)
+    code = source.module_of(loop).text.code(call.func) if call is not None else ""
+    owner = code.rpartition(".")[0] or words["node"]
+    timer = f"{owner}.create_timer({suspect.output.period!r}, {code})"
+    lines = "function" if source.node_class is None else "lines"
+    variant = "no_timer" if code else lines
+    return replace(found, words={**words, "written": timer}, variant=variant)
 
 
 def _of_executor(suspect: Suspect, call: ast.Call, wanted: str) -> RecognisedMistake:
     code = suspect.source.module_of(call).text.code(call)
     found = suspect.finding("spin_once", call, name=code, written=wanted)
     return replace(found, variant="executor")
-
-
-def _in_while(suspect: Suspect, call: ast.Call) -> bool:
-    return any(isinstance(n, ast.While) for n in suspect.source.module_of(call).around(call))
 
 
 def _spun_twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -162,8 +179,21 @@ def _sleep_loop(suspect: Suspect) -> RecognisedMistake | None:
             for call, name in calls_in(node):
                 if last_part(name) == "sleep":
                     found = suspect.finding("sleep_loop", call)
-                    return _spins_and_sleeps(suspect, node, found) or found
+                    return _spins_and_sleeps(suspect, node, found) or _with_class(
+                        suspect, node, found
+                    )
     return None
+
+
+def _with_class(
+    suspect: Suspect, loop: ast.While | ast.For, found: RecognisedMistake
+) -> RecognisedMistake:
+    """Return a loop with sleep; a node without a class of its own has no method and no __init__."""
+    if suspect.source.node_class is not None:
+        return found
+    word = "while" if isinstance(loop, ast.While) else "for"
+    words = {**found.words, "loop": word, "wanted": f"rclpy.spin({found.words['node']})"}
+    return replace(found, variant="function", words=words)
 
 
 def _spins_and_sleeps(
@@ -220,8 +250,9 @@ def _idle(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _exits(suspect: Suspect) -> RecognisedMistake | None:
+    early = parts_until_ctrl_c(suspect.source)
     for node in suspect.source.all_nodes:
-        if not isinstance(node, ast.Raise | ast.Call):
+        if not isinstance(node, ast.Raise | ast.Call) or node not in early:
             continue
         raised = dotted(node.exc) if isinstance(node, ast.Raise) and node.exc else ""
         called = dotted(node.func) if isinstance(node, ast.Call) else ""
@@ -285,7 +316,23 @@ def _loop(new: str = LOOPS) -> tuple[Edit, ...]:
     return IMPORT, no_timer, Replace(NODE, SPINS, new)
 
 
-WHOLE_LOOP = msg("Write {wanted} instead of the whole while loop around this line.")
+WHOLE_LOOP = msg("Write {wanted} instead of the whole {loop} loop around this line.")
+INTO_METHOD = msg(
+    "Write a method def tick(self): in the node's class, and move the other lines of the {loop} loop "
+    "into it, without spin_once and sleep. In it, self stands for {node}. What the lines keep from "
+    "round to round must be attributes (self.…) that __init__ sets. Then write two lines instead of "
+    "the whole {loop} loop: {node}.create_timer({period}, {node}.tick), and below it {wanted}."
+)
+INTO_FUNCTION = msg(
+    "Write a function def tick(): above the {loop} loop, and move the loop's other lines into it, "
+    "without spin_once and sleep. If they change a variable, its first line is nonlocal (for a "
+    "variable outside of all functions: global) with the variable's name. Then write two lines "
+    "instead of the whole {loop} loop: {node}.create_timer({period}, tick), and below it {wanted}."
+)
+IN_EACH_ROUND = msg(
+    "spin_once handles one callback and returns. The other lines of the {loop} loop around it run in "
+    "each round, and not when a timer is due: no timer calls them."
+)
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -303,6 +350,7 @@ KINDS = (
             "{function} instead of the loop."
         ),
         links.EXECUTORS,
+        fixes={"function": INTO_FUNCTION},
         behind={"run.never_spins": _sleep_loop},
         examples=(
             example(
@@ -391,6 +439,13 @@ KINDS = (
                 "spin_once handles one callback and returns. The loop around it must go on until "
                 "Ctrl+C, and this loop ended earlier."
             ),
+            "condition": msg(
+                "spin_once handles one callback and returns. The loop around it must go on until "
+                "Ctrl+C, but it goes on only as long as {name} is true."
+            ),
+            "no_timer": IN_EACH_ROUND,
+            "lines": IN_EACH_ROUND,
+            "function": IN_EACH_ROUND,
             "executor": msg("{name} handles one callback and returns; then {function} ends."),
             "goes_on": msg(
                 "spin_once handles one callback and returns. The other lines of the loop around it "
@@ -399,7 +454,14 @@ KINDS = (
         },
         fixes={
             "loop": WHOLE_LOOP,
+            "condition": WHOLE_LOOP,
             "goes_on": WHOLE_LOOP,
+            "no_timer": msg(
+                "Write two lines instead of the whole {loop} loop around this line: first {written}, "
+                "which creates the timer, and below it {wanted}."
+            ),
+            "lines": INTO_METHOD,
+            "function": INTO_FUNCTION,
             "executor": msg("Write {written} instead of {name}."),
         },
         behind={

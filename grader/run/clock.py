@@ -115,6 +115,8 @@ class VirtualClock:
         driven = not self._unasked and 2 * self._late <= len(watch.dues)
         if watch.missing or watch.early or not promptly or not driven or self._piles_up:
             self._unmask(watch, on_event)
+        if not self._unasked and (self._is_stuck or not self._unanswered):
+            watch.still_answers = not self._is_stuck
 
     def go_on(self, seconds: float) -> None:
         """Let ROS time pass without a barrier: the node is ending, and may need its next timer."""
@@ -369,9 +371,13 @@ class VirtualClock:
             for event in events
         ]
 
+    @property
+    def _is_stuck(self) -> bool:
+        """Whether the node no longer answers."""
+        return self._unanswered >= UNANSWERED and self._at > MILLISECOND
+
     def _over(self) -> bool:
-        stuck = self._unanswered >= UNANSWERED and self._at > MILLISECOND
-        return stuck or self._observer.over or time.monotonic() > self._deadline
+        return self._is_stuck or self._observer.over or time.monotonic() > self._deadline
 
 
 def _without_dues(events: Sequence[Event]) -> list[Event]:

@@ -55,6 +55,7 @@ class Watch:
     """The events of a run in order, and the timing of its count.
 
     `while_still` is whether lines came although ROS time stood still, None if this is unknown.
+    `still_answers` is whether the node answered at the end of a watch on `/clock`, None if unknown.
     `silent` is the wall time in seconds without a line of the count at the end of a watch on the
     wall clock. `held` has the seconds for which the node held up each step by itself, not by the machine's load.
     """
@@ -69,6 +70,7 @@ class Watch:
     settled: bool = False
     note: str = ""
     while_still: bool | None = None
+    still_answers: bool | None = None
     silent: float = 0.0
     held: list[float] = field(default_factory=list)
 

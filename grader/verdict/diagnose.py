@@ -100,6 +100,8 @@ def diagnose(failed: Failed, evidence: Evidence) -> Diagnosis:
         _explain(diagnosis, found, source_around(evidence, found.where))
     elif symptom in RAISES:
         _say_where(diagnosis, failed, evidence)
+    elif failed.follows:
+        return _left_to(diagnosis, failed.follows)
     _show_line(diagnosis, evidence)
     diagnosis.mistakes.sort(key=lambda mistake: RANK[mistake.id])
     diagnosis.consequence_of = _same_root(diagnosis, evidence)
@@ -109,9 +111,13 @@ def diagnose(failed: Failed, evidence: Evidence) -> Diagnosis:
 def _following(diagnosis: Diagnosis, evidence: Evidence) -> Diagnosis:
     """Leave reason and fix to an earlier check, if its mistake is the cause of this one."""
     cause = followed(diagnosis.mistakes[0].id, diagnosis.where, evidence)
-    if cause:
-        diagnosis.consequence_of, diagnosis.rationale = cause, ""
-        diagnosis.fix = say("This follows from {check}. Fix {check} first.", check=cause)
+    return _left_to(diagnosis, cause) if cause else diagnosis
+
+
+def _left_to(diagnosis: Diagnosis, cause: str) -> Diagnosis:
+    """Leave reason and fix to a check."""
+    diagnosis.consequence_of, diagnosis.rationale = cause, ""
+    diagnosis.fix = say("This follows from {check}. Fix {check} first.", check=cause)
     return diagnosis
 
 
@@ -136,7 +142,8 @@ def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedM
     text = str(diagnosis.mistakes[0].params.get("text", ""))
     lines = tuple(event.text for event in evidence.run.watch.counted)
     said = (ended_program(evidence.run) or evidence.run).transcript
-    suspect = Suspect(source, evidence.assignment, text, diagnosis.where, lines, said)
+    stuck = evidence.run.watch.still_answers is False
+    suspect = Suspect(source, evidence.assignment, text, diagnosis.where, lines, said, stuck)
     return behind_symptom(symptom, suspect)
 
 

@@ -27,7 +27,8 @@ class Failed(Outcome):
     The catalogue entry supplies the rationale and the fix: `variant` selects one of its texts,
     `params` and `words` fill the placeholders (only `params` are in the report). `fix` replaces
     the entry's fix if only the check knows what to do. If not `blocks`, the checks that depend on
-    this one are evaluated all the same.
+    this one are evaluated all the same. `follows` is the earlier check whose mistake is the cause of
+    this one, if nothing else is recognised.
 
     An instructor's own check may name a mistake of its own (`own.…`): it has no entry, so that
     `rationale` and `fix` are all that students read.
@@ -47,6 +48,7 @@ class Failed(Outcome):
         where: Where | None = None,
         advice: Sequence[str] = (),
         blocks: bool = True,
+        follows: str = "",
     ) -> None:
         super().__init__(actual)
         self.mistake = Mistake(id=mistake, params=dict(params or {}))
@@ -59,6 +61,7 @@ class Failed(Outcome):
         self.where = where
         self.advice = tuple(advice)
         self.blocks = blocks
+        self.follows = follows
 
 
 class Blocked(Outcome):

@@ -71,6 +71,8 @@ def _run_as_json(run: Run) -> dict[str, Any]:
         del found["others"]
     if not run.watch.silent:  # of no watch on the wall clock
         del found["watch"]["silent"]
+    if run.watch.still_answers is None:
+        del found["watch"]["still_answers"]
     return found
 
 

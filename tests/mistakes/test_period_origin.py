@@ -10,7 +10,7 @@ from grader.mistakes.recognise import behind_symptom
 from grader.mistakes.recognised import Suspect
 from grader.package.edit.files import Files
 from grader.package.source.node import NodeSource, read_node
-from grader.package.source.period import origin_of
+from grader.package.source.period import origin_of, wrong_number
 from grader.verdict.checks.timing import told_of_period
 from grader.verdict.fix import first_fix
 from tests.marking import ASSIGNMENT
@@ -108,12 +108,76 @@ def test_the_number_is_named_and_changed(
 )  # fmt: skip
 def test_an_uncertain_number_is_not_changed(code: str, lines: dict[str, str]) -> None:
     text = with_period(code, **lines)
-    assert told(text) == ("Write create_timer(1.0, self.timer_callback).", text)
+    fix = (
+        f"The value of {code} must be 1.0. Correct the numbers from which it comes; or write 1.0 "
+        f"instead of {code} in this call of create_timer."
+    )
+    assert told(text) == (fix, text)
+
+
+@pytest.mark.parametrize(
+    ("code", "lines", "old", "written"),
+    [
+        ("ms / 100", {"before": "        self.declare_parameter('ms', 1000)\n"
+                                "        ms = self.get_parameter('ms').value\n"}, "100", "1000"),
+        ("PERIOD_MS / 100", {"constant": "PERIOD_MS = 1000\n\n\n"}, "100", "1000"),
+        ("PERIOD_MS / 1000000", {"constant": "PERIOD_MS = 1000\n\n\n"}, "1000000", "1000"),
+        ("PERIOD / 100", {"constant": "PERIOD = 1000\n\n\n"}, "100", "1000"),
+        ("periodMs * 0.01", {"before": "        periodMs = 1000\n"}, "0.01", "0.001"),
+        ("1000 / RATE", {"constant": "RATE = 1\n\n\n"}, "1000", "1"),
+        ("seconds(1000)",
+         {"constant": "def seconds(milliseconds):\n    return milliseconds / 100\n\n\n"},
+         "100", "1000"),
+        ("self.seconds(1000)",
+         {"own": "    def seconds(self, ms):\n        'in s'\n        return ms / 10\n\n"},
+         "10", "1000"),
+    ],
+)  # fmt: skip
+def test_the_unit_of_a_calculation_is_corrected_and_not_the_number(
+    code: str, lines: dict[str, str], old: str, written: str
+) -> None:
+    text = with_period(code, **lines)
+    fix, after = told(text)
+    assert fix.startswith(f"Write {written} instead of {old} in line ")
+    period = source_in(after).timers[0].period
+    assert wrong_number(source_in(after), period, 1.0) is None
+    origin = origin_of(source_in(after), period)
+    assert origin is not None
+    assert origin.seconds == 1.0
+
+
+@pytest.mark.parametrize(
+    ("code", "constant"),
+    [
+        ("T / 1000000", "T = 1000\n\n\n"),  # T in ms with another divisor, or another T in us
+        ("T / 100", "T = 500\n\n\n"),
+        ("PERIOD_MS / 10 / 10", "PERIOD_MS = 1000\n\n\n"),
+        ("1 / PERIOD_MS", "PERIOD_MS = 1000\n\n\n"),
+        ("HZ * 1", "HZ = 10\n\n\n"),
+    ],
+)
+def test_of_several_numbers_none_is_named_if_it_is_not_certain(code: str, constant: str) -> None:
+    text = with_period(code, constant=constant)
+    fix, after = told(text)
+    assert fix.startswith(f"The value of {code} must be 1.0.")
+    assert after == text
+
+
+def test_the_timer_of_the_lines_is_told_and_not_another_one() -> None:
+    other = "        self.create_timer(5.0, self.other)\n"
+    text = changed(
+        RIGHT,
+        (TIMER, other + TIMER.replace("1.0", "2.0")),
+        (INIT, f"    def other(self):\n        pass\n\n{INIT}"),
+    )
+    fix, after = told(text)
+    assert fix == "Write 1.0 instead of 2.0 in this call of create_timer."
+    assert after == text.replace("2.0", "1.0")
 
 
 def test_a_calculation_without_names_is_replaced_as_a_whole() -> None:
     assert told(with_period("1.0 / 10")) == (
-        "Write create_timer(1.0, self.timer_callback).", RIGHT,
+        "Write 1.0 instead of 1.0 / 10 in this call of create_timer.", RIGHT,
     )  # fmt: skip
     text = with_period("period", before="        period = 500 / 1000\n")
     assert told(text) == ("Write period = 1.0.", text.replace("500 / 1000", "1.0"))
@@ -127,9 +191,9 @@ def test_a_calculation_without_names_is_replaced_as_a_whole() -> None:
     ],
 )
 def test_once_is_said_only_if_there_can_be_several_timers(lines: str) -> None:
-    once = "Write create_timer(1.0, self.timer_callback) once."
+    once = "Let the program create this timer only once, with the period 1.0."
     assert told(changed(RIGHT, (TIMER, lines)))[0] == once
-    assert told(with_period("0.5"))[0] == once.replace(" once", "")
+    assert told(with_period("0.5"))[0] == "Write 1.0 instead of 0.5 in this call of create_timer."
 
 
 def test_a_parameter_in_milliseconds() -> None:

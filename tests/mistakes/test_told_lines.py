@@ -157,7 +157,7 @@ def test_a_tutorial_that_was_changed_to_the_exercise_is_not_called_one(old: str)
         ("period_half_with_name", "timer_period = 0.5", "Write timer_period = 1.0."),
         ("period_two_with_constant", "PERIOD = 2.0", "Write PERIOD = 1.0."),
         ("period_half", "self.create_timer(0.5, self.timer_callback)",
-         "Write create_timer(1.0, self.timer_callback)."),
+         "Write 1.0 instead of 0.5 in this call of create_timer."),
     ],
 )  # fmt: skip
 def test_a_wrong_period_is_where_its_value_is_written(

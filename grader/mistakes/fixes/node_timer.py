@@ -16,7 +16,13 @@ from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import NodeSource
 from grader.package.source.parameters import needed_besides_self, only_self, uses_of
-from grader.package.source.period import is_right, number_in, origin_of
+from grader.package.source.period import (
+    is_right,
+    number_in,
+    origin_of,
+    timers_of_lines,
+    wrong_number,
+)
 from grader.package.source.timer import Timer, timer_of
 
 NAMES = ("create_timer", "get_logger")
@@ -257,17 +263,18 @@ def callback_self(case: Case) -> Files | None:
 def period(case: Case) -> Files | None:
     """Set the timer's period to the required one."""
     node = case.node
-    timer = node.timer_call if node else None
-    period = timer_of(timer, None).period if timer is not None else None
+    timers = timers_of_lines(node) if node is not None else []
+    period = timers[0].period if len(timers) == 1 else None
     if node is None or period is None:
         return None
     given = value_of(node, period)
     wanted = case.assignment.output.period
-    origin = origin_of(node, period)
-    if origin is not None:
-        right = origin.right(wanted) if not is_right(origin.seconds, wanted) else ""
-        module = node.module_of(origin.number)
-        return case.changed(module, module.text.swap(origin.number, right)) if right else None
+    if origin_of(node, period) is not None:
+        wrong = wrong_number(node, period, wanted)
+        if wrong is None:
+            return None
+        module = node.module_of(wrong.number)
+        return case.changed(module, module.text.swap(wrong.number, wrong.right(wanted)))
     seconds = number_in(given)
     text = isinstance(given, ast.Constant) and isinstance(given.value, str)
     if given is None or is_right(seconds, wanted) or not (seconds is not None or text):

@@ -74,3 +74,15 @@ def calls_of_methods(source: NodeSource, function: ast.AST) -> Iterator[tuple[as
         method = source.methods.get(own_name(call.func))
         if method is not None:
             yield call, method
+
+
+def methods_run_by(source: NodeSource, part: ast.AST) -> Iterator[Function]:
+    """Yield the node's methods that a part of the source calls, also through other methods."""
+    seen: list[Function] = []
+    waiting: list[ast.AST] = [part]
+    while waiting:
+        for _, method in calls_of_methods(source, waiting.pop()):
+            if method not in seen:
+                seen.append(method)
+                waiting.append(method)
+                yield method

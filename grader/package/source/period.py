@@ -4,14 +4,28 @@ from __future__ import annotations
 
 import ast
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from grader.package.source.counter import targets_of
+from grader.package.source.endless import calls_of_methods
 from grader.package.source.module import Function
-from grader.package.source.names import called_name, dotted
+from grader.package.source.names import called_name, dotted, last_part, own_name
 from grader.package.source.node import NodeSource
+from grader.package.source.timer import Timer
 
+WORDS = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
+PARTS_OF_SECOND = {
+    "ms": 1e-3, "msec": 1e-3, "msecs": 1e-3, "milli": 1e-3, "millis": 1e-3, "millisec": 1e-3,
+    "millisecond": 1e-3, "milliseconds": 1e-3, "us": 1e-6, "usec": 1e-6, "micros": 1e-6,
+    "microsecond": 1e-6, "microseconds": 1e-6, "ns": 1e-9, "nsec": 1e-9, "nanos": 1e-9,
+    "nanosecond": 1e-9, "nanoseconds": 1e-9, "s": 1.0, "sec": 1.0, "secs": 1.0, "second": 1.0,
+    "seconds": 1.0, "min": 60.0, "minute": 60.0, "minutes": 60.0,
+}  # fmt: skip
+"""The seconds in the units that the names of numbers say."""
+RATES = {"rate", "hz", "freq", "frequency", "fps", "bpm"}
+UNITS = (1e-3, 1e-6, 1e-9, 1.0)
 READ = ("value", "double_value", "integer_value")
 TYPES = {"double_value": float, "integer_value": int}
 MOST_STEPS = 12
@@ -31,6 +45,8 @@ class Origin:
     power: int
     calculation: ast.expr | None
     is_integer: bool
+    is_unit: bool = False
+    """Whether it is a number of the calculation that stands for a unit: 1000 in ms / 1000."""
 
     @property
     def value(self) -> int | float:
@@ -58,26 +74,78 @@ class _Term:
     power: int
     calculation: ast.expr | None
     is_integer: bool
+    names: tuple[str, ...] = ()
+
+    def origin(self, seconds: float, *, is_unit: bool = False) -> Origin:
+        """Return it as what sets a period."""
+        return Origin(self.number, seconds, self.power, self.calculation, self.is_integer, is_unit)
 
 
 class _Unknown(Exception):  # noqa: N818 - no error: the source says no number
     """The value is not known without running the code."""
 
 
+def timers_of_lines(source: NodeSource) -> list[Timer]:
+    """Return the timers whose callback logs, also in a method that it calls; all if none is seen to."""
+    return [timer for timer in source.timers if _logs(source, timer.method)] or source.timers
+
+
+def _logs(source: NodeSource, name: str) -> bool:
+    method = source.methods.get(name)
+    called = [inner for _, inner in calls_of_methods(source, method)] if method else []
+    return any(source.logs(each) for each in (method, *called) if each is not None)
+
+
 def origin_of(source: NodeSource, period: ast.expr | None) -> Origin | None:
     """Return the only named number that sets a period; None if it is not certain which."""
-    if period is None:
+    found = _searched(source, period)
+    return found[0].terms[0].origin(found[1]) if found is not None else None
+
+
+def wrong_number(source: NodeSource, period: ast.expr | None, wanted: float) -> Origin | None:
+    """Return the number that makes a period wrong; None if it is not certain which.
+
+    It is the named number if the calculation fits its unit. Else it can be the number of the
+    calculation that is to be a unit: 100 in PERIOD_MS / 100.
+    """
+    found = _searched(source, period)
+    if found is None or is_right(found[1], wanted):
         return None
-    search = _Search(source)
-    try:
-        seconds = search.value(period)
-    except (_Unknown, ZeroDivisionError, OverflowError):
-        return None
-    numbers = {id(term.number) for term in search.terms}
-    if len(numbers) != 1 or len(search.terms) != 1 or not 0 < seconds < math.inf:
-        return None
-    term = search.terms[0]
-    return Origin(term.number, seconds, term.power, term.calculation, term.is_integer)
+    (term,), seconds = found[0].terms, found[1]
+    units = [literal.origin(seconds, is_unit=True) for literal in found[0].literals]
+    units = [
+        unit for unit in units if not is_right(float(unit.value), 1) and _is_unit(unit, wanted)
+    ]
+    named, fits = term.origin(seconds), _fits(term, seconds)
+    if fits is False or (fits is None and not named.right(wanted)):
+        return units[0] if len(units) == 1 else None
+    return named if named.right(wanted) and (fits or not units) else None
+
+
+def _is_unit(literal: Origin, wanted: float) -> bool:
+    """Whether a number of a calculation has to be a unit, so that the period is right."""
+    right = float(literal.right(wanted) or 0)
+    return any(is_right(right, unit) or is_right(right, 1 / unit) for unit in UNITS)
+
+
+def _fits(term: _Term, seconds: float) -> bool | None:
+    """Whether a calculation makes seconds of a number's unit; None if no name says the unit.
+
+    Of a number without a unit, the calculation has to be one of those that make seconds.
+    """
+    named = {word.lower() for name in term.names for word in WORDS.findall(name)}
+    units = {PARTS_OF_SECOND[word] for word in named if word in PARTS_OF_SECOND}
+    number = float(str(term.number.value))
+    factor = seconds / number**term.power
+    if len(units) > 1 or (units and named & RATES):
+        return False
+    if units:
+        return term.power > 0 and is_right(factor, *units)
+    if term.calculation is None:
+        return True
+    if named & RATES or term.power < 0:
+        return term.power < 0 and any(is_right(factor, known) for known in (1.0, 60.0))
+    return None if any(is_right(factor, unit) for unit in UNITS) else False
 
 
 def number_in(value: ast.expr | None) -> float | None:
@@ -122,12 +190,24 @@ def seconds_of(source: NodeSource, period: ast.expr, steps: int = MOST_STEPS) ->
     return seconds_of(source, value, steps - 1) if value is not None else None
 
 
+def _searched(source: NodeSource, period: ast.expr | None) -> tuple[_Search, float] | None:
+    """Return the search for the numbers of a period, and its seconds, if one number has a name."""
+    search = _Search(source)
+    try:
+        seconds = search.value(period) if period is not None else 0.0
+    except (_Unknown, ZeroDivisionError, OverflowError):
+        return None
+    return (search, seconds) if len(search.terms) == 1 and 0 < seconds < math.inf else None
+
+
 class _Search:
     """Follows names and parameters to the numbers that they stand for."""
 
     def __init__(self, source: NodeSource) -> None:
         self.source = source
         self.terms: list[_Term] = []
+        self.literals: list[_Term] = []  # those without a name, in a calculation
+        self._given: dict[tuple[Function, str], ast.expr] = {}
         self._steps = 0
 
     def value(
@@ -138,15 +218,15 @@ class _Search:
         named: bool = False,
         inside: ast.expr | None = None,
         kind: str = "",
+        names: tuple[str, ...] = (),
     ) -> float:
         """Return the value of an expression, and keep the named numbers in it."""
         self._steps += 1
         if self._steps > MOST_STEPS:
             raise _Unknown
         if isinstance(part, ast.Constant):
-            return self._number(
-                part, _Term(part, power, inside, kind == "integer_value"), kind, named
-            )
+            term = _Term(part, power, inside, kind == "integer_value", names)
+            return self._number(part, term, kind, named)
         if isinstance(part, ast.BinOp) and isinstance(part.op, ast.Mult | ast.Div) and not kind:
             around = part if named or inside is None or part not in ast.walk(inside) else inside
             left = self.value(part.left, power, inside=around)
@@ -154,19 +234,40 @@ class _Search:
             right = self.value(part.right, -power if divides else power, inside=around)
             return left / right if divides else left * right
         if isinstance(part, ast.Call) and dotted(part.func) == "float" and len(part.args) == 1:
-            return self.value(part.args[0], power, named=named, inside=inside)
+            return self.value(part.args[0], power, named=named, inside=inside, names=names)
         read, kind = self._read(part, kind)
+        names = (*names, *self._words(read))
         found = self._parameter(read) if read is not part else self._named(part)
+        found = found or (self._returned(part) if isinstance(part, ast.Call) else None)
         if found is None:
             raise _Unknown
-        return self.value(found, power, named=True, inside=inside, kind=kind)
+        return self.value(found, power, named=True, inside=inside, kind=kind, names=names)
+
+    def _returned(self, call: ast.Call) -> ast.expr | None:
+        """Return what a function of the file or a method returns, if that is all that it does."""
+        own = self.source.methods.get(own_name(call.func))
+        function = own or self.source.module_of(call).functions.get(dotted(call.func))
+        if function is None or (own and own.decorator_list) or call.keywords:
+            return None
+        body = function.body[1:] if ast.get_docstring(function) else function.body
+        names = [argument.arg for argument in function.args.args[1 if own else 0 :]]
+        if len(body) != 1 or not isinstance(body[0], ast.Return) or len(names) != len(call.args):
+            return None
+        self._given |= {(function, n): a for n, a in zip(names, call.args, strict=True)}
+        return body[0].value
+
+    def _words(self, read: ast.expr) -> list[str]:
+        """Return the name of a variable, or of the parameter that is read."""
+        name = _given(read, 0, "name") if isinstance(read, ast.Call) else None
+        text = name.value if isinstance(name, ast.Constant) else last_part(dotted(read))
+        return [text] if isinstance(text, str) else []
 
     def _number(self, part: ast.Constant, term: _Term, kind: str, named: bool) -> float:
         if type(part.value) not in (int, float) or type(part.value) is not TYPES.get(
             kind, type(part.value)
         ):
             raise _Unknown
-        self.terms += [term] if named else []
+        (self.terms if named else self.literals).append(term)
         return float(str(part.value))
 
     def _read(self, part: ast.expr, kind: str) -> tuple[ast.expr, str]:
@@ -231,7 +332,7 @@ class _Search:
         if scopes and any(
             a.arg == named.id for a in ast.walk(scopes[0].args) if isinstance(a, ast.arg)
         ):
-            return None
+            return self._given.get((scopes[0], named.id))
         for scope in (*scopes, None):
             stored: list[ast.expr] = [
                 node

@@ -4,16 +4,26 @@ from __future__ import annotations
 
 import ast
 
-from grader.package.source.names import calls_in
+from grader.package.source.names import calls_in, own_name
 from grader.package.source.node import NodeSource
 
 SLEEPS = ("time.sleep", "sleep")
 
 
 def sleeps_of(source: NodeSource) -> list[ast.Call]:
-    """Return the calls with which the callback sleeps."""
-    calls = calls_in(source.callback) if source.callback is not None else ()
-    return [call for call, name in calls if name in SLEEPS]
+    """Return the calls with which the callback sleeps in each call, itself or in a method."""
+    callback = source.callback
+    if callback is None:
+        return []
+    inner = [source.methods.get(own_name(call.func)) for call, _ in calls_in(callback)]
+    calls = [c for part in (callback, *inner) if part is not None for c in calls_in(part)]
+    return [call for call, name in calls if name in SLEEPS and not _is_chosen(source, call)]
+
+
+def _is_chosen(source: NodeSource, call: ast.Call) -> bool:
+    """Whether it depends on a condition or on an exception if a call runs."""
+    around = source.module_of(call).around(call)
+    return any(isinstance(part, ast.If | ast.IfExp | ast.ExceptHandler) for part in around)
 
 
 def longest_sleep(source: NodeSource) -> tuple[ast.Call, float] | None:

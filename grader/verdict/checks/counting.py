@@ -219,6 +219,7 @@ def _silent(evidence: Evidence, expected: str) -> Failed:
             where=where or node_file(evidence),
             variant="callback" if error else "",
             params={"error": error.partition(":")[0]},
+            words=words(evidence),
         )
     source = source_of_node(evidence)
     return Failed(
@@ -294,8 +295,9 @@ def _must_stay_a_count(evidence: Evidence, wanted: Count, expected: str) -> None
     raise Failed(
         "run.stops",
         expected=say("{lines} until Ctrl+C", lines=expected),
-        actual=say_plural("1 line, then no more came", "{count} lines, then no more came", count),
+        actual=_no_more(count),
         where=line_of(evidence, other.record),
+        words=words(evidence),
     )
 
 
@@ -329,18 +331,40 @@ def _must_go_on(evidence: Evidence, expected: str) -> None:
     if not run.ended_by_itself and not silent and not few:
         return
     error, where = traceback_of(evidence, run)
-    actual = say_plural(
-        "1 line, then no more came", "{count} lines, then no more came", len(events)
-    )
+    until = say("{lines} until Ctrl+C", lines=expected)
     if run.ended_by_itself:
-        actual = _ended_after(len(events), error or _status(evidence))
-    raise Failed(
-        "run.ended_early" if run.ended_by_itself else "run.stops",
-        expected=say("{lines} until Ctrl+C", lines=expected),
+        raise Failed(
+            "run.ended_early",
+            expected=until,
+            actual=_ended_after(len(events), error or _status(evidence)),
+            where=where or node_file(evidence),
+            variant="callback" if error else "",
+            words=words(evidence),
+        )
+    raise _stopped(evidence, until, len(events))
+
+
+def _stopped(evidence: Evidence, expected: str, lines: int) -> Failed:
+    """Return the failure of a node that goes on without lines, with whether it still answers."""
+    answers = evidence.run.watch.still_answers
+    actual = _no_more(lines)
+    if answers is not None:
+        answered = say("the node still answers") if answers else say("the node no longer answers")
+        actual = joined(actual, answered, by="; ")
+    source = source_of_node(evidence)
+    timer = source is not None and bool(source.timers)
+    return Failed(
+        "run.stops",
+        expected=expected,
         actual=actual,
-        where=where or node_file(evidence),
-        variant="callback" if run.ended_by_itself and error else "",
+        where=line_of(evidence, evidence.run.watch.counted[-1].record),
+        variant="stuck" if answers is False else "answers" if answers and timer else "",
+        words=words(evidence),
     )
+
+
+def _no_more(count: int) -> Message:
+    return say_plural("1 line, then no more came", "{count} lines, then no more came", count)
 
 
 def _logs(evidence: Evidence) -> bool:

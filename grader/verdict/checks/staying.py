@@ -48,6 +48,7 @@ def stays(evidence: Evidence) -> Passed:
                 where=where or file_of_program(evidence, program),
                 variant="callback" if error else "",
                 params={"error": error.partition(":")[0]},
+                words=words(evidence),
             )
         if run.seen is not None and run.seen.stuck is not None:
             raise Failed(

@@ -17,7 +17,14 @@ from grader.mistakes.fixes.node_pace import throttled
 from grader.mistakes.fixes.node_timer import value_of
 from grader.package.source.names import dotted
 from grader.package.source.node import NodeSource
-from grader.package.source.period import Origin, is_right, number_in, origin_of, seconds_of
+from grader.package.source.period import (
+    Origin,
+    is_right,
+    number_in,
+    seconds_of,
+    timers_of_lines,
+    wrong_number,
+)
 from grader.package.source.place import place_of
 from grader.package.source.sleeps import longest_sleep
 from grader.package.source.timer import Timer
@@ -37,6 +44,7 @@ if TYPE_CHECKING:
 
 WALL_TOLERANCE, WALL_SLACK = 0.05, 0.02  # a share of the period, and seconds
 MOST_INSTANTS = 5  # of those whose lines are counted in a text
+MILLISECONDS = (1000.0, 0.001)  # by which ms are divided or multiplied
 LONGEST_CODE = 80  # characters of a calculation in a text
 
 
@@ -221,7 +229,10 @@ def _advice(evidence: Evidence) -> list[str]:
 
 
 def _wrong_period(evidence: Evidence, expected: str, actual: str, *, seconds: float) -> Failed:
-    told = _period_told(evidence)
+    told, follows = _period_told(evidence), ""
+    if told.variant == "there" and _leaves_numbers_out(evidence):
+        follows = evidence.id_of("log.counts")
+        actual = say("some lines do not come: the count goes on without them")
     return Failed(
         "run.wrong_period",
         expected=expected,
@@ -230,7 +241,29 @@ def _wrong_period(evidence: Evidence, expected: str, actual: str, *, seconds: fl
         variant=told.variant,
         params={"period": round(seconds, 3)},
         words={**words(evidence), **told.words},
+        follows=follows,
     )
+
+
+def _leaves_numbers_out(evidence: Evidence) -> bool:
+    """Whether the count failed because lines are missing, and each missing line is a period.
+
+    Then the node counts in each period, and only some lines do not come.
+    """
+    count, output = evidence.results.get(evidence.id_of("log.counts")), evidence.assignment.output
+    events = [event for event in evidence.run.watch.counted if event.n is not None]
+    if count is None or count.status != "failed" or count.visibility != "visible":
+        return False
+    on_wall = evidence.run.watch.clock == "wall"
+    slack = WALL_SLACK + WALL_TOLERANCE * output.period if on_wall else 0.002
+    most = 0.0
+    for before, after in pairwise(events):
+        periods = ((after.n or 0) - (before.n or 0)) / output.step
+        gap = after.wall - before.wall if on_wall else after.virtual - before.virtual
+        most = max(most, periods)
+        if periods < 1 or abs(gap - periods * output.period) > slack * periods:
+            return False
+    return most > 1
 
 
 @dataclass(frozen=True)
@@ -250,23 +283,43 @@ def _period_told(evidence: Evidence) -> Told:
 
 
 def told_of_period(source: NodeSource, wanted: float) -> Told:
-    """Return what to say of the first timer's period.
+    """Return what to say of the period of the timer whose callback logs.
 
     A number that is right already is not the reason: then it is the call of create_timer.
     """
-    timer = source.timers[0]
+    timers = timers_of_lines(source)
+    timer = timers[0]
     name = dotted(timer.period) if timer.period is not None else ""
     value = value_of(source, timer.period) if timer.period is not None and name else None
     seconds = number_in(value)
     if value is not None and seconds is not None and not is_right(seconds, wanted):
         return Told(place_of(source, value), "named", {"value": name})
-    origin = origin_of(source, timer.period) if len(source.timers) == 1 else None
-    if origin is not None and not is_right(origin.seconds, wanted) and origin.right(wanted):
+    origin = wrong_number(source, timer.period, wanted) if len(timers) == 1 else None
+    if origin is not None:
         return _told_of_origin(source, origin, wanted)
     if _is_made_again(source, timer):
         return Told(place_of(source, timer.call), "several")
     known = seconds_of(source, timer.period) if timer.period is not None else None
-    return Told(place_of(source, timer.call), "there" if is_right(known, wanted) else "")
+    if is_right(known, wanted):
+        named = {"callback": timer.method} if timer.method else {}
+        return Told(place_of(source, timer.call), "there", named)
+    return _told_of_argument(source, timer)
+
+
+def _told_of_argument(source: NodeSource, timer: Timer) -> Told:
+    """Return what to say of a period of which it is not certain which number is wrong."""
+    code = _short_code(source, timer.period)
+    variant = ""
+    if code:
+        variant = "number" if number_in(timer.period) is not None else "expression"
+    at = timer.period if code and timer.period is not None else timer.call
+    return Told(place_of(source, at), variant, {"code": code})
+
+
+def _short_code(source: NodeSource, part: ast.expr | None) -> str:
+    """Return the code of a part of a line; "" if it is long or has several lines."""
+    code = source.module_of(part).text.code(part) if part is not None else ""
+    return "" if "\n" in code or len(code) > LONGEST_CODE else code
 
 
 def _told_of_origin(source: NodeSource, origin: Origin, wanted: float) -> Told:
@@ -277,10 +330,13 @@ def _told_of_origin(source: NodeSource, origin: Origin, wanted: float) -> Told:
         "written": origin.right(wanted),
         "line": where.line or 0,
     }
-    code = text.code(origin.calculation) if origin.calculation is not None else ""
-    if not code or "\n" in code or len(code) > LONGEST_CODE:
+    code = _short_code(source, origin.calculation)
+    if not code:
         return Told(where, "origin", known)
     known |= {"code": code, "seconds": f"{origin.seconds:g}", "rate": f"{1 / origin.seconds:.3g}"}
+    if origin.is_unit:
+        milliseconds = float(origin.right(wanted)) in MILLISECONDS
+        return Told(where, "milliseconds" if milliseconds else "unit", known)
     return Told(where, "rate" if origin.power < 0 and origin.seconds < 1 else "calculated", known)
 
 
@@ -290,4 +346,4 @@ def _is_made_again(source: NodeSource, timer: Timer) -> bool:
     looped = any(isinstance(part, ast.For | ast.While) for part in around)
     name = timer.function.name if timer.function is not None else ""
     called = len(source.calls_of(name)) > 1 or name in {t.method for t in source.timers}
-    return len(source.timers) > 1 or looped or bool(name and called)
+    return len(timers_of_lines(source)) > 1 or looped or bool(name and called)
