@@ -223,16 +223,25 @@ def _publishes_records(call: ast.Call) -> bool:
     return last_part(dotted(call.func)) == "create_publisher" and "/rosout" in texts
 
 
+def _is_shorter(suspect: Suspect, option: node_words.Option) -> bool:
+    """Whether an option is a time after which the next line is due at the earliest: it leaves out none."""
+    seconds = option.value.value if isinstance(option.value, ast.Constant) else None
+    if option.name != "throttle_duration_sec" or not isinstance(seconds, int | float):
+        return False
+    return seconds < suspect.output.period
+
+
 def _left_out(*options: str) -> FromSource:
     """Return a function that finds one of these options in the calls of the logger."""
 
     def found(suspect: Suspect) -> RecognisedMistake | None:
-        for call in suspect.source.own_logs:
-            option = node_words.option_of(call)
-            if option is not None and option.arg in options:
-                mistake = suspect.finding("log_option", call, name=option.arg)
-                return replace(mistake, variant=option.arg)
-        return None
+        option = node_words.log_option(suspect.source, *options)
+        if option is None or _is_shorter(suspect, option):
+            return None
+        mistake = suspect.finding("log_option", option.call, name=option.name)
+        return replace(
+            mistake, variant=option.name, words={**mistake.words, "written": option.code}
+        )
 
     return found
 
@@ -363,7 +372,7 @@ KINDS = (
         "logger",
         msg("An option of the logger leaves out lines"),
         msg("With {name}, the logger does not write a line in every call."),
-        msg("Remove {name}=… from the call of the logger."),
+        msg("Remove {written} from the call in this line."),
         links.LOGGING,
         whys={
             "once": msg("With once=True, only the first call of that line writes it."),

@@ -156,10 +156,19 @@ KINDS = (
         "text",
         msg("The text is different"),
         msg("The text is compared character by character: case, spaces and punctuation count."),
-        msg("Log exactly '{line}', with the counter in place of the number."),
+        msg(
+            "The line has to be exactly '{line}', with the counter's value as the number. Look at the "
+            "line that logs it, and at each place where a part of its text is made."
+        ),
+        fixes={
+            "later": msg(
+                "Before this line, {count} were right. It has to be exactly '{line}'. Look at what makes "
+                "the text of this line different from theirs."
+            )
+        },
         fixed_by=(
-            node_log.f_prefix,
-            node_log.text,
+            node_log.right_text(node_log.f_prefix),
+            node_log.right_text(node_log.text),
         ),
         examples=(
             example(
@@ -527,8 +536,13 @@ KINDS = (
         "other_logger",
         "logger",
         msg("The lines come from a logger that is not the node's"),
-        RECORD,
-        LOG,
+        msg(
+            "Each record has the name of the logger that wrote it. The node's own logger has the "
+            "node's name: get_logger() of the node returns it."
+        ),
+        msg(
+            "Log the line with the node's own logger: self.get_logger().info(…) in a method of the node."
+        ),
         links.LOGGING,
         examples=(
             example(
@@ -546,7 +560,7 @@ KINDS = (
         "logger",
         msg("The records have a level other than INFO"),
         msg("The level says how urgent a record is; a count is information."),
-        LOG,
+        msg("Log the line with the method info of the node's logger: self.get_logger().info(…)"),
         links.LOGGING,
         fixed_by=(node_log.level,),
         examples=(
