@@ -595,6 +595,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "form": "repr()",
     },
     "node.text_changed": {"name": "text.upper()", "written": "text", "form": ".upper()"},
+    "node.one_digit": {"name": "chr(48 + self.counter)", "written": "str(self.counter)"},
     "node.number_changed": {"name": "self.counter + 1", "written": "self.counter"},
     "node.level_set": {"name": "set_level", "level": "WARN"},
     "node.callback_repeats": {"name": "while"},

@@ -20,7 +20,9 @@ RECORD = msg(
     "A log record has a level, a time and the node's name, and goes to /rosout, where other "
     "programs can read it. print() only writes text to this terminal."
 )
-LOG = msg("Write self.get_logger().info(…) in the callback.")
+LOG = msg(
+    "Log the line with the node's own logger, self.get_logger().info(…), and remove what prints it."
+)
 UNSPUN = msg(
     "Only spinning calls a node's callbacks. If it never spins, its timers, subscriptions and "
     "services never run: ros2 param list and ros2 service call get no answer, no message reaches "
@@ -162,8 +164,8 @@ KINDS = (
         ),
         fixes={
             "later": msg(
-                "Before this line, {count} were right. It has to be exactly '{line}'. Look at what makes "
-                "the text of this line different from theirs."
+                "The lines before this one were right ({count}). It has to be exactly '{line}'. Look at "
+                "what makes its text different from theirs."
             )
         },
         fixed_by=(
@@ -257,7 +259,10 @@ KINDS = (
         "timer",
         msg("More than one line comes at a time"),
         COUNT,
-        msg("Create only one timer, and log once in its callback."),
+        msg(
+            "Let one line come each time. Look for all that logs when the timer is due, such as a second "
+            "timer, a second log call or a loop, and keep one."
+        ),
         fixed_by=(
             node_count.twice,
             node_log.only_logged,
@@ -481,8 +486,8 @@ KINDS = (
         links.LOGGING,
         fixes={
             "logs": msg(
-                "The logger is used. Look for what else writes to the terminal: clear, or a text "
-                "with \\r or \\x1b. Delete it."
+                "The logger is used. Look for what erases its lines, such as clear, or \\r or \\x1b in a "
+                "text that is printed or logged. Remove it."
             )
         },
         examples=(

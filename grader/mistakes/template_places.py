@@ -48,7 +48,10 @@ def _raised(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
 
 
 def _with_place(
-    mistake: RecognisedMistake, call: ast.Call, code: Callable[[ast.expr | ast.keyword], str], place: str
+    mistake: RecognisedMistake,
+    call: ast.Call,
+    code: Callable[[ast.expr | ast.keyword], str],
+    place: str,
 ) -> RecognisedMistake | None:
     """Name what the call gives, and what it has to give."""
     words = {**mistake.words, "place": place}

@@ -59,6 +59,8 @@ BUILTINS: Mapping[str, Callable[..., object]] = {
     "hex": hex,
     "bin": bin,
     "oct": oct,
+    "ord": ord,
+    "chr": chr,
 }
 Scope = tuple[dict[str, object], ...]  # the names, the innermost first
 ERRORS = (TypeError, ValueError, ArithmeticError, LookupError, AttributeError, StopIteration)
