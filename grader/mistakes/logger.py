@@ -167,7 +167,20 @@ def _twice(suspect: Suspect) -> RecognisedMistake | None:
     logs = [*source.logs(callback), *source.prints(callback)]
     if len(logs) <= 1:
         return None
+    beside = _print_beside(source, callback)
+    if len(logs) == 2 and beside is not None:
+        found = suspect.finding("logs_twice", beside)
+        return replace(found, variant="printed")
     return suspect.finding("logs_twice", sorted(logs, key=lambda call: call.lineno)[1])
+
+
+def _print_beside(source: NodeSource, part: ast.AST) -> ast.Call | None:
+    """Return the print() of a text that the logger logs as well."""
+    logged = [ast.dump(call.args[0]) for call in source.own_logs if len(call.args) == 1]
+    for call in source.prints(part):
+        if len(call.args) == 1 and ast.dump(call.args[0]) in logged:
+            return call
+    return None
 
 
 def _printed(suspect: Suspect) -> RecognisedMistake | None:
@@ -180,6 +193,9 @@ def _printed(suspect: Suspect) -> RecognisedMistake | None:
                 return replace(suspect.finding("print_used", given), variant="inside")
     if not prints:
         return None
+    beside = _print_beside(suspect.source, callback) if callback is not None else None
+    if beside is not None:
+        return replace(suspect.finding("print_used", beside), variant="beside")
     elsewhere = print_elsewhere.printed_outside(suspect, prints[0])
     if elsewhere is not None and not suspect.source.own_logs:
         return elsewhere
@@ -246,6 +262,7 @@ def _left_out(*options: str) -> FromSource:
     return found
 
 
+BESIDE = msg("Delete this print(…): the logger logs the same text.")
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -437,7 +454,10 @@ KINDS = (
         msg("Each call of the logger writes its own line."),
         msg("Keep only one self.get_logger().info(…) in the callback."),
         links.LOGGING,
-        fixes={"line": msg("Delete line {line}: another call writes the same line.")},
+        fixes={
+            "line": msg("Delete line {line}: another call writes the same line."),
+            "printed": BESIDE,
+        },
         behind={"run.twice": first_of(_twice, worked_out("logs_twice", "logged", variant="line"))},
         fixed_by=(
             node_count.twice,
@@ -490,6 +510,7 @@ KINDS = (
         },
         fixes={
             "inside": msg("Remove print( and its ): give the text itself to the logger."),
+            "beside": BESIDE,
             "written": INSTEAD,
             **print_elsewhere.FIXES,
         },

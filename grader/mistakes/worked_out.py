@@ -122,7 +122,6 @@ KINDS = (
                 "digit_as_in_c",
                 Replace(NODE, "str(self.counter_)", "chr(ord('0') + self.counter_)"),
                 fails="run.output",
-                blocks=("run.period",),
             ),
         ),
     ),

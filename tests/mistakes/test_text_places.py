@@ -225,3 +225,19 @@ def test_a_digit_of_c_becomes_str(tmp_path: Path) -> None:
     found = behind_symptom("run.wrong_text", suspect)
     assert fix_of(found) == "Write str(self.counter_) instead of chr(ord('0') + self.counter_)."
     assert patched(found, text, tmp_path) == changed()
+
+
+def test_a_print_beside_the_logger_is_deleted_and_not_replaced() -> None:
+    text = changed((LOG, f"print({TEXT})\n        {LOG}"))
+    for symptom in ("run.twice", "run.print_not_logger"):
+        found = look(symptom, text)
+        assert fix_of(found) == "Delete this print(…): the logger logs the same text."
+        assert found is not None
+        assert found.where == Where(file=FILE, line=line_of(text, "print("))
+
+
+def test_a_row_behind_a_line_end_of_a_logged_text_is_not_printed() -> None:
+    text = changed(("'Hello time: '", "'\\nHello time: '"))
+    found = look("run.print_not_logger", text)
+    assert fix_of(found) == "Write 'Hello time: ' instead of '\\nHello time: '."
+    assert look("run.print_not_logger", text.replace(LOG.split("(")[0], "print")) != found
