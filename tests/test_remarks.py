@@ -45,6 +45,10 @@ def test_a_usual_node_has_no_remark() -> None:
     assert remarks_on([file(NODE)]) == []
     assert remarks_on([file(NODE.replace("args=args", "args=sys.argv"))]) == []
     assert remarks_on([file(NODE.replace("    main()", "    main(sys.argv)"))]) == []
+    for value in ("sys.argv if args is None else args", "args or sys.argv"):
+        assert remarks_on([file(NODE.replace("args=args", f"args={value}"))]) == []
+    asks = NODE.replace("args=args", "args=args if sys.argv else None")
+    assert [remark.what for remark in remarks_on([file(asks)])] == ["sys.argv"]
 
 
 @pytest.mark.parametrize(

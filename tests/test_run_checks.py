@@ -10,7 +10,7 @@ from typing import Literal
 import pytest
 
 from grader.run.observer import Event, Watch
-from grader.run.probe_link import NodeSeen
+from grader.run.probe_link import LogRecord, NodeSeen
 from grader.run.run import Run
 from grader.verdict.checks.counting import counts
 from grader.verdict.checks.declare import Check
@@ -228,6 +228,17 @@ def test_a_count_must_go_on_and_other_lines_do_not_stand_for_it(
     with pytest.raises(Failed) as caught:
         ask(counts, bench, run)
     assert caught.value.mistake.id == mistake
+
+
+def test_the_call_that_logs_the_count_logs_another_text(bench: Bench) -> None:
+    run = with_others("Hello time: 0Hello time: {n} and all the others before it", from_line=1)
+    at = LogRecord(20, "my_first_node", "", "timer_callback", f"/src/{NODE}", 11, 0)
+    run.watch.events[:] = [replace(event, record=at) for event in run.watch.events]
+    with pytest.raises(Failed) as caught:
+        ask(counts, bench, run)
+    assert (caught.value.mistake.id, caught.value.variant) == ("run.wrong_text", "later")
+    assert caught.value.words["count"] == 1
+    assert caught.value.words["line"] == "Hello time: 1"
 
 
 def test_other_lines_beside_the_count_cost_nothing(bench: Bench) -> None:

@@ -475,7 +475,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "written": "self.log = self.get_logger()",
         "logged": "self.get_logger().info(…)",
     },
-    "node.log_option": {"name": "once"},
+    "node.log_option": {"name": "once", "written": "once=…"},
     "node.sum_not_kept": COUNTER,
     "node.prefix_increment": {**COUNTER, "form": "++", "first": 9},
     "node.result_dropped": {
@@ -494,6 +494,19 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "run.wrong_step": MADE_BY,
     "node.other_language": {"name": "null"},
     "node.value_forgotten": {"name": "%d", "written": "self.counter"},
+    "node.template_place": {
+        "name": "counter=self.counter",
+        "written": "count=self.counter",
+        "place": "count",
+    },
+    "node.replaced_nothing": {"name": "'{count}'", "written": "'{n}'"},
+    "node.text_kept": {"line": "24"},
+    "node.object_in_text": {
+        "name": "toString",
+        "written": "__str__",
+        "class": "Counter",
+        "field": "value",
+    },
     "node.callback_outside": {"name": "callback"},
     "node.base_not_class": {
         "name": "node",
@@ -620,6 +633,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "form": "repr()",
     },
     "node.text_changed": {"name": "text.upper()", "written": "text", "form": ".upper()"},
+    "node.one_digit": {"name": "chr(48 + self.counter)", "written": "str(self.counter)"},
     "node.number_changed": {"name": "self.counter + 1", "written": "self.counter"},
     "node.level_set": {"name": "set_level", "level": "WARN"},
     "node.callback_repeats": {"name": "while"},

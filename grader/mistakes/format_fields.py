@@ -16,10 +16,11 @@ from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import starts_of, targets_of
+from grader.package.source.counter import targets_of
 from grader.package.source.module import Module
 from grader.package.source.names import called_name
 from grader.package.source.place import function_at, statement_at
+from grader.package.source.readable import is_readable
 
 NO_KEY = r"KeyError: (?P<name>'[^'\n]{1,120}'|\"[^\"\n]{1,120}\")"
 NO_INDEX = r"IndexError: Replacement index \d{1,9} out of range"
@@ -105,19 +106,8 @@ def _named(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
 
 def _is_known(raised: Raised, field: str) -> bool:
     """Whether the code at this place can read what a place of the text names."""
-    name = re.split(r"[.\[]", field)[0]
-    module, function = raised.module, function_at(raised.module, raised.line)
-    if name == "self":
-        own = re.split(r"[.\[]", f"{field}.")[1]
-        known = {*raised.source.attributes, *(s[5:] for s in starts_of(raised.source))}
-        first = function.args.args[0].arg if function is not None and function.args.args else ""
-        return first == "self" and own in known
-    inside = ast.walk(function) if function is not None else module.nodes
-    local = {n.id for n in inside if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
-    top = {
-        n.id for s in module.tree.body for n in getattr(s, "targets", ()) if isinstance(n, ast.Name)
-    }
-    return field.isidentifier() and name in local | top
+    function = function_at(raised.module, raised.line)
+    return is_readable(raised.source, raised.module, function, field)
 
 
 def _numbered(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:

@@ -149,6 +149,8 @@ def _grows(suspect: Suspect) -> RecognisedMistake | None:
     if callback is None:
         return None
     logged = set(map(dotted, _logged(source, callback))) - {""}
+    set_anew = [n for n in ast.walk(callback) if isinstance(n, ast.Assign | ast.AnnAssign)]
+    logged -= {name for node in set_anew for name in targets_of(node)}
     for node in ast.walk(callback):
         if isinstance(node, ast.AugAssign) and dotted(node.target) in logged:
             text = ast.unparse(node.value)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import ast
 import difflib
+import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import LOG, NODE, example
-from grader.mistakes.fixes import lines, node_worked_out
+from grader.mistakes.fixes import lines, node_log, node_worked_out
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.mistakes.worked_out import first_of, worked_out
@@ -20,7 +22,10 @@ ALIKE = 0.7
 
 
 def _elsewhere(suspect: Suspect) -> RecognisedMistake | None:
-    """Look for the only string that is nearly the required text, on a line that does not log."""
+    """Look for the only string that is nearly the required text, on a line that does not log.
+
+    With the required one in its place, the line that came has to be right.
+    """
     before, _, after = suspect.output.text.partition("{n}")
     if after or not before.strip():
         return None
@@ -31,11 +36,18 @@ def _elsewhere(suspect: Suspect) -> RecognisedMistake | None:
     if len(found) != 1 or found[0] in logged:
         return None
     module = suspect.source.module_of(found[0])
-    code = module.text.code(found[0])
-    if module.text.plain_string(found[0]) is None:
+    code, value = module.text.code(found[0]), str(found[0].value)
+    if module.text.plain_string(found[0]) is None or not _is_right(suspect, value, before):
         return None
     written = f"{code[0]}{before}{code[0]}"
     return suspect.finding("text_elsewhere", found[0], name=code, written=written)
+
+
+def _is_right(suspect: Suspect, value: str, wanted: str) -> bool:
+    """Whether the line has the required form with another text in the place of this one."""
+    head, tail = map(re.escape, suspect.output.text.split("{n}"))
+    came = suspect.text.replace(value, wanted)
+    return suspect.text.count(value) == 1 and bool(re.fullmatch(rf"{head}-?\d+{tail}", came))
 
 
 def _worked_out(suspect: Suspect) -> RecognisedMistake | None:
@@ -51,6 +63,16 @@ def _worked_out(suspect: Suspect) -> RecognisedMistake | None:
     if found is not None and "\\n" in str(found.params["name"]):
         return found
     return None if plain and call is not None and at == call.lineno else found
+
+
+def _kept(suspect: Suspect) -> RecognisedMistake | None:
+    """The second line has the whole text of the first one in front of its own."""
+    first, second = (suspect.output.line(k) for k in range(2))
+    if not suspect.text.startswith(first) or second not in suspect.text[len(first) :]:
+        return None
+    found = suspect.finding("text_kept", suspect.place)
+    line = suspect.place.line if suspect.place is not None else None
+    return replace(found, words={**found.words, "line": str(line)}, variant="line" if line else "")
 
 
 def _near(suspect: Suspect, wanted: str) -> Iterator[ast.Constant]:
@@ -69,13 +91,44 @@ def _near(suspect: Suspect, wanted: str) -> Iterator[ast.Constant]:
 _node = Family("node", links.PYTHON_STRINGS)
 KINDS = (
     _node(
+        "text_kept",
+        "text",
+        msg("Each line also has the text of the lines before it"),
+        msg(
+            "What the text is appended to keeps it until the next callback, which appends again: a "
+            "text, a list or an object that is made only once."
+        ),
+        msg("Make what the text is appended to anew in each callback, or log only the new text."),
+        fixes={
+            "line": msg(
+                "Follow what line {line} logs back to what the text is appended to. Make that anew in "
+                "each callback, or log only the new text."
+            )
+        },
+        behind={"run.wrong_text": _kept},
+        examples=(
+            example(
+                "list_of_lines",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.lines_ = []"),
+                Replace(
+                    NODE,
+                    LOG,
+                    "self.lines_.append(f'Hello time: {self.counter_}')\n"
+                    "        self.get_logger().info(' '.join(self.lines_))",
+                ),
+                fails="run.output",
+                blocks=("run.period",),
+            ),
+        ),
+    ),
+    _node(
         "text_elsewhere",
         "text",
         msg("A string that is logged differs from the required text"),
         msg("The text is compared character by character: case, spaces and punctuation count."),
         msg("Write {written} instead of {name}."),
         behind={"run.wrong_text": first_of(_worked_out, _elsewhere)},
-        fixed_by=(lines.written, node_worked_out.change("text")),
+        fixed_by=(node_log.right_text(lines.written), node_worked_out.change("text")),
         examples=(
             example(
                 "text_in_attribute",

@@ -167,7 +167,20 @@ def _twice(suspect: Suspect) -> RecognisedMistake | None:
     logs = [*source.logs(callback), *source.prints(callback)]
     if len(logs) <= 1:
         return None
+    beside = _print_beside(source, callback)
+    if len(logs) == 2 and beside is not None:
+        found = suspect.finding("logs_twice", beside)
+        return replace(found, variant="printed")
     return suspect.finding("logs_twice", sorted(logs, key=lambda call: call.lineno)[1])
+
+
+def _print_beside(source: NodeSource, part: ast.AST) -> ast.Call | None:
+    """Return the print() of a text that the logger logs as well."""
+    logged = [ast.dump(call.args[0]) for call in source.own_logs if len(call.args) == 1]
+    for call in source.prints(part):
+        if len(call.args) == 1 and ast.dump(call.args[0]) in logged:
+            return call
+    return None
 
 
 def _printed(suspect: Suspect) -> RecognisedMistake | None:
@@ -180,6 +193,9 @@ def _printed(suspect: Suspect) -> RecognisedMistake | None:
                 return replace(suspect.finding("print_used", given), variant="inside")
     if not prints:
         return None
+    beside = _print_beside(suspect.source, callback) if callback is not None else None
+    if beside is not None:
+        return replace(suspect.finding("print_used", beside), variant="beside")
     elsewhere = print_elsewhere.printed_outside(suspect, prints[0])
     if elsewhere is not None and not suspect.source.own_logs:
         return elsewhere
@@ -223,20 +239,30 @@ def _publishes_records(call: ast.Call) -> bool:
     return last_part(dotted(call.func)) == "create_publisher" and "/rosout" in texts
 
 
+def _is_shorter(suspect: Suspect, option: node_words.Option) -> bool:
+    """Whether an option is a time after which the next line is due at the earliest: it leaves out none."""
+    seconds = option.value.value if isinstance(option.value, ast.Constant) else None
+    if option.name != "throttle_duration_sec" or not isinstance(seconds, int | float):
+        return False
+    return seconds < suspect.output.period
+
+
 def _left_out(*options: str) -> FromSource:
     """Return a function that finds one of these options in the calls of the logger."""
 
     def found(suspect: Suspect) -> RecognisedMistake | None:
-        for call in suspect.source.own_logs:
-            option = node_words.option_of(call)
-            if option is not None and option.arg in options:
-                mistake = suspect.finding("log_option", call, name=option.arg)
-                return replace(mistake, variant=option.arg)
-        return None
+        option = node_words.log_option(suspect.source, *options)
+        if option is None or _is_shorter(suspect, option):
+            return None
+        mistake = suspect.finding("log_option", option.call, name=option.name)
+        return replace(
+            mistake, variant=option.name, words={**mistake.words, "written": option.code}
+        )
 
     return found
 
 
+BESIDE = msg("Delete this print(…): the logger logs the same text.")
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -363,7 +389,7 @@ KINDS = (
         "logger",
         msg("An option of the logger leaves out lines"),
         msg("With {name}, the logger does not write a line in every call."),
-        msg("Remove {name}=… from the call of the logger."),
+        msg("Remove {written} from the call in this line."),
         links.LOGGING,
         whys={
             "once": msg("With once=True, only the first call of that line writes it."),
@@ -428,7 +454,10 @@ KINDS = (
         msg("Each call of the logger writes its own line."),
         msg("Keep only one self.get_logger().info(…) in the callback."),
         links.LOGGING,
-        fixes={"line": msg("Delete line {line}: another call writes the same line.")},
+        fixes={
+            "line": msg("Delete line {line}: another call writes the same line."),
+            "printed": BESIDE,
+        },
         behind={"run.twice": first_of(_twice, worked_out("logs_twice", "logged", variant="line"))},
         fixed_by=(
             node_count.twice,
@@ -481,6 +510,7 @@ KINDS = (
         },
         fixes={
             "inside": msg("Remove print( and its ): give the text itself to the logger."),
+            "beside": BESIDE,
             "written": INSTEAD,
             **print_elsewhere.FIXES,
         },

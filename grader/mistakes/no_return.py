@@ -25,9 +25,13 @@ from grader.package.source.place import function_at
 MOST_CODE = 80  # characters of a piece of code that a text shows
 
 
+NO_TEXT = "(null)"  # what the logger writes for None
+
+
 def _logged_none(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a function without a value, where the line shows None."""
-    if not re.search(r"\bNone\b", suspect.text) or "None" in suspect.output.text:
+    shows = re.search(r"\bNone\b", suspect.text) or suspect.text == NO_TEXT
+    if not shows or "None" in suspect.output.text:
         return None
     found = _found(suspect.source)
     if found is None:

@@ -21,7 +21,8 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import starts_of, targets_of
 from grader.package.source.names import called_name, dotted
 from grader.package.source.number_forms import number_forms
-from grader.package.source.place import place_of, statement_at
+from grader.package.source.place import function_at, place_of, statement_at
+from grader.package.source.readable import is_readable
 from grader.report.model import Where
 
 MOST_CODE = 80  # characters of a piece of code that a text shows
@@ -113,15 +114,48 @@ def _place_of_text(suspect: Suspect) -> Where:
 
 
 def _f_prefix(suspect: Suspect) -> RecognisedMistake | None:
-    string = _string_of(suspect)
-    if string is not None and _holds_values(suspect.text):
-        code = suspect.source.module_of(string).text.code(string)
-        if code[:1] in ("'", '"'):
-            found = suspect.finding("f_prefix", string, name=code, written=f"f{code}")
-            return replace(found, variant="written" if len(code) <= MOST_CODE else "")
-    if not re.search(r"\{[A-Za-z_][\w.]{0,80}\}", suspect.text):
+    """Look for the string whose braces hold what can be read where it is written."""
+    source, string = suspect.source, _string_of(suspect)
+    if string is None or not _holds_values(suspect.text):
+        named = re.search(r"\{[A-Za-z_][\w.]{0,80}\}", suspect.text)
+        if named is None or string is not None or not _is_sure(suspect):
+            return None
+        return suspect.finding("f_prefix", _place_of_text(suspect))
+    module, code = source.module_of(string), source.module_of(string).text.code(string)
+    values = re.findall(r"\{([^{}!:=]{1,80})[!:=]?[^{}]{0,20}\}", suspect.text)
+    if all(is_readable(source, module, source.function_around(string), v) for v in values):
+        if code[:1] not in ("'", '"'):
+            return suspect.finding("f_prefix", string)
+        found = suspect.finding("f_prefix", string, name=code, written=f"f{code}")
+        return replace(found, variant="written" if len(code) <= MOST_CODE else "")
+    given = _given(suspect, string)
+    function = source.function_around(given) if given is not None else None
+    if given is None or code[:1] not in ("'", '"') or len(code) > MOST_CODE:
         return None
-    return suspect.finding("f_prefix", string or _place_of_text(suspect))
+    if not all(is_readable(source, source.module_of(given), function, v) for v in values):
+        return None
+    name = source.module_of(given).text.code(given)
+    found = suspect.finding("f_prefix", given, name=name, written=f"f{code}")
+    return replace(found, variant="elsewhere")
+
+
+def _given(suspect: Suspect, string: ast.Constant) -> ast.expr | None:
+    """Return the name that the only log call gets, if its only value is this string."""
+    call = suspect.source.log_call
+    given = call.args[0] if call is not None else None
+    if given is None or not dotted(given) or "get_logger" in dotted(given):
+        return None
+    return given if node_words.values_of(suspect.source, given) == [string] else None
+
+
+def _is_sure(suspect: Suspect) -> bool:
+    """Whether the counter of the texts is a number that the node sets, not only a usual name."""
+    counter = str(placeholder_values(suspect.assignment, suspect.source)["counter"])
+    source, place = suspect.source, _place_of_text(suspect)
+    module = source.module_at(place.file)
+    function = function_at(module, place.line)
+    number = counter in starts_of(source) or counter.startswith("next(")
+    return number and (function is None or is_readable(source, module, function, counter))
 
 
 def _holds_values(text: str) -> bool:
@@ -163,16 +197,51 @@ def _string_of(suspect: Suspect) -> ast.Constant | None:
 
 
 def _value_forgotten(suspect: Suspect) -> RecognisedMistake | None:
+    """The text shows the place of a value, and has the required form with a number there."""
     match = re.search(r"%[dis]|\{0?\}", suspect.text)
-    if match is None:
+    head, tail = map(re.escape, suspect.output.text.split("{n}"))
+    number = suspect.text.replace(match[0], "0", 1) if match is not None else ""
+    if match is None or not re.fullmatch(rf"{head}\d+{tail}", number):
         return None
-    by = "% {counter}" if match[0].startswith("%") else ".format({counter})"
-    counter = placeholder_values(suspect.assignment, suspect.source)["counter"]
-    written = by.format(counter=counter)
-    other = _other_format(suspect, match[0])
-    place = other if other is not None else _place_of_text(suspect)
-    found = suspect.finding("value_forgotten", place, name=match[0], written=written)
-    return replace(found, variant="other_format" if other is not None else "")
+    sign = match[0]
+    other = _other_format(suspect, sign)
+    if other is not None:
+        return _with_percent(suspect, other, sign)
+    counter = str(placeholder_values(suspect.assignment, suspect.source)["counter"])
+    value = f"% {counter}" if sign.startswith("%") else f".format({counter})"
+    found = suspect.finding("value_forgotten", _place_of_text(suspect), name=sign, written=value)
+    if not _is_sure(suspect):
+        return replace(found, variant="unknown")
+    string = _string_of(suspect)
+    given = _given(suspect, string) if string is not None else None
+    if string is None or given is None or _is_beside(suspect, string):
+        return found
+    name = suspect.source.module_of(given).text.code(given)
+    written = f"{name} {value}" if sign.startswith("%") else f"{name}{value}"
+    found = suspect.finding("value_forgotten", given, name=name, written=written)
+    return replace(found, words={**found.words, "place": sign}, variant="instead")
+
+
+def _is_beside(suspect: Suspect, string: ast.Constant) -> bool:
+    """Whether a string is in the function that logs it: its value can follow it there."""
+    call = suspect.source.log_call
+    around = suspect.source.function_around
+    return call is not None and around(string) is around(call)
+
+
+def _with_percent(suspect: Suspect, call: ast.Call, sign: str) -> RecognisedMistake:
+    """The call of .format() gets a text with %: write the % in its place, or {} in the text."""
+    found = suspect.finding("value_forgotten", call, name=sign, written="{}")
+    made = call.func.value if isinstance(call.func, ast.Attribute) else None
+    text = suspect.source.module_of(call).text
+    if made is None or isinstance(made, ast.Constant):
+        return replace(found, variant="other_format")
+    given = call.args[0] if len(call.args) == 1 and not call.keywords else None
+    if given is None or not dotted(given) or "\n" in text.code(call):
+        return replace(found, variant="other_format_kept")
+    written = f"{text.code(made)} % {text.code(given)}"
+    found = suspect.finding("value_forgotten", call, name=text.code(call), written=written)
+    return replace(found, words={**found.words, "place": sign}, variant="percent")
 
 
 def _other_format(suspect: Suspect, sign: str) -> ast.Call | None:
@@ -182,8 +251,10 @@ def _other_format(suspect: Suspect, sign: str) -> ast.Call | None:
     for node in suspect.source.own_nodes:
         called = node.func if isinstance(node, ast.Call) else None
         text = called.value if isinstance(called, ast.Attribute) else None
-        given = text.value if isinstance(text, ast.Constant) else None
-        if isinstance(node, ast.Call) and called_name(node) == "format" and given == suspect.text:
+        if not isinstance(node, ast.Call) or text is None or called_name(node) != "format":
+            continue
+        values = node_words.values_of(suspect.source, text)
+        if [getattr(value, "value", None) for value in values] == [suspect.text]:
             return node
     return None
 
@@ -200,10 +271,31 @@ def _no_value(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
 
 
 def _without_number(suspect: Suspect) -> RecognisedMistake | None:
+    """The line has only the text around the number."""
     without = suspect.output.text.replace("{n}", "").split()
     if suspect.text.split() != without and not _constant_text(suspect):
         return None
-    return suspect.finding("text_without_number", _place_of_text(suspect))
+    found = suspect.finding("text_without_number", _place_of_text(suspect))
+    if not _is_sure(suspect):
+        return replace(found, variant="unknown")
+    used = _used_in_text(suspect, str(found.words["counter"]))
+    if used is None:
+        return found
+    return replace(found, words={**found.words, "line": str(used.lineno)}, variant="lost")
+
+
+def _used_in_text(suspect: Suspect, counter: str) -> ast.expr | None:
+    """Return where the counter is given to something, so that a text could be made of it."""
+    for node in suspect.source.own_nodes:
+        if not isinstance(node, ast.Name | ast.Attribute) or dotted(node) != counter:
+            continue
+        around = suspect.source.module_of(node).parents.get(node)
+        inside = isinstance(
+            around, ast.Call | ast.keyword | ast.FormattedValue | ast.List | ast.Tuple
+        )
+        if inside and isinstance(node.ctx, ast.Load):
+            return node
+    return None
 
 
 def _constant_text(suspect: Suspect) -> bool:
@@ -422,7 +514,7 @@ KINDS = (
         },
         fixes={"equals": msg("Write {written} instead of {found}.")},
         behind={"run.wrong_text": _in_text},
-        fixed_by=(node_log.in_braces, node_log.text),
+        fixed_by=tuple(map(node_log.right_text, (node_log.in_braces, node_log.text))),
         examples=(
             example(
                 "braces_doubled",
@@ -473,10 +565,16 @@ KINDS = (
         msg("Python replaces {{…}} with a value only in a string that begins with f."),
         msg("Write an f before the first quote: {f_string}"),
         links.PYTHON_STRINGS,
-        fixes={"written": msg("Write an f before the first quote: {written}")},
+        fixes={
+            "written": msg("Write an f before the first quote: {written}"),
+            "elsewhere": msg(
+                "Write {written} instead of {name} in this line: an f-string reads its values where it "
+                "is written."
+            ),
+        },
         seen=r"^\[[A-Z]{4,5}\] \[\d{1,12}\.\d{9}\] \[[^\]\n]{1,100}\]: [^\n{]{0,200}\{self\.\w{1,60}\}",
         behind={"run.wrong_text": _f_prefix},
-        fixed_by=(node_log.f_prefix, lines.written),
+        fixed_by=tuple(map(node_log.right_text, (node_log.f_prefix, lines.written))),
         examples=(
             example(
                 "f_prefix_missing",
@@ -507,16 +605,30 @@ KINDS = (
         whys={
             "other_format": msg(
                 ".format() puts its values in the place of {{}}, and leaves {name}."
-            )
+            ),
+            "other_format_kept": msg(
+                ".format() puts its values in the place of {{}}, and leaves {name}."
+            ),
+            "percent": msg(".format() puts its values in the place of {{}}, and leaves {place}."),
+            "instead": msg(
+                "Python replaces {place} in a string only if a value follows the string."
+            ),
         },
         fixes={
             "other_format": msg(
                 "Write {{}} instead of {name} in the string, or an f-string: {f_string}"
-            )
+            ),
+            "other_format_kept": msg("Write {{}} instead of {name} in the string."),
+            "percent": msg("Write {written} instead of {name}."),
+            "instead": msg("Write {written} instead of {name}."),
+            "unknown": msg(
+                "Give the place its value where the text is made: % and the value behind a text with "
+                "%d, .format() with the value in its () behind a text with {{}}."
+            ),
         },
         raised={r"Replacement index \d{1,9} out of range": _no_value},
         behind={"run.wrong_text": _value_forgotten},
-        fixed_by=(node_words.value,),
+        fixed_by=tuple(map(node_log.right_text, (node_words.value, node_words.value_for_name))),
         examples=(
             example(
                 "percent_without_value",
@@ -573,8 +685,22 @@ KINDS = (
         msg("The number in the line is the counter's value at that moment."),
         msg("Add the counter to the text: {sum}"),
         links.PYTHON_STRINGS,
+        whys={
+            "lost": msg(
+                "Line {line} uses the counter, but its value does not get into the text that is logged."
+            )
+        },
+        fixes={
+            "lost": msg(
+                "Follow the value from there to the line that logs the text: find what leaves it out. Or "
+                "make the text in one step: {sum}"
+            ),
+            "unknown": msg(
+                "Add the number of the count to the text, as str() of the value that counts the lines."
+            ),
+        },
         behind={"run.wrong_text": _without_number, "run.constant_counter": _always_first},
-        fixed_by=(node_log.number,),
+        fixed_by=(node_log.right_text(node_log.number),),
         examples=(
             example(
                 "first_line_as_constant",

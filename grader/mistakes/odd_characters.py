@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Mapping
 from dataclasses import replace
@@ -98,6 +99,20 @@ def _line_end(suspect: Suspect) -> RecognisedMistake | None:
         "at": str(broken.node.end_lineno or broken.node.lineno),
     }
     return replace(mistake, words=words, variant=_variant(broken))
+
+
+PRINTS = ("print", "sys.stdout.write", "sys.stderr.write", "os.write")
+
+
+def _second_row(suspect: Suspect) -> RecognisedMistake | None:
+    """A logged text has a line end in it: the row of the terminal with the rest looks printed."""
+    source = suspect.source
+    head = suspect.output.text.partition("{n}")[0]
+    logged = {n for call in source.own_logs for n in ast.walk(call)}
+    found = [b for b in broken_texts(source, head) if b.node in logged and "\\n" in b.sign]
+    if len(found) != 1 or any(name in PRINTS for _, name in source.calls):
+        return None
+    return _line_end(replace(suspect, text=LINE_ENDS[0] + suspect.text))
 
 
 def _variant(broken: BrokenText) -> str:
@@ -212,7 +227,7 @@ KINDS = (
                 "Write the string in lines {line} to {at} on one line, without line ends in it."
             ),
         },
-        behind={"run.wrong_text": _line_end},
+        behind={"run.wrong_text": _line_end, "run.print_not_logger": _second_row},
         fixed_by=(_without_line_end,),
         examples=(
             example(

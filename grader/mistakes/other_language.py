@@ -18,7 +18,7 @@ from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Su
 from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
-from grader.package.source.module import Module
+from grader.package.source.module import Function, Module
 from grader.package.source.names import called_name, dotted
 from grader.package.source.place import block_of, function_at, statement_at
 from grader.report.model import Where
@@ -64,14 +64,15 @@ def _printed(raised: Raised, name: str) -> RecognisedMistake | None:
     text, function = raised.module.text, function_at(raised.module, raised.line)
     statement = statement_at(raised.module, raised.line)
     call = statement.value if isinstance(statement, ast.Expr) else None
-    if function is None or not isinstance(call, ast.Call) or dotted(call.func) != name:
+    called = dotted(call.func) if isinstance(call, ast.Call) else ""
+    if function is None or not isinstance(call, ast.Call) or called.partition(".")[0] != name:
         return None
     args = call.args[1:] if dotted(call.args[0] if call.args else call) in LOGGERS else call.args
     first = args[0] if args and not call.keywords else None
     plain = first.value if isinstance(first, ast.Constant) else None
     code = text.code(call)
     if first is None or not isinstance(plain, str):
-        return None
+        return _sum(raised, function, code, args[0]) if len(args) == 1 and first else None
     shown_text = re.sub(r"(?:\\n)+(?=['\"]\Z)", "", text.code(first))
     plain = plain.rstrip("\n")
     if (
@@ -88,6 +89,40 @@ def _printed(raised: Raised, name: str) -> RecognisedMistake | None:
     written = f"self.get_logger().info({shown_text}{values})"
     params = {"name": shown(code), "written": shown(written)}
     return replace(raised.finding("other_language", params=params), variant="call")
+
+
+def _sum(
+    raised: Raised, function: Function, code: str, given: ast.expr
+) -> RecognisedMistake | None:
+    """The line prints one expression that is a text: an f-string, or a sum with a text in it."""
+    text, own = raised.module.text, [a.arg for a in function.args.args][:1] == ["self"]
+    parts = _summands(given)
+    texts = [_is_text(part) for part in parts]
+    if not own or not any(texts) or "\n" in code:
+        return None
+    written = text.code(given)
+    if not all(texts):
+        pieces = [text.code(p) if t else f"str({text.code(p)})" for p, t in zip(parts, texts)]
+        written = " + ".join(pieces)
+    params = {"name": shown(code), "written": shown(f"self.get_logger().info({written})")}
+    return replace(raised.finding("other_language", params=params), variant="call")
+
+
+def _summands(given: ast.expr) -> list[ast.expr]:
+    if isinstance(given, ast.BinOp) and isinstance(given.op, ast.Add):
+        return [*_summands(given.left), given.right]
+    return [given]
+
+
+def _is_text(part: ast.expr) -> bool:
+    """Whether an expression is a text for certain."""
+    if isinstance(part, ast.Call):
+        return dotted(part.func) in ("str", "repr") or called_name(part) == "format"
+    if isinstance(part, ast.BinOp) and isinstance(part.op, ast.Mod):
+        return isinstance(part.left, ast.Constant) and isinstance(part.left.value, str)
+    return isinstance(part, ast.JoinedStr) or (
+        isinstance(part, ast.Constant) and isinstance(part.value, str)
+    )
 
 
 def _logged(case: Case) -> Files | None:
@@ -200,7 +235,10 @@ KINDS = (
         msg("Use Python's own word instead of {name}: True, False, None, self."),
         close=msg("Write {close} instead of {name}."),
         fixes={
-            "print": msg("Write self.get_logger().info(…) instead of {name}."),
+            "print": msg(
+                "Write self.get_logger().info(…) instead of the whole statement with {name}, and the "
+                "text to log instead of …"
+            ),
             "method": msg("Write {written} instead of {name}."),
             "call": msg("Write {written} instead of {name}."),
         },

@@ -28,7 +28,9 @@ RECORD = msg(
     "A log record has a level, a time and the node's name, and goes to /rosout, where other "
     "programs can read it. print() only writes text to this terminal."
 )
-LOG = msg("Write self.get_logger().info(…) in the callback.")
+LOG = msg(
+    "Log the line with the node's own logger, self.get_logger().info(…), and remove what prints it."
+)
 UNSPUN = msg(
     "Only spinning calls a node's callbacks. If it never spins, its timers, subscriptions and "
     "services never run: ros2 param list and ros2 service call get no answer, no message reaches "
@@ -165,10 +167,19 @@ KINDS = (
         "text",
         msg("The text is different"),
         msg("The text is compared character by character: case, spaces and punctuation count."),
-        msg("Log exactly '{line}', with the counter in place of the number."),
+        msg(
+            "The line has to be exactly '{line}', with the counter's value as the number. Look at the "
+            "line that logs it, and at each place where a part of its text is made."
+        ),
+        fixes={
+            "later": msg(
+                "The lines before this one were right ({count}). It has to be exactly '{line}'. Look at "
+                "what makes its text different from theirs."
+            )
+        },
         fixed_by=(
-            node_log.f_prefix,
-            node_log.text,
+            node_log.right_text(node_log.f_prefix),
+            node_log.right_text(node_log.text),
         ),
         examples=(
             example(
@@ -257,7 +268,10 @@ KINDS = (
         "timer",
         msg("More than one line comes at a time"),
         COUNT,
-        msg("Create only one timer, and log once in its callback."),
+        msg(
+            "Let one line come each time. Look for all that logs when the timer is due, such as a second "
+            "timer, a second log call or a loop, and keep one."
+        ),
         fixed_by=(
             node_count.twice,
             node_log.only_logged,
@@ -530,8 +544,8 @@ KINDS = (
         links.LOGGING,
         fixes={
             "logs": msg(
-                "The logger is used. Look for what else writes to the terminal: clear, or a text "
-                "with \\r or \\x1b. Delete it."
+                "The logger is used. Look for what erases its lines, such as clear, or \\r or \\x1b in a "
+                "text that is printed or logged. Remove it."
             )
         },
         examples=(
@@ -585,8 +599,13 @@ KINDS = (
         "other_logger",
         "logger",
         msg("The lines come from a logger that is not the node's"),
-        RECORD,
-        LOG,
+        msg(
+            "Each record has the name of the logger that wrote it. The node's own logger has the "
+            "node's name: get_logger() of the node returns it."
+        ),
+        msg(
+            "Log the line with the node's own logger: self.get_logger().info(…) in a method of the node."
+        ),
         links.LOGGING,
         examples=(
             example(
@@ -604,7 +623,7 @@ KINDS = (
         "logger",
         msg("The records have a level other than INFO"),
         msg("The level says how urgent a record is; a count is information."),
-        LOG,
+        msg("Log the line with the method info of the node's logger: self.get_logger().info(…)"),
         links.LOGGING,
         fixed_by=(node_log.level,),
         examples=(

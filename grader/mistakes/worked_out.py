@@ -107,6 +107,25 @@ KINDS = (
         ),
     ),
     _node(
+        "one_digit",
+        "text",
+        msg("Only numbers of one digit are written as they are"),
+        msg(
+            "chr() gives one character. From 10 on, a number has more than one digit: str() writes all "
+            "of them."
+        ),
+        INSTEAD,
+        behind={"run.wrong_text": worked_out("one_digit", "digit")},
+        fixed_by=(node_worked_out.change("digit"),),
+        examples=(
+            example(
+                "digit_as_in_c",
+                Replace(NODE, "str(self.counter_)", "chr(ord('0') + self.counter_)"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
         "number_changed",
         "counter",
         msg("The line shows the result of an operation, not the counter"),

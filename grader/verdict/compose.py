@@ -27,6 +27,7 @@ REMARKS = {
     "hides": msg("To look at: {place} has {what}: the source does not show what it does."),
     "rosout": msg("To look at: {place} has {what}: the node may publish log records by hand."),
 }
+ARGUMENTS = ("sys.argv", "sys.orig_argv", "argv")
 MOST_POINTS = 400  # of a turtle's path
 MOST_EVIDENCE = 40_000  # characters, of the build log and of the transcript each
 
@@ -92,6 +93,9 @@ def _to_look_at(submission: Submission, run: Run | None) -> Iterator[str]:
     for remark in remarks_on(submission.files):
         if remark.kind == "ends" or (remark.kind == "rosout" and run is None):
             continue
+        confirmed = run is not None and run.confirmed
+        if remark.kind == "asks" and remark.what in ARGUMENTS and confirmed:
+            continue  # (it did the same without the arguments of the marked run)
         place = remark.path
         if remark.line is not None:
             place = say("{file}, line {line}", file=remark.path, line=remark.line)

@@ -258,9 +258,9 @@ def test_a_sheet_of_grades_has_the_fix_only_after_the_due_date(mixed_class: Clas
     from grader.publish.feedback import short_html
 
     entry = mixed_class.entries[0].for_student(Detail.LINE)
-    assert "Log exactly" in short_html(entry, show_hidden=False)
+    assert "has to be exactly" in short_html(entry, show_hidden=False)
     entry = mixed_class.entries[0].for_student(Detail.WHERE)
-    assert "Log exactly" not in short_html(entry, show_hidden=False)
+    assert "has to be exactly" not in short_html(entry, show_hidden=False)
 
 
 @pytest.fixture

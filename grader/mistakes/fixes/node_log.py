@@ -6,19 +6,41 @@ import ast
 import difflib
 import re
 
-from grader.mistakes.fixes.case import Case
+from grader.mistakes.fixes.case import Case, Fix
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
 from grader.package.source.counter import starts_of, texts_of
 from grader.package.source.module import Module
 from grader.package.source.names import called_name, dotted, own_name
-from grader.package.source.node import NodeSource
+from grader.package.source.node import NodeSource, read_node
 from grader.package.source.number_forms import number_forms
+from grader.package.source.one_change import logged_lines
 from grader.package.source.place import statement_at
 
 PLACE = re.compile(r"\{((?:[A-Za-z_]\w*\.)?[A-Za-z_]\w*)\}")
 FORMATTED = re.compile(r"(\{(?:[A-Za-z_]\w*\.)?[A-Za-z_]\w*)(?:![rsa])?:[^{}]*\}")
 ALIKE = 0.7
+
+
+def right_text(fix: Fix) -> Fix:
+    """Return a fix that is None if the changed node logs another text than the required one.
+
+    What it logs is worked out from the code. If that is not possible, the fix stays as it is.
+    """
+
+    def checked(case: Case) -> Files | None:
+        files, output = fix(case), case.assignment.output
+        node = (
+            read_node(files.data, case.node_path, case.assignment.function)
+            if files is not None
+            else None
+        )
+        head, tail = map(re.escape, output.text.split("{n}"))
+        logged = logged_lines(node) if node is not None else None
+        right = all(re.fullmatch(rf"{head}-?\d+{tail}", line) for line in logged or ())
+        return files if right else None
+
+    return checked
 
 
 def f_prefix(case: Case) -> Files | None:

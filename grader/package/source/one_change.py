@@ -358,6 +358,19 @@ def _methods(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[
                 yield Change("method", node, whole, inside, (swap,), form)
 
 
+def _digits(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
+    """Yield str(n) in place of chr(ord('0') + n), which is right only for one digit."""
+    del wanted, before
+    text = module.text
+    for node in module.nodes:
+        given = node.args[0] if isinstance(node, ast.Call) and len(node.args) == 1 else None
+        if not isinstance(node, ast.Call) or dotted(node.func) != "chr":
+            continue
+        if isinstance(given, ast.BinOp) and isinstance(given.op, ast.Add):
+            for part in (given.left, given.right):
+                yield _of(module, "digit", node, f"str({text.code(part)})")
+
+
 def _conditions(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
     """Yield the lines below an `if` without it."""
     del wanted, before
@@ -470,6 +483,7 @@ SORTS: dict[str, Callable[[Module, Wanted, Sequence[str]], Iterator[Change]]] = 
     "operation": _operations,
     "modulo": _modulos,
     "method": _methods,
+    "digit": _digits,
     "condition": _conditions,
     "logged": _logged_twice,
     "digit": _digits,

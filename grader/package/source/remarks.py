@@ -173,8 +173,15 @@ def _names(module: Module) -> Iterator[Remark]:
 
 
 def is_passed_on(module: Module, node: ast.AST) -> bool:
-    """Whether a name is only handed to rclpy.init or main, as many examples do."""
-    outer = module.parents.get(node)
+    """Whether a name is only handed to rclpy.init or main, as many examples do.
+
+    Also as one of two values: `args or sys.argv`, `sys.argv if args is None else args`.
+    """
+    inner, outer = node, module.parents.get(node)
+    while isinstance(outer, ast.BoolOp) or (
+        isinstance(outer, ast.IfExp) and inner is not outer.test
+    ):
+        inner, outer = outer, module.parents.get(outer)
     if isinstance(outer, ast.keyword):
         outer = module.parents.get(outer)
     return isinstance(outer, ast.Call) and last_part(dotted(outer.func)) in ("init", "main")

@@ -281,21 +281,28 @@ def _must_stay_a_count(evidence: Evidence, wanted: Count, expected: str) -> None
     other = _in_place_of_the_next(watch, evidence.assignment.output.period)
     if other is None:
         return
-    count = sum(event.n is not None and event.wall < other.wall for event in watch.counted)
-    difference = compared(other.text, wanted.line(count))
-    if difference:
+    own = [event for event in watch.counted if event.n is not None]
+    count = sum(event.wall < other.wall for event in own)
+    due = wanted.line(count)
+    if compared(other.text, due) or _is_called_again(other, own[-1]):
         raise Failed(
             "run.wrong_text",
             expected=expected,
-            actual=difference,
+            actual=_difference(due, other.text),
             where=line_of(evidence, other.record),
             params={"text": other.text[:200]},
-            words=words(evidence),
+            variant="later",
+            words={**words(evidence), "line": due, "count": count},
         )
     raise Failed(
         "run.stops",
         expected=say("{lines} until Ctrl+C", lines=expected),
-        actual=_no_more(count),
+        actual=say_plural(
+            "1 line of the count, then another text came: {text}",
+            "{count} lines of the count, then another text came: {text}",
+            count,
+            text=shown_code(other.text[:80]),
+        ),
         where=line_of(evidence, other.record),
         words=words(evidence),
     )

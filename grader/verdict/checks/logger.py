@@ -92,7 +92,7 @@ def _judge_record(event: Event, names: set[str], level: str, expected: str, wher
             where=where,
         )
     if event.source == "faked" and event.logger not in names:
-        raise _other_logger(expected, event.logger)
+        raise _other_logger(expected, event.logger, where)
     if event.source == "faked":
         raise Failed(
             "run.faked_log",
@@ -101,7 +101,7 @@ def _judge_record(event: Event, names: set[str], level: str, expected: str, wher
             where=where,
         )
     if event.record is not None and event.record.name not in names:
-        raise _other_logger(expected, event.record.name)
+        raise _other_logger(expected, event.record.name, where)
     if event.record is not None and event.record.level != LEVELS[level]:
         found = SHOWN.get(event.record.level, str(event.record.level))
         raise Failed(
@@ -113,10 +113,11 @@ def _judge_record(event: Event, names: set[str], level: str, expected: str, wher
         )
 
 
-def _other_logger(expected: str, name: str) -> Failed:
+def _other_logger(expected: str, name: str, where: Where) -> Failed:
     return Failed(
         "run.other_logger",
         expected=expected,
         actual=say("records of the logger [{name}], which is not the node's", name=name),
         params={"name": name},
+        where=where,
     )

@@ -1,0 +1,203 @@
+"""A text that shows an object, a function or bytes as Python writes them, instead of a value."""
+
+from __future__ import annotations
+
+import ast
+import re
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import NODE, example
+from grader.mistakes.fixes import lines
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.package.edit.tree import Replace
+from grader.package.source.module import Function
+from grader.package.source.names import dotted, last_part
+from grader.package.source.place import statement_at
+
+OBJECT = re.compile(
+    r"<(?:[\w<>]{1,100}\.){0,9}(?P<name>\w{1,100}) object(?: [\w.<>]{1,100})? at 0x"
+)
+FUNCTION = re.compile(
+    r"<(?:bound method|function) (?:[\w<>]{1,100}\.){0,9}(?P<name>\w{1,100}) (?:of|at) "
+)
+SHOWN = re.compile(r"(?<!\w)(?P<name>[A-Z]\w{0,100})\((?P<field>\w{1,100})=[^,()]{0,100}\)")
+WITH_ARGUMENTS = re.compile(r"(?<!\w)(?P<name>[A-Z]\w{0,100})\(.{0,200}\)")
+BYTES = re.compile(r"(?<!\w)b(['\"]).{0,200}\1")
+OTHER_NAMES = ("tostring", "string", "str")
+"""The names that other languages give to the method that makes a text of an object, without _."""
+
+
+def _shown_object(suspect: Suspect) -> RecognisedMistake | None:
+    """The text has an object as Python writes it: with its class and its address, or its fields."""
+    text = suspect.text
+    if (function := FUNCTION.search(text)) is not None:
+        return _function(suspect, function["name"])
+    if (found := OBJECT.search(text)) is not None:
+        method = _named_otherwise(suspect, found["name"])
+        if method is not None:
+            mistake = suspect.finding("object_in_text", method, name=method.name, written="__str__")
+            return _with_class(mistake, found["name"], "renamed")
+        return _told(suspect, found["name"], "address")
+    for pattern, variant in ((SHOWN, "field"), (WITH_ARGUMENTS, "shown")):
+        found = pattern.search(text)
+        if found is not None and _class_of(suspect, found["name"]) is not None:
+            mistake = _told(suspect, found["name"], variant)
+            words = {**mistake.words, "field": found.groupdict().get("field") or ""}
+            return replace(mistake, words=words)
+    if re.search(r"(?<![\w.])count\(-?\d{1,20}(?:, -?\d{1,20})?\)", text):
+        return _told(suspect, "count", "count")
+    return _told(suspect, "bytes", "bytes") if BYTES.search(text) else None
+
+
+def _told(suspect: Suspect, name: str, variant: str) -> RecognisedMistake:
+    mistake = suspect.finding("object_in_text", suspect.place, name=name)
+    if variant == "address" and _class_of(suspect, name) is None:
+        variant = "of_python"
+    return _with_class(mistake, name, variant)
+
+
+def _with_class(mistake: RecognisedMistake, name: str, variant: str) -> RecognisedMistake:
+    return replace(mistake, words={**mistake.words, "class": name}, variant=variant)
+
+
+def _class_of(suspect: Suspect, name: str) -> ast.ClassDef | None:
+    """Return the only class of this name in the files."""
+    found = [c for module in suspect.source.modules for c in module.classes if c.name == name]
+    return found[0] if len(found) == 1 else None
+
+
+def _named_otherwise(suspect: Suspect, name: str) -> ast.FunctionDef | None:
+    """Return the method that makes a text of an object, under a name of another language.
+
+    Nothing calls it: with another name, all calls would have to change.
+    """
+    of = _class_of(suspect, name)
+    methods = [s for s in of.body if isinstance(s, ast.FunctionDef)] if of is not None else []
+    if any(method.name in ("__str__", "__format__") for method in methods):
+        return None
+    for method in methods:
+        plain = len(method.args.args) == 1 and not method.decorator_list
+        returns = any(isinstance(n, ast.Return) and n.value is not None for n in ast.walk(method))
+        called = any(last_part(called) == method.name for _, called in suspect.source.calls)
+        if method.name.replace("_", "").lower() in OTHER_NAMES and plain and returns and not called:
+            return method
+    return None
+
+
+def _function(suspect: Suspect, name: str) -> RecognisedMistake:
+    """The text has a function: name it with its (), if it can be called with nothing in them."""
+    mistake = suspect.finding("object_in_text", suspect.place, name=name)
+    known = [n for n in suspect.source.all_nodes if isinstance(n, Function) and n.name == name]
+    place = suspect.place
+    module = suspect.source.module_at(place.file if place is not None else "")
+    statement = statement_at(module, place.line if place is not None else None)
+    used = [
+        n
+        for n in (ast.walk(statement) if statement is not None else ())
+        if isinstance(n, ast.Name | ast.Attribute)
+        and last_part(dotted(n)) == name
+        and getattr(module.parents.get(n), "func", None) is not n
+    ]
+    code = module.text.code(used[0]) if len(used) == 1 else ""
+    if code and len(known) == 1 and _takes_nothing(known[0], used[0]):
+        found = suspect.finding("object_in_text", used[0], name=code, written=f"{code}()")
+        return replace(found, variant="called")
+    return replace(mistake, variant="function")
+
+
+def _takes_nothing(function: Function, used: ast.expr) -> bool:
+    """Whether a function, or a method of an object, can be called with nothing in the ()."""
+    given, own = function.args, int(isinstance(used, ast.Attribute))
+    needed = len(given.args) - len(given.defaults)
+    return needed == own and not given.posonlyargs and not function.decorator_list
+
+
+WHOLE = msg(
+    "Log a value of the object, not the object itself: one of its attributes, or what one of its "
+    "methods returns."
+)
+NO_STR = msg(
+    "Python asks the class of an object for __str__ to show it in a text. {class} has no such method: "
+    "Python then shows the class and an address."
+)
+FUNCTION_SHOWN = msg(
+    "Without (), the name of a function is the function itself. With (), Python calls it."
+)
+_node = Family("node", links.PYTHON_CLASSES)
+KINDS = (
+    _node(
+        "object_in_text",
+        "text",
+        msg("The text shows an object, not its value"),
+        msg("Python writes an object into a text in the object's own form."),
+        WHOLE,
+        whys={
+            "address": NO_STR,
+            "renamed": NO_STR,
+            "function": FUNCTION_SHOWN,
+            "called": FUNCTION_SHOWN,
+            "bytes": msg("b'…' is how Python shows bytes in a text. They are not a text."),
+            "count": msg(
+                "An object of itertools.count is not a number. next() returns its next number."
+            ),
+        },
+        fixes={
+            "address": msg(
+                "Log a value of the object, not the object itself: one of its attributes, or what one "
+                "of its methods returns. Or write a method __str__ in the class {class} that returns "
+                "the text."
+            ),
+            "shown": msg(
+                "Log a value of the object, not the object itself: one of its attributes, or what one "
+                "of its methods returns. Or write a method __str__ in the class {class} that returns "
+                "the text."
+            ),
+            "field": msg(
+                "Log only the attribute {field}: write .{field} behind the object of the class {class}."
+            ),
+            "renamed": msg("Write {written} instead of {name}: Python calls no other name."),
+            "function": msg(
+                "Log what {name} returns: write () behind the name, with the values that it needs."
+            ),
+            "called": msg("Write {written} instead of {name}."),
+            "bytes": msg(
+                "Make a text of the bytes with .decode() before they are logged, or use a text from the "
+                "start."
+            ),
+            "count": msg(
+                "Log the number that next() returns, and call next() only once for each line."
+            ),
+        },
+        behind={"run.wrong_text": _shown_object},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "to_string_of_another_language",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class Ticks:\n    def __init__(self):\n        self.value = 0\n\n"
+                    "    def toString(self):\n        return str(self.value)\n\n\nclass MyFirstNode",
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = Ticks()"),
+                Replace(NODE, "self.counter_ += 1", "self.counter_.value += 1"),
+                fails="run.output",
+            ),
+            example(
+                "method_in_text",
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def number(self):\n        return self.counter_\n\n    def timer_callback",
+                ),
+                Replace(
+                    NODE, "'Hello time: ' + str(self.counter_)", "f'Hello time: {self.number}'"
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+)
