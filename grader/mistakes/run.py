@@ -5,6 +5,7 @@ from __future__ import annotations
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, SILENT, SPIN_UNTIL_CTRL_C, example
+from grader.mistakes.exceptions import INSIDE, MEANINGS
 from grader.mistakes.fixes import layout, node_count, node_life, node_log, node_timer
 from grader.mistakes.kind import Family, Kind
 from grader.package.edit.tree import Replace
@@ -54,7 +55,8 @@ KINDS = (
             "colcon build --symlink-install you do not need to build again."
         ),
         links.PYTHON_ERRORS,
-        fixes={"spins": SPINS, "no_line": NO_LINE},
+        whys=MEANINGS,
+        fixes={"spins": SPINS, "no_line": NO_LINE, "inside": INSIDE},
         fixed_by=(layout.init_file,),
         examples=(
             example(
@@ -328,10 +330,13 @@ KINDS = (
         stage="callback",
         title=msg("The node ends by itself"),
         why=SPIN,
-        whys=dict.fromkeys(
-            ("callback", "spins", "no_line"),
-            msg("An exception that nothing catches ends the node, also one in a callback."),
-        ),
+        whys={
+            **MEANINGS,
+            **dict.fromkeys(
+                ("callback", "spins", "no_line", "inside"),
+                msg("An exception that nothing catches ends the node, also one in a callback."),
+            ),
+        },
         fix=msg(
             "Look for what ends the program, in the callback and in what it calls: an exit, a "
             "limit on the count, or a shutdown. Delete it."
@@ -343,6 +348,7 @@ KINDS = (
             ),
             "spins": SPINS,
             "no_line": NO_LINE,
+            "inside": INSIDE,
         },
         link=links.EXECUTORS,
     ),
@@ -608,6 +614,7 @@ KINDS = (
             ),
             "spins": SPINS,
             "no_line": NO_LINE,
+            "inside": INSIDE,
         },
     ),
     _run(
