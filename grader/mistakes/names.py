@@ -198,7 +198,9 @@ def _is_called(around: ast.AST | None, use: ast.Name) -> bool:
     return called or isinstance(around, ast.ClassDef | ast.ExceptHandler)
 
 
-def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    if raised.inside and match["name"] not in raised.module.line(raised.line):
+        return None  # (no name of the student's)
     known = _of_rclpy(raised, match)
     if known is not None:
         return known

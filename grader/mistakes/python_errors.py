@@ -101,6 +101,24 @@ def _too_many_values(raised: Raised, match: re.Match[str]) -> RecognisedMistake 
     return _told("text_and_values", "" if written else "left")(raised, match)
 
 
+def _no_items(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Items are needed: by += if what it adds to is a list."""
+    statement = statement_at(raised.module, raised.line)
+    found = _told("types_do_not_fit", "each")(raised, match)
+    if found is None or not isinstance(statement, ast.AugAssign):
+        return found
+    name = raised.module.text.code(statement.target)
+    plain = isinstance(statement.op, ast.Add) and isinstance(statement.value, ast.Constant)
+    words = {**found.words, "name": name}
+    return replace(found, words=words, variant="added") if plain else found
+
+
+def _no_file(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The path is relative, or a whole one."""
+    whole = match["name"].startswith("'/")
+    return _told("no_such_file", "whole" if whole else "")(raised, match)
+
+
 def _not_for_with(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """The with of the line gets an object that has no block; it can have a name already."""
     items = [i for n in _on_line(raised) if isinstance(n, ast.With) for i in n.items]
@@ -235,6 +253,10 @@ KINDS = (
             "each": msg(
                 "Only a value that consists of items can be unpacked or used behind in. The type {first} has none."
             ),
+            "added": msg(
+                "{name} has items on this line, as a list has. += adds the items of another list to it, and the type "
+                "{first} has no items."
+            ),
             "set": msg("name[…] = … sets one item. The items of the type {first} cannot be set."),
             "join": msg("join() puts texts together. One item of this list has the type {first}."),
             "sign": msg(
@@ -254,6 +276,10 @@ KINDS = (
             ),
             "set": msg("Make a new value instead, or use a list."),
             "join": msg("Convert each item to a text first: str(…)."),
+            "added": msg(
+                "If {name} is meant to count, let it begin with a number instead of a list. To add one item "
+                "to a list, write {name}.append(…)."
+            ),
             "sign": msg("Find the line that gives this value: it must be a number there."),
             "whole": msg("Convert the value with int(…), or write a number without a point."),
             "number": msg(
@@ -273,7 +299,7 @@ KINDS = (
             r"'(?P<first>\w{1,60})' object is not subscriptable": _told(
                 "types_do_not_fit", "items"
             ),
-            r"'(?P<first>\w{1,60})' object is not iterable": _told("types_do_not_fit", "each"),
+            r"'(?P<first>\w{1,60})' object is not iterable": on_line(_no_items),
             r"argument of type '(?P<first>\w{1,60})' is not iterable": (
                 _told("types_do_not_fit", "each")
             ),
@@ -466,9 +492,21 @@ KINDS = (
             "Remove the lines that open {name} if the exercise does not need it. Otherwise let "
             "setup.py install the file, and open it by its whole path."
         ),
+        whys={
+            "whole": msg(
+                "There is no file {name} on the computer that runs the node. The folders of one computer do "
+                "not exist on another one."
+            )
+        },
+        fixes={
+            "whole": msg(
+                "Remove the lines that open {name} if the exercise does not need it. Otherwise correct the "
+                "path, and let setup.py install the file."
+            )
+        },
         raised={
             r"FileNotFoundError: \[Errno 2\] No such file or directory: (?P<name>'[^'\n]{1,120}')": (
-                _told("no_such_file")
+                on_line(_no_file)
             )
         },
         examples=(

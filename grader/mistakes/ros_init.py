@@ -250,9 +250,9 @@ KINDS = (
         seen=r"RuntimeError: Context\.init\(\) must only be called once",
         fixes={
             "imported": msg(
-                "This file calls it once. So {function} runs twice, for example because a line outside of "
-                "functions calls it too, or another file calls rclpy.init() when it is imported: look in "
-                "{package}/__init__.py, which should be empty. Remove that call."
+                "This file has one such call. Either this line runs twice, as in a loop, or if a line "
+                "outside of functions calls {function} too. Or another file calls rclpy.init() when it is "
+                "imported: look in {package}/__init__.py, which should be empty. Let only one call run."
             )
         },
         raised={r"Context\.init\(\) must only be called once": _init_twice},

@@ -211,3 +211,24 @@ def test_ros_that_was_shut_down_is_not_told_to_be_started_late() -> None:
     found = at(error, text, "super().__init__", inside="rclpy")
     assert found.kind == "node.ros_not_running"
     assert "shut" in why_of(found)
+
+
+def test_a_number_added_to_a_list_is_told_with_both_ways() -> None:
+    text = changed((START, "self.counter_ = []"))
+    found = at("TypeError: 'int' object is not iterable", text, "self.counter_ += 1")
+    assert "begin with a number" in fix_of(found)
+    assert "self.counter_.append(…)" in fix_of(found)
+
+
+@pytest.mark.parametrize(("path", "variant"), [("start.txt", ""), ("/home/me/start.txt", "whole")])
+def test_a_whole_path_is_not_told_to_begin_with_a_slash(path: str, variant: str) -> None:
+    text = changed((START, f"self.counter_ = int(open('{path}').read())"))
+    error = f"FileNotFoundError: [Errno 2] No such file or directory: '{path}'"
+    found = at(error, text, "open(")
+    assert (found.kind, found.variant) == ("node.no_such_file", variant)
+
+
+def test_a_timer_of_pythons_threading_is_not_one_of_rclpy() -> None:
+    text = changed((START, f"{START}\n        Timer(1.0)"))
+    error = "TypeError: Timer.__init__() missing 1 required positional argument: 'function'"
+    assert at(error, text, "Timer(1.0)").kind != "node.timer_class"
