@@ -14,6 +14,7 @@ from grader.run.probe_link import LogRecord, NodeSeen
 from grader.run.run import Run
 from grader.verdict.checks.counting import counts
 from grader.verdict.checks.declare import Check
+from grader.verdict.checks.faults import calls_to, raised_in, raised_inside
 from grader.verdict.checks.logger import logger
 from grader.verdict.checks.spinning import spins
 from grader.verdict.checks.starting import interrupt
@@ -143,6 +144,39 @@ def test_a_failing_ctrl_c_handler_is_an_error_at_the_stop(bench: Bench, error: s
 )
 def test_the_traceback_of_ctrl_c_itself_is_not_an_error(bench: Bench, transcript: str) -> None:
     assert ask(interrupt, bench, ended(transcript, status=1)) is not None
+
+
+OWN = (
+    '  File "/ws/build/my_robot_controller/my_robot_controller/my_first_node.py", line {}, in {}\n'
+)
+SPUN = '  File "/opt/ros/lib/python3/site-packages/rclpy/__init__.py", line 226, in spin\n'
+HEAD = "Traceback (most recent call last):\n"
+
+
+@pytest.mark.parametrize(
+    ("frames", "library", "line", "calls"),
+    [
+        (OWN.format(25, "main") + SPUN, "rclpy", 25, [("main", 25)]),
+        (
+            OWN.format(25, "main") + SPUN + OWN.format(16, "say"),
+            "",
+            16,
+            [("main", 25), ("say", 16)],
+        ),
+        ('  File "/usr/lib/python3.12/threading.py", line 1012, in run\n', "Python", None, []),
+    ],
+)
+def test_the_code_that_raised_an_error_is_known(
+    bench: Bench, frames: str, library: str, line: int | None, calls: list[tuple[str, int]]
+) -> None:
+    earlier = f"{HEAD}{OWN.format(99, 'other')}ValueError: caught\n"
+    run = Run("ros2 run", transcript=f"{earlier}{HEAD}{frames}TypeError: x\n", status=1)
+    evidence = bench.evidence()
+    error, where = raised_in(evidence, run)
+    assert error == "TypeError: x"
+    assert (where.line if where else None) == line
+    assert raised_inside(evidence, run) == library
+    assert calls_to(evidence, run) == calls
 
 
 def counted(**more: object) -> Run:

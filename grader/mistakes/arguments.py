@@ -13,10 +13,10 @@ from grader.mistakes.constructor import lines_of
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import lines, node_arguments, node_log
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect
+from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect, on_line
 from grader.package.edit.tree import Replace, Write
 from grader.package.source.module import Function, Module
-from grader.package.source.names import dotted, last_part
+from grader.package.source.names import dotted, last_part, own_name
 
 LOGGER_OPTION = (
     r"TypeError: parameter \"(?P<name>\w{1,120})\" is not one of the recognized logging options"
@@ -72,9 +72,46 @@ def _many(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
             found = raised.finding("timer_arguments_many", at=timer.call, name=written[0])
             words = {**found.words, "written": written[1]}
             return replace(found, variant="comma", words=words)
-        if len(timer.call.args) > 2:
-            return raised.finding("timer_arguments_many", at=timer.call)
+        if len(timer.call.args) > 2 and not timer.call.keywords:
+            return _first_two(raised, timer.call)
     return None
+
+
+def _first_two(raised: Raised, call: ast.Call) -> RecognisedMistake:
+    """Return that a period and a callback are enough, if the call has them at their places."""
+    found = raised.finding("timer_arguments_many", at=call)
+    text = raised.source.module_of(call).text
+    code = text.code(call)
+    period, callback = call.args[:2]
+    named = isinstance(callback, ast.Name | ast.Attribute | ast.Lambda)
+    if "\n" in code or not named or isinstance(period, ast.Lambda):
+        return found
+    written = f"{text.code(call.func)}({text.code(period)}, {text.code(callback)})"
+    words = {**found.words, "written": written}
+    return replace(found, variant="two", words=words)
+
+
+def _given_twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A value without a name takes the place of a parameter that the call also names."""
+    calls = [
+        call
+        for call, name in raised.source.calls
+        if last_part(name) == last_part(match["function"]) and raised.line in lines_of(call)
+    ]
+    if len(calls) != 1 or not calls[0].args:
+        return None
+    call, text = calls[0], raised.source.module_of(calls[0]).text
+    code, first = text.code(call), text.code(call.args[0])
+    params = {"name": match["name"], "given": shown(first)}
+    named = {keyword.arg: keyword.value for keyword in call.keywords}
+    if last_part(match["function"]) != "create_timer" or "\n" in code or len(call.args) != 1:
+        return raised.finding("argument_twice", at=call, params=params)
+    if set(named) != {"timer_period_sec"}:
+        return raised.finding("argument_twice", at=call, params=params)
+    period = text.code(named["timer_period_sec"])
+    new = f"{text.code(call.func)}(timer_period_sec={period}, callback={first})"
+    params = {"name": code, "written": new, "given": first}
+    return replace(raised.finding("argument_twice", at=call, params=params), variant="timer")
 
 
 def _keyword(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
@@ -82,7 +119,18 @@ def _keyword(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     found = raised.finding("keyword_unknown", name=name, function=function)
     if match["function"] == "Node.__init__":
         return replace(found, variant="super")
-    return replace(found, variant="timer") if function == "create_timer" else found
+    if function != "create_timer":
+        return found
+    plain = [
+        timer
+        for timer in raised.source.timers
+        if raised.line in lines_of(timer.call) and dotted(timer.call.func).startswith("self.")
+    ]
+    given = [k.value for timer in plain for k in timer.call.keywords] + [
+        value for timer in plain for value in timer.call.args
+    ]
+    own = any(own_name(value) in raised.source.methods for value in given)
+    return replace(found, variant="timer" if own else "timer_names")
 
 
 def _option(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
@@ -362,9 +410,13 @@ KINDS = (
             "comma": msg(
                 "Write {written} instead of {name}: a decimal number has a point in Python. With "
                 "the comma it is two arguments."
-            )
+            ),
+            "two": msg("Write {written}: a period and a callback are enough."),
         },
-        raised={"has no attribute 'add_entity'": _many},
+        raised={
+            "has no attribute 'add_entity'": _many,
+            r"create_timer\(\) takes from \d to \d positional arguments but": _many,
+        },
         fixed_by=(node_arguments.decimal_point, node_arguments.third),
         examples=(
             example("decimal_comma", Replace(NODE, "(1.0,", "(1,0,"), fails="run.starts"),
@@ -474,14 +526,57 @@ KINDS = (
         ),
     ),
     _node(
+        "argument_twice",
+        "callback",
+        msg("A call gives one parameter two values"),
+        msg(
+            "Values without a name go to the parameters in their order. Here the place of {name} gets a "
+            "value, and {name}= gives it another one."
+        ),
+        msg(
+            "If a value without a name, such as {given}, is meant for another parameter, write the name of "
+            "that parameter and = before it. Otherwise delete one of the two values."
+        ),
+        links.PYTHON_ERRORS,
+        whys={
+            "timer": msg(
+                "The first value without a name is the period, timer_period_sec. So {given} takes its "
+                "place, and timer_period_sec= gives it a second value."
+            )
+        },
+        fixes={"timer": msg("Write {written}")},
+        raised={
+            r"TypeError: (?P<function>[\w.]{1,200})\(\) got multiple values for argument "
+            r"'(?P<name>\w{1,120})'": on_line(_given_twice)
+        },
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "period_given_twice",
+                Replace(
+                    NODE,
+                    "(1.0, self.timer_callback)",
+                    "(self.timer_callback, timer_period_sec=1.0)",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
         "keyword_unknown",
         "callback",
         msg("A call names a parameter that the function does not have"),
         msg("name=value in a call works only for the names in the function's definition."),
-        msg("Remove {name}=…, or look up the parameters of {function}."),
+        msg(
+            "Look up the parameters of {function}: write the right name instead of {name}, or remove {name}=…"
+        ),
         links.PYTHON_ERRORS,
         fixes={
             "timer": msg("Write create_timer({period}, self.{callback})"),
+            "timer_names": msg(
+                "The first parameters of create_timer are timer_period_sec and callback. Write one of "
+                "these names instead of {name}, or remove {name}=…"
+            ),
             "logger": msg("Remove {name}=…: the logger does not have this option."),
             "super": msg("Write super().__init__('{node_name}')."),
         },

@@ -79,7 +79,15 @@ def _function_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistak
 def _main_wants(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if match["function"] != raised.assignment.function:
         return None
-    return raised.finding("main_wants_args", at=raised.source.main)
+    main = raised.source.main
+    found = raised.finding("main_wants_args", at=main)
+    wanted = [a.arg for a in main.args.args] if main is not None else []
+    if main is None or wanted in (["args"], ["self"]):
+        return found
+    if ast.unparse(main.args) != wanted[0]:
+        return replace(found, variant="several")
+    words = {**found.words, "written": f"def {main.name}({wanted[0]}=None):"}
+    return replace(found, variant="other", words=words)
 
 
 def _main_takes_none(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -214,6 +222,13 @@ KINDS = (
         msg("The entry point's function needs an argument, but is called without any"),
         msg("The executable calls {function}() without arguments."),
         msg("Give the argument a default: def {function}(args=None):"),
+        fixes={
+            "other": msg("Give the argument a default: {written}"),
+            "several": msg(
+                "Give each parameter of {function} a default in this line, with the value that you want: "
+                "name=value."
+            ),
+        },
         seen=r"TypeError: (?P<function>main)\(\) missing \d{1,3} required positional argument",
         raised={
             r"(?<![\w.])(?P<function>\w{1,120})\(\) missing \d{1,3} required positional": _main_wants

@@ -160,7 +160,6 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "name": "self.create_rate(0.5, self.callback)",
         "written": "self.create_timer(0.5, self.callback)",
     },
-    "node.inside_call": {"name": "float"},
     "node.none_used": {"name": "self.text", "function": "make_text", "line": 20},
     "node.types_do_not_fit": {
         "first": "int",
@@ -683,6 +682,48 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "there": "my_package/helpers.py",
         "line": "5",
     },
+    "node.main_gets_none": {
+        "name": "len(args)",
+        "variable": "args",
+        "written": "len(args or [])",
+    },
+    "node.main_wants_args": {"written": "def main(names=None):"},
+    "node.thread_arguments": {"name": "args=(node)", "written": "args=(node,)", "type": "MyNode"},
+    "node.class_takes_nothing": {
+        "name": "Settings",
+        "line": "8",
+        "method": "__int__",
+        "written": "@dataclass",
+    },
+    "node.no_enum": {"name": "Speed.SLOW.value", "class": "Speed", "written": "Speed.SLOW"},
+    "node.below_with": {"line": "30", "first": "32", "last": "35", "indented": "31"},
+    "node.last_def_counts": {
+        "name": "__init__",
+        "line": "9",
+        "called": "MyNode()",
+        "at": "25",
+        "written": "def __init__(self, name='my_node'):",
+    },
+    "node.own_call": {
+        "name": "start",
+        "names": "name, start",
+        "called": "MyNode()",
+        "line": "8",
+        "written": "start=",
+    },
+    "node.argument_twice": {
+        "name": "timer_period_sec",
+        "given": "self.callback",
+        "written": "self.create_timer(timer_period_sec=1.0, callback=self.callback)",
+    },
+    "node.timer_arguments_many": {
+        "name": "self.create_timer(1,0, self.callback)",
+        "written": "self.create_timer(1.0, self.callback)",
+    },
+    "node.inside_call": {"name": "int", "attribute": "add_node"},
+    "run.died_at_start": {"library": "rclpy"},
+    "run.ended_early": {"library": "rclpy"},
+    "run.error_at_stop": {"library": "rclpy"},
     "node.spin_of_object": {"name": "app", "type": "App", "attribute": "node"},
 }
 """What differs in the texts of one mistake."""

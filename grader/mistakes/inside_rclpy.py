@@ -14,6 +14,7 @@ from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
+from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, last_part
 from grader.package.source.place import statement_at
 
@@ -24,6 +25,8 @@ MISSING = (
 )
 GROUPS = ("ReentrantCallbackGroup", "MutuallyExclusiveCallbackGroup")
 TIMERS = ("Timer.__init__", "WallTimer.__init__")
+OF_TIMER = ("callback", "callback_group", "timer_period_ns", "clock")
+"""The parameters of rclpy's class; Python's threading.Timer has others."""
 
 
 def _calls(raised: Raised) -> Iterator[ast.Call]:
@@ -48,9 +51,17 @@ def _class_of_group(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
 
 def _missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     function = match["type"]
-    if function in TIMERS:
+    if (
+        function in TIMERS
+        and match["name"] in OF_TIMER
+        and "Timer" not in raised.source.known_classes
+    ):
         return raised.finding("timer_class")
     if match["name"] == "self" or function.partition(".")[0] in raised.source.known_classes:
+        return None
+    if any(
+        isinstance(n, Function) and n.name == last_part(function) for n in raised.source.all_nodes
+    ):
         return None
     for call in _calls(raised):
         owner, _, name = dotted(call.func).rpartition(".")
@@ -59,7 +70,7 @@ def _missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
             return raised.finding("destroys_timer", at=call, params=params)
     called = {last_part(called_name(call)) for call in _calls(raised)}
     wanted = {last_part(function), *function.removesuffix(".__init__").rsplit(".", 1)[-1:]}
-    return None if called & wanted or not called else _inside(raised)
+    return None if called & wanted or not called or not raised.inside else _inside(raised)
 
 
 def _attribute(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -73,8 +84,10 @@ def _attribute(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
         code = raised.module.text.code(calls[0])
         written = code.replace("create_rate", "create_timer", 1)
         return raised.finding("rate_for_timer", at=calls[0], name=code, written=written)
-    found = raised.finding("inside_call", name=match["type"])
-    return replace(found, variant="type")
+    if not raised.inside:
+        return None
+    params = {"name": match["type"], "attribute": match["name"]}
+    return replace(raised.finding("inside_call", params=params), variant="type")
 
 
 def _inside(raised: Raised) -> RecognisedMistake:
@@ -169,16 +182,20 @@ KINDS = (
     _node(
         "inside_call",
         "start",
-        msg("What this line calls cannot work with one of its arguments"),
-        msg("The error is raised inside of what this line calls, with a value that it gets here."),
+        msg("The error comes from inside of what this line calls"),
+        msg(
+            "The line is not wrong in itself: what it calls cannot work with a value that it gets here, or "
+            "that an earlier line has given to the same object."
+        ),
         msg(
             "Compare the arguments on this line with the documentation: their order, their number, "
-            "and whether each one is an object, a class or a function."
+            "and whether each one is an object, a class or a function. If they are right, look at what "
+            "earlier lines give to the same object."
         ),
         whys={
             "type": msg(
-                "The error is raised inside of what this line calls: one of the values that it gets "
-                "here has the type {name}, and another one is needed."
+                "What this line calls needs a value that has {attribute}, and gets one of the type {name}. "
+                "This value comes from this line, or from an earlier line that gives it to the same object."
             )
         },
         raised={MISSING: _missing, ATTRIBUTE: _attribute},

@@ -198,7 +198,9 @@ def _is_called(around: ast.AST | None, use: ast.Name) -> bool:
     return called or isinstance(around, ast.ClassDef | ast.ExceptHandler)
 
 
-def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    if raised.inside and match["name"] not in raised.module.line(raised.line):
+        return None  # (no name of the student's)
     known = _of_rclpy(raised, match)
     if known is not None:
         return known
@@ -255,6 +257,10 @@ def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     own = {n.name for n in raised.source.all_nodes if isinstance(n, Function)}
     if match["function"] == "spin":
         return replace(found, variant="spin")
+    names = re.findall(r"'(\w{1,120})'", match["names"])
+    if len(names) > 1 and function not in own:
+        params = {"name": ", ".join(names), "function": match["function"]}
+        return replace(raised.finding("argument_missing", params=params), variant="several")
     if (wanted := _wanted(raised, match)) is not None:
         return wanted
     foreign = match["function"].partition(".")[0] not in raised.source.known_classes
@@ -285,7 +291,8 @@ def _of_own_method(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
             return None
         params["called"] = f"{raised.module.text.code(here[0].func)}()"
         found = raised.finding("argument_missing", params=params)
-        return replace(found, variant="own_call", where=where)
+        variant = "own_call_used" if used else "own_call"
+        return replace(found, variant=variant, where=where)
     else:
         variant = "own_unused"
     if not used:
@@ -610,10 +617,15 @@ KINDS = (
         msg("Write a value for {name} in the () of {function} on this line."),
         links.PYTHON_ERRORS,
         fixes={
+            "several": msg("Write a value for each of these in the () of {function}: {name}"),
             "own": msg("Pass a value for {name} where {function} is called."),
             "own_call": msg(
                 "Write a value for {name} in the () of {called} on this line. Or remove {name} from "
                 "the def of {method} in line {line}."
+            ),
+            "own_call_used": msg(
+                "Write a value for {name} in the () of {called} on this line. Or give {name} a default in "
+                "the def of {method} in line {line}: {name}=…"
             ),
             "own_unused": msg(
                 "Remove {name} from the parameters of {method} in this line: no line of {method} "
@@ -648,7 +660,7 @@ KINDS = (
             ),
         },
         raised={
-            r"TypeError: (?P<function>[\w.]{1,200})\(\) missing \d{1,3} required positional arguments?: '(?P<name>\w{1,120})'": _argument
+            r"TypeError: (?P<function>[\w.]{1,200})\(\) missing \d{1,3} required positional arguments?: (?P<names>'(?P<name>\w{1,120})'.{0,400})": _argument
         },
         fixed_by=(node_life.spin, node_constructor.argument, node_brackets.without_parameter),
         examples=(

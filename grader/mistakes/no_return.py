@@ -12,7 +12,7 @@ from grader.mistakes.example import DEAD, LOG, NODE, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, on_line
 from grader.mistakes.worked_out import INSTEAD
 from grader.package.edit.files import Files
 from grader.package.edit.text import indent_of
@@ -129,7 +129,9 @@ KINDS = (
         },
         raised={
             r"TypeError: (?:unsupported operand type\(s\) for [+-]=?: '(?:NoneType' and '\w+|\w+' "
-            r"and 'NoneType)'|can only concatenate str \(not \"NoneType\"\))": _none_at_error
+            r"and 'NoneType)'|can only concatenate str \(not \"NoneType\"\))": on_line(
+                _none_at_error
+            )
         },
         behind={
             "run.wrong_text": _logged_none,

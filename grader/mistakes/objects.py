@@ -12,7 +12,7 @@ from grader.mistakes.constructor import lines_of
 from grader.mistakes.example import DEAD, NODE, STEP_LINE, example
 from grader.mistakes.fixes import lines, node_objects
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
+from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, on_line
 from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
@@ -424,7 +424,7 @@ KINDS = (
         msg("In Python, + joins strings. The sign {name} does not work with a string."),
         INSTEAD,
         links.PYTHON_STRINGS,
-        raised={OPERATOR: _operator},
+        raised={OPERATOR: on_line(_operator)},
         fixed_by=(node_objects.plus,),
         examples=(
             example(
@@ -554,7 +554,7 @@ KINDS = (
                 "where you use its value."
             )
         },
-        raised={NOT_CALLABLE: _shares_name, METHOD_AS_VALUE: _shares_name},
+        raised={NOT_CALLABLE: _shares_name, METHOD_AS_VALUE: on_line(_shares_name)},
         fixed_by=(node_objects.shared_method,),
         examples=(
             example(
@@ -608,7 +608,7 @@ KINDS = (
         msg("There is a comma between self and the name"),
         msg("self.name is an attribute of the node. With a comma these are two names."),
         INSTEAD,
-        raised={"cannot unpack non-iterable": _comma},
+        raised={"cannot unpack non-iterable": on_line(_comma)},
         fixed_by=(lines.written,),
         examples=(
             example(
@@ -632,7 +632,7 @@ KINDS = (
                 "line instead of {name}."
             ),
         },
-        raised={NOT_A_NUMBER: _not_a_number},
+        raised={NOT_A_NUMBER: on_line(_not_a_number)},
         fixed_by=(lines.written,),
         examples=(
             example(

@@ -16,7 +16,7 @@ from grader.mistakes import links
 from grader.mistakes.example import DEAD, LOG, LOG_LINE, NODE, example
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import FromError, Raised, RecognisedMistake
+from grader.mistakes.recognised import FromError, Raised, RecognisedMistake, always, on_line
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
@@ -34,12 +34,15 @@ FUNCTION = msg(
 
 
 def _told(slug: str, variant: str = "") -> FromError:
-    """Return a function that finds `node.slug` with the groups of its pattern as words."""
+    """Return a function that finds `node.slug` with the groups of its pattern as words.
+
+    It finds it only if the student's line itself raised the error.
+    """
 
     def found(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return replace(raised.finding(slug, params=match.groupdict("")), variant=variant)
 
-    return found
+    return on_line(found)
 
 
 def _none_attribute(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -75,6 +78,53 @@ def _none_operand(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     mistake = raised.finding("none_used", name=code)
     words = {**mistake.words, "function": function.name, "line": function.lineno}
     return replace(mistake, words=words, variant="function")
+
+
+def _no_key(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A key is missing; format() says the same of a name that it gets no value for."""
+    line = list(_on_line(raised))
+    calls = [called_name(n) for n in line if isinstance(n, ast.Call)]
+    read = [n.slice for n in line if isinstance(n, ast.Subscript)]
+    written = any(isinstance(n, ast.Constant) and repr(n.value) == match["name"] for n in read)
+    if not written and any(name in ("format", "format_map", "substitute") for name in calls):
+        return None
+    return _told("no_such_item", "key")(raised, match)
+
+
+def _too_many_values(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The text before % has too few places; it can be a value that should be a number."""
+    left = [
+        n.left for n in _on_line(raised) if isinstance(n, ast.BinOp) and isinstance(n.op, ast.Mod)
+    ]
+    left += [n.target for n in _on_line(raised) if isinstance(n, ast.AugAssign)]
+    written = any(isinstance(n, ast.Constant | ast.JoinedStr) for n in left)
+    return _told("text_and_values", "" if written else "left")(raised, match)
+
+
+def _no_items(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Items are needed: by += if what it adds to is a list."""
+    statement = statement_at(raised.module, raised.line)
+    found = _told("types_do_not_fit", "each")(raised, match)
+    if found is None or not isinstance(statement, ast.AugAssign):
+        return found
+    name = raised.module.text.code(statement.target)
+    plain = isinstance(statement.op, ast.Add) and isinstance(statement.value, ast.Constant)
+    words = {**found.words, "name": name}
+    return replace(found, words=words, variant="added") if plain else found
+
+
+def _no_file(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The path is relative, or a whole one."""
+    whole = match["name"].startswith("'/")
+    return _told("no_such_file", "whole" if whole else "")(raised, match)
+
+
+def _not_for_with(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The with of the line gets an object that has no block; it can have a name already."""
+    items = [i for n in _on_line(raised) if isinstance(n, ast.With) for i in n.items]
+    named = [i for i in items if dotted(i.context_expr) and i.optional_vars is None]
+    alone = len(items) == len(named) == 1
+    return _told("not_for_with", "name" if alone else "")(raised, match)
 
 
 def _comma(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -167,12 +217,12 @@ KINDS = (
         },
         raised={
             r"AttributeError: 'NoneType' object has no attribute '(?P<name>\w{1,120})'": (
-                _none_attribute
+                on_line(_none_attribute)
             ),
-            rf"unsupported operand type\(s\) for .{{1,20}}: {NONE_IN}": _none_operand,
-            rf"not supported between instances of {NONE_IN}": _none_operand,
-            r"can only concatenate str \(not \"NoneType\"\)": _none_operand,
-            r"'NoneType' object is not (?:subscriptable|iterable)": _none_operand,
+            rf"unsupported operand type\(s\) for .{{1,20}}: {NONE_IN}": on_line(_none_operand),
+            rf"not supported between instances of {NONE_IN}": on_line(_none_operand),
+            r"can only concatenate str \(not \"NoneType\"\)": on_line(_none_operand),
+            r"'NoneType' object is not (?:subscriptable|iterable)": on_line(_none_operand),
         },
         examples=(
             example(
@@ -203,37 +253,53 @@ KINDS = (
             "each": msg(
                 "Only a value that consists of items can be unpacked or used behind in. The type {first} has none."
             ),
+            "added": msg(
+                "{name} has items on this line, as a list has. += adds the items of another list to it, and the type "
+                "{first} has no items."
+            ),
             "set": msg("name[…] = … sets one item. The items of the type {first} cannot be set."),
             "join": msg("join() puts texts together. One item of this list has the type {first}."),
             "sign": msg(
                 "{operator} in front of a value needs a number. This value has the type {first}."
             ),
             "whole": msg("A whole number is needed here, and this value has the type {first}."),
-            "number": msg("{text} cannot be read as a number."),
+            "number": msg("int() makes a number only of digits. It cannot read {text}."),
             "comma": msg("A comma after a value makes a tuple, and not a number."),
             "returned": msg("Python calls {operator} and needs a {first} from it."),
         },
         fixes={
             "items": msg("Look in which line this value is set, or remove the […]."),
             "function": ROUND,
-            "each": msg("Look in which line this value is set, or write it in [ ]."),
+            "each": msg(
+                "Find out which value on this line has the type {first}, and which line gives it. To repeat "
+                "something n times, write range(n)."
+            ),
             "set": msg("Make a new value instead, or use a list."),
             "join": msg("Convert each item to a text first: str(…)."),
-            "sign": msg("Convert the value to a number first: int(…)."),
+            "added": msg(
+                "If {name} is meant to count, let it begin with a number instead of a list. To add one item "
+                "to a list, write {name}.append(…)."
+            ),
+            "sign": msg("Find the line that gives this value: it must be a number there."),
             "whole": msg("Convert the value with int(…), or write a number without a point."),
-            "number": msg("Give int() or float() a text that has only a number in it."),
+            "number": msg(
+                "Give int() a text that has only digits. float() also reads numbers with a point."
+            ),
             "comma": msg("Remove the comma at the end of the line: write {text}"),
-            "returned": msg("Write return and the {first} at the end of {operator}."),
+            "returned": msg(
+                "Look at each return in {operator}: its value must be a {first}. Without a return, the "
+                "value is None."
+            ),
         },
         raised={
-            r"'(?P<first>\w{1,60})' and 'tuple'$": _comma,
+            r"'(?P<first>\w{1,60})' and 'tuple'$": on_line(_comma),
             r"'(?P<first>method|function|builtin_function_or_method|type)' object is not subscriptable": (
                 _told("types_do_not_fit", "function")
             ),
             r"'(?P<first>\w{1,60})' object is not subscriptable": _told(
                 "types_do_not_fit", "items"
             ),
-            r"'(?P<first>\w{1,60})' object is not iterable": _told("types_do_not_fit", "each"),
+            r"'(?P<first>\w{1,60})' object is not iterable": on_line(_no_items),
             r"argument of type '(?P<first>\w{1,60})' is not iterable": (
                 _told("types_do_not_fit", "each")
             ),
@@ -290,7 +356,7 @@ KINDS = (
             "that one with super()., not with self."
         ),
         seen=r"RecursionError: maximum recursion depth exceeded",
-        raised={r"RecursionError": _told("recursion")},
+        raised={r"RecursionError": always("recursion")},
     ),
     _node(
         "abstract_method",
@@ -360,10 +426,21 @@ KINDS = (
             "type": msg(
                 "The place %d in a text needs a number, and gets a value of the type {first}."
             ),
+            "left": msg(
+                "The value before % is a text on this line. Then % puts values into the places of the text, "
+                "such as %d, and this text has fewer places than there are values. Between two numbers, % "
+                "gives the remainder."
+            ),
         },
-        fixes={"type": msg("Write %s in the text, or give it a number.")},
+        fixes={
+            "type": msg("Write %s in the text, or give it a number."),
+            "left": msg(
+                "If you want the remainder, find the line that gives the value before %, and make it a "
+                "number there. If you want to fill a text, give it one place for each value."
+            ),
+        },
         raised={
-            r"not all arguments converted during string formatting": _told("text_and_values"),
+            r"not all arguments converted during string formatting": on_line(_too_many_values),
             r"not enough arguments for format string": _told("text_and_values"),
             r"%[a-z] format: a (?:real )?number is required, not (?P<first>\w{1,60})": (
                 _told("text_and_values", "type")
@@ -377,14 +454,21 @@ KINDS = (
         msg("A list of n items has the indices 0 to n - 1. A negative index counts from its end."),
         msg("Compare the index with the length of the list on that line."),
         whys={
-            "key": msg("A dict has only the keys that were put into it. {name} is not one of them.")
+            "key": msg(
+                "What this line reads from has only the keys that it was given. {name} is not one of them."
+            )
         },
-        fixes={"key": msg("Write the key as it is where the dict gets its items.")},
+        fixes={
+            "key": msg(
+                "Compare {name} with the keys that exist: case and blanks count. Or find out why the line "
+                "that adds this key has not run."
+            )
+        },
         raised={
             r"IndexError: (?:list|tuple|string) (?:assignment )?index out of range": (
                 _told("no_such_item")
             ),
-            r"^KeyError: (?P<name>.{1,60})$": _told("no_such_item", "key"),
+            r"^KeyError: (?P<name>.{1,60})$": on_line(_no_key),
         },
         examples=(
             example(
@@ -408,9 +492,21 @@ KINDS = (
             "Remove the lines that open {name} if the exercise does not need it. Otherwise let "
             "setup.py install the file, and open it by its whole path."
         ),
+        whys={
+            "whole": msg(
+                "There is no file {name} on the computer that runs the node. The folders of one computer do "
+                "not exist on another one."
+            )
+        },
+        fixes={
+            "whole": msg(
+                "Remove the lines that open {name} if the exercise does not need it. Otherwise correct the "
+                "path, and let setup.py install the file."
+            )
+        },
         raised={
             r"FileNotFoundError: \[Errno 2\] No such file or directory: (?P<name>'[^'\n]{1,120}')": (
-                _told("no_such_file")
+                on_line(_no_file)
             )
         },
         examples=(
@@ -456,7 +552,12 @@ KINDS = (
         ),
         raised={
             r"'(?P<first>\w{1,120})' object does not support the context manager protocol": (
-                _told("not_for_with")
+                on_line(_not_for_with)
+            )
+        },
+        fixes={
+            "name": msg(
+                "Delete the line of the with, and indent the lines of its block as far as that line."
             )
         },
         examples=(

@@ -37,12 +37,17 @@ class RecognisedMistake:
 
 @dataclass(frozen=True)
 class Raised:
-    """An exception: its last line, where in the student's code it was raised, and that source."""
+    """An exception: its last line, where in the student's code it was raised, and that source.
+
+    `inside` is the library whose code raised it, in what the student's line calls: "rclpy" or
+    "Python". It is "" if the line itself raised it, and if this is unknown.
+    """
 
     error: str
     where: Where | None
     source: NodeSource
     assignment: Assignment
+    inside: str = ""
 
     @property
     def module(self) -> Module:
@@ -156,6 +161,18 @@ def always(slug: str) -> FromError:
 
     def found(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return raised.finding(slug, params=match.groupdict(""))
+
+    return found
+
+
+def on_line(look: FromError) -> FromError:
+    """Return a function that recognises only errors which the student's line itself raises.
+
+    What the error of a library is about is in the library's code, and not on the student's line.
+    """
+
+    def found(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+        return None if raised.inside else look(raised, match)
 
     return found
 

@@ -14,14 +14,20 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace, Write
 from grader.package.source.counter import targets_of
-from grader.package.source.names import dotted, last_part
+from grader.package.source.module import Function
+from grader.package.source.names import calls_in, dotted, last_part
 
 NOT_INITIALIZED = r"NotInitializedException"
 NODES_MADE = msg("rclpy.init() connects the program to ROS; no node can be created before it.")
 
 
 def _inits(raised: Raised) -> list[ast.Call]:
-    return [call for call, name in raised.source.calls if last_part(name) == "init"]
+    own = {f.name for f in raised.source.all_nodes if isinstance(f, Function)}
+    return [
+        call
+        for call, name in raised.source.calls
+        if last_part(name) == "init" and (name == "rclpy.init" or "init" not in own)
+    ]
 
 
 def _init_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -72,11 +78,23 @@ def _init_late(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
         return None
     source = raised.source
     main = [c for c in inits if source.main and source.function_around(c) is source.main]
+    if _ran_before(raised, main):
+        return raised.finding("ros_not_running")
     moved = (main or inits) if len(main or inits) == 1 else []
     if not moved or dotted(moved[0].func) != "rclpy.init":
         return raised.finding("init_late", written=node_init.new_call(source))
     written = node_init.moved_call(source, moved[0])
     return raised.finding("init_late", at=moved[0], written=written)
+
+
+def _ran_before(raised: Raised, inits: list[ast.Call]) -> bool:
+    """Whether the first lines of main call init, and a later one makes the node."""
+    main = raised.source.main
+    if main is None or not inits:
+        return False
+    made = [call.lineno for call, _ in calls_in(main) if raised.source.is_node_class(call.func)]
+    plain = [s.value for s in main.body if isinstance(s, ast.Expr) and s.value in inits]
+    return bool(plain and made) and plain[0].lineno < min(made)
 
 
 def _init_twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
@@ -232,8 +250,9 @@ KINDS = (
         seen=r"RuntimeError: Context\.init\(\) must only be called once",
         fixes={
             "imported": msg(
-                "Here it is called once. The other call runs when a file of your package is "
-                "imported: look in {package}/__init__.py, which should be empty, and remove it there."
+                "This file has one such call. Either this line runs twice, as in a loop, or if a line "
+                "outside of functions calls {function} too. Or another file calls rclpy.init() when it is "
+                "imported: look in {package}/__init__.py, which should be empty. Let only one call run."
             )
         },
         raised={r"Context\.init\(\) must only be called once": _init_twice},

@@ -5,6 +5,7 @@ from __future__ import annotations
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, SILENT, SPIN_UNTIL_CTRL_C, example
+from grader.mistakes.exceptions import INSIDE, MEANINGS
 from grader.mistakes.fixes import layout, node_count, node_life, node_log, node_timer
 from grader.mistakes.kind import Family, Kind
 from grader.package.edit.tree import Replace
@@ -65,7 +66,8 @@ KINDS = (
             "colcon build --symlink-install you do not need to build again."
         ),
         links.PYTHON_ERRORS,
-        fixes={"spins": SPINS, "no_line": NO_LINE},
+        whys=MEANINGS,
+        fixes={"spins": SPINS, "no_line": NO_LINE, "inside": INSIDE},
         fixed_by=(layout.init_file,),
         examples=(
             example(
@@ -350,10 +352,13 @@ KINDS = (
         stage="callback",
         title=msg("The node ends by itself"),
         why=SPIN,
-        whys=dict.fromkeys(
-            ("callback", "spins", "no_line"),
-            msg("An exception that nothing catches ends the node, also one in a callback."),
-        ),
+        whys={
+            **MEANINGS,
+            **dict.fromkeys(
+                ("callback", "spins", "no_line", "inside"),
+                msg("An exception that nothing catches ends the node, also one in a callback."),
+            ),
+        },
         fix=msg(
             "The program ended without a traceback. Log a line at the beginning and at the end of "
             "each callback, and one directly below the line that spins the node. Run it again: what "
@@ -367,6 +372,7 @@ KINDS = (
             ),
             "spins": SPINS,
             "no_line": NO_LINE,
+            "inside": INSIDE,
         },
         link=links.EXECUTORS,
     ),
@@ -690,6 +696,7 @@ KINDS = (
             ),
             "spins": SPINS,
             "no_line": NO_LINE,
+            "inside": INSIDE,
         },
     ),
     _run(

@@ -444,7 +444,13 @@ SIGNS = {
         "an r before the quotes ({wanted}…), or / instead of each backslash."
     ),
     "argument_order": msg(
-        "In a call, values without a name come first, and those with name= after them."
+        "In a call, no value without a name can be behind one with name=. Write the name of its "
+        "parameter and = before this value too. Or remove name= from the values before it, if all "
+        "values are in the order of the parameters."
+    ),
+    "argument_name": msg(
+        "In a call, no value without a name can be behind one with name=. Write the name of its "
+        "parameter before this value too: {wanted}"
     ),
     "argument_twice": msg("The call has {wanted}= twice. Delete one of the two."),
     "parameter_twice": msg("The def has the name {wanted} twice. Rename or delete one of the two."),

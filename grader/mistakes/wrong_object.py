@@ -12,7 +12,7 @@ from grader.mistakes import links
 from grader.mistakes.example import NODE, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake
+from grader.mistakes.recognised import Raised, RecognisedMistake, on_line
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
@@ -151,13 +151,18 @@ def _wants_more(init: Function | None) -> bool:
 def _some_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A name that the line does not use directly holds the class."""
     del match
-    for node in raised.source.all_nodes:
-        if isinstance(node, ast.Assign) and _is_class(raised, node.value):
-            return replace(
-                raised.finding("class_not_called", at=node, name=dotted(node.value)),
-                variant="somewhere",
-            )
-    return None
+    called = {name for _, name in raised.source.calls}
+    found = [
+        node
+        for node in raised.source.all_nodes
+        if isinstance(node, ast.Assign)
+        and _is_class(raised, node.value)
+        and not called & set(targets_of(node))
+    ]
+    if len(found) != 1:
+        return None
+    mistake = raised.finding("class_not_called", at=found[0], name=dotted(found[0].value))
+    return replace(mistake, variant="somewhere")
 
 
 _node = Family("node", links.PYTHON_CLASSES)
@@ -185,7 +190,7 @@ KINDS = (
             "brackets": msg("Write {written} instead of {name} on this line."),
             "unpacked": msg("Delete the comma before the = on this line."),
         },
-        raised={OF_OTHERS: _in_brackets, UNPACKED: _unpacked},
+        raised={OF_OTHERS: _in_brackets, UNPACKED: on_line(_unpacked)},
         fixed_by=(lines.written,),
         examples=(
             example(

@@ -21,7 +21,7 @@ from grader.package.source.names import calls_in, last_part
 from grader.package.source.place import place_of, statement_at
 from grader.package.source.setup_packages import packages_of
 from grader.report.model import Mistake, Where
-from grader.verdict.checks.faults import ended_program, raised_in
+from grader.verdict.checks.faults import calls_to, ended_program, raised_in, raised_inside
 from grader.verdict.checks.parsed import file_of, has_subpackages, names_in
 from grader.verdict.circular import circular_import
 from grader.verdict.follows import followed
@@ -149,7 +149,9 @@ def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedM
 
 def _raised(error: str, where: Where | None, evidence: Evidence) -> RecognisedMistake | None:
     source = source_around(evidence, where)
-    return behind_error(Raised(error, where, source, evidence.assignment)) if source else None
+    inside = raised_inside(evidence, ended_program(evidence.run) or evidence.run)
+    raised = Raised(error, where, source, evidence.assignment, inside) if source else None
+    return behind_error(raised) if raised is not None else None
 
 
 def _not_installed(error: str, evidence: Evidence) -> RecognisedMistake | None:
@@ -204,24 +206,33 @@ def _explain(diagnosis: Diagnosis, found: RecognisedMistake, source: NodeSource 
 
 
 def _say_where(diagnosis: Diagnosis, failed: Failed, evidence: Evidence) -> None:
-    """Ask for no change of a line that only spins, nor of one that is not there.
+    """Say what the exception means, by which calls the program came to the line, and where to look.
 
-    That is all that is known of an exception that no entry of the catalogue explains.
+    That is all that is known of an exception that no entry of the catalogue explains. No change is
+    asked of a line that only spins, nor of one that is not there.
     """
-    where = failed.where
-    error, _ = raised_in(evidence, ended_program(evidence.run) or evidence.run)
+    where, program = failed.where, ended_program(evidence.run) or evidence.run
+    error, _ = raised_in(evidence, program)
     if not error or failed.fix:
         return
     source = source_around(evidence, where) if where is not None and where.line else None
+    variant, library = failed.variant, raised_inside(evidence, program)
     if where is None or not where.line:
         variant = "no_line"
     elif source is not None and _spins(source.module_at(where.file), where.line):
         variant = "spins"
-    else:
-        return
-    kind, values = CATALOGUE[failed.mistake.id], {**failed.mistake.params, **failed.words}
-    diagnosis.rationale = kind.rationale(values, variant)
+    elif library:
+        variant = "inside"
+    kind = CATALOGUE[failed.mistake.id]
+    values = {**failed.mistake.params, **failed.words, "library": library}
+    name = error.partition(":")[0]
+    diagnosis.rationale = kind.rationale(values, name if name in kind.whys else variant)
     diagnosis.fix = kind.fix_text(values, variant)
+    calls = calls_to(evidence, program)
+    if len(calls) > 1:
+        way = " > ".join(f"{function} ({line})" for function, line in calls)
+        came = say("the calls that led there, with their lines: {way}", way=shown(way))
+        diagnosis.actual = joined(diagnosis.actual, came, by="\n")
 
 
 def _spins(module: Module, line: int) -> bool:

@@ -57,9 +57,9 @@ def look(symptom: str, text: str) -> RecognisedMistake | None:
     return behind_symptom(symptom, Suspect(node_in(text), ASSIGNMENT))
 
 
-def raised(error: str, text: str, line: int | None) -> RecognisedMistake | None:
+def raised(error: str, text: str, line: int | None, inside: str = "") -> RecognisedMistake | None:
     where = Where(file=FILE, line=line) if line else None
-    return behind_error(Raised(error, where, node_in(text), ASSIGNMENT))
+    return behind_error(Raised(error, where, node_in(text), ASSIGNMENT, inside))
 
 
 def line_of(text: str, part: str) -> int:

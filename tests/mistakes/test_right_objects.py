@@ -92,7 +92,7 @@ def test_a_function_hidden_in_the_module_is_named_there() -> None:
 def test_a_name_that_only_rclpy_writes_is_not_misspelt() -> None:
     text = changed("rclpy.spin(node)", "rclpy.spin([node].pop())")
     error = "AttributeError: 'Window' object has no attribute 'subscriptions'"
-    found = raised(error, text, line_of(text, "rclpy.spin"))
+    found = raised(error, text, line_of(text, "rclpy.spin"), inside="rclpy")
     assert found is not None
     assert (found.kind, found.variant) == ("node.inside_call", "type")
 

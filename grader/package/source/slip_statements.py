@@ -10,6 +10,7 @@ from grader.base.nearest import nearest
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.broken_python import MOST_TRIES, Broken, Slip
 from grader.package.source.python import can_parse
+from grader.package.source.slip_arguments import unnamed_argument
 
 Look = Callable[[Broken], Slip | None]
 PLACE = r"[A-Za-z_][\w.]{0,120}"
@@ -356,7 +357,7 @@ STATEMENT_LOOKS: tuple[Look, ...] = (
     _says(r"(?:no binding for nonlocal '\w+'|nonlocal declaration not allowed)", "nonlocal"),
     _says(r"'(return|yield)' outside function", "outside_function"),
     _says(r"'(?:await|async \w+)' outside", "await_outside"),
-    _says(r"positional argument follows keyword", "argument_order"),
+    unnamed_argument,
     _says(r"keyword argument repeated: (\w+)", "argument_twice"),
     _says(r"duplicate argument '(\w+)' in function", "parameter_twice"),
     _says(r"(?:non-default argument|parameter without a default) follows", "parameter_order"),

@@ -26,6 +26,9 @@ MOST_CAUSES = 5
 SUGGESTION = re.compile(r"\. Did you (?:mean|forget)\b.*")
 ABORTED = re.compile(r"Assertion `\w+\(field\)' failed")
 FRAME = re.compile(r'File "[^"\n]*/([^"/\n]+/[^"/\n]+\.py)", line (\d+)')
+CALL = re.compile(r'^ +File "([^"\n]+)", line (\d+)(?:, in (.+))?$', re.MULTILINE)
+TRACEBACK = "Traceback (most recent call last):"
+CHAINED = (HANDLING, "The above exception was the direct cause of the following exception:")
 
 
 def node_file(evidence: Evidence) -> Where:
@@ -115,11 +118,48 @@ def raised_in(evidence: Evidence, run: Run | Program) -> tuple[str, Where | None
     node = evidence.assignment.nodes[run.node] if isinstance(run, Program) else None
     package = node.package if node is not None else ""
     folder = _folder_of(node) if node is not None else evidence.assignment.folder
-    mine = [m for m in FRAME.findall(text) if m[0].startswith(f"{folder}/")]
+    mine = [m for m in FRAME.findall(_last_report(text)) if m[0].startswith(f"{folder}/")]
     if not mine:
         return error, None
     path = _in_package(evidence, package, mine[-1][0])
     return error, Where(file=path, line=int(mine[-1][1]))
+
+
+def raised_inside(evidence: Evidence, run: Run | Program) -> str:
+    """Return the library whose code raised the last error; "" if the student's own line did."""
+    text = _with_cause(_without_ignored(run.transcript))
+    calls = CALL.findall(text.rpartition(TRACEBACK)[2])
+    node = evidence.assignment.nodes[run.node] if isinstance(run, Program) else None
+    folder = _folder_of(node) if node is not None else evidence.assignment.folder
+    path = calls[-1][0] if calls else ""
+    if not path or (f"/{folder}/" in path and path.endswith(".py")):
+        return ""
+    return "rclpy" if "/rclpy/" in path else "Python"
+
+
+def calls_to(evidence: Evidence, run: Run | Program) -> list[tuple[str, int]]:
+    """Return the student's functions, and the line of each, through which the last error came."""
+    text = _with_cause(_without_ignored(run.transcript))
+    node = evidence.assignment.nodes[run.node] if isinstance(run, Program) else None
+    folder = _folder_of(node) if node is not None else evidence.assignment.folder
+    calls = CALL.findall(text.rpartition(TRACEBACK)[2])
+    return [
+        (function, int(line))
+        for path, line, function in calls
+        if function and f"/{folder}/" in path and path.endswith(".py")
+    ]
+
+
+def _last_report(text: str) -> str:
+    """Return the last traceback of a transcript, with those of the exceptions that led to it.
+
+    An earlier one can be of another thread, or of an exception that the program caught.
+    """
+    before, found, last = text.rpartition(TRACEBACK)
+    while found and before.rstrip().endswith(CHAINED):
+        before, found, cause = before.rpartition(TRACEBACK)
+        last = cause + last
+    return last
 
 
 def _without_ignored(text: str) -> str:
