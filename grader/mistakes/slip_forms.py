@@ -122,6 +122,10 @@ FORMS = {
         "all lines that use it: {wanted} If one of them is not part of the name, such as a type, "
         "delete that word."
     ),
+    "comma_or_name": msg(
+        "Two names are side by side. If they are two values, write a comma between them: {wanted} If "
+        "they are one name, write _ instead of the space. If one is a part of the other, write a dot."
+    ),
     "name_blank": msg("A name has no space in it. Write: {wanted}"),
     "raise_brackets": msg("The text of an error is in the brackets of its class. Write: {wanted}"),
     "quotes_other": msg(

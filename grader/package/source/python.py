@@ -16,7 +16,7 @@ from grader.package.source.kept import keep_small
 from grader.package.source.newer_python import SINCE, first_difference, with_older_quotes
 
 SHEBANG = "#!/usr/bin/env python3"
-PART = re.compile(r"\w+|[^\w\s]")
+PART = re.compile(r"\.?\d[\w.]*|\w+|[^\w\s]")
 """The first line that the course asks for."""
 
 MOST_BYTES = 100_000

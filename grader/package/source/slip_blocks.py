@@ -298,7 +298,9 @@ def two_statements(text: Broken) -> Slip | None:
     ):
         if LONE_NAME.fullmatch(text.line[: match.start()]):
             continue  # two words of one name, or a call without brackets
-        if OPENS_CALL.match(text.line, match.end()) and ENDS_NAME.search(text.line[: match.start()]):
+        if OPENS_CALL.match(text.line, match.end()) and ENDS_NAME.search(
+            text.line[: match.start()]
+        ):
             continue
         splice = text.within(*match.span(), text.source.newline + indent)
         new = text.changed(splice)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import builtins
 import keyword
 import re
 from collections.abc import Callable
@@ -47,6 +48,7 @@ LAMBDA_BRACKETS = re.compile(r"\blambda[ \t]*\((?P<given>[\w, \t]*)\)[ \t]*(?::|
 KEY = re.compile(r"^[ \t]*(?P<key>['\"]_*['\"]|\w+)[ \t]*:")
 KEY_BESIDE = re.compile(r"(?<=['\"\w)\]}])(?P<blank>[ \t]+)(?=['\"]_*['\"][ \t]*:)")
 BESIDE = re.compile(r"(?P<key>['\"]_*['\"])(?P<blank>[ \t]+)(?=[\w'\"\[({-])")
+KEY_SIGN = re.compile(r"(?<=['\"])(?P<blank>[ \t]*(?:=>|->|=(?!=))[ \t]*)")
 NAMED = re.compile(r"[(,][ \t]*[A-Za-z_]\w*(?P<sign>[ \t]*:)(?=[ \t]*[\w'\"\[(])")
 CHANGED = re.compile(
     r"(?<=[(,+=])[ \t]*(?P<all>(?P<name>[A-Za-z_][\w.]*)[ \t]*(?P<sign>[-+*/])=[ \t]*(?P<by>[\w.]+))(?=[ \t]*[),])"
@@ -145,6 +147,9 @@ def _import_form(text: Broken) -> Slip | None:
 def _handler(text: Broken) -> Slip | None:
     """Return an except with a name beside its class, or with as before it."""
     match = HANDLER.match(text.line)
+    if match is not None and hasattr(builtins, match["type"] + match["name"]):
+        name = match["type"] + match["name"]
+        return _written(text, "name_blank", text.within(*match.span("all"), name))
     if match is not None and not {match["name"], match["type"]} & set(keyword.kwlist):
         return _written(
             text,
@@ -244,11 +249,16 @@ def _entries(text: Broken) -> Slip | None:
             if fixed is not None:
                 wanted = f"{written[: len(row)].strip()},"
                 return Slip("signs", "comma_missing", above, written.strip(), wanted, fixed)
-    for pattern, sign, variant in ((KEY_BESIDE, ",", "comma_missing"), (BESIDE, ":", "colon_key")):
+    for pattern, sign, variant in (
+        (KEY_BESIDE, ",", "comma_missing"),
+        (KEY_SIGN, ": ", "colon_key"),
+        (BESIDE, ":", "colon_key"),
+    ):
         for match in list(pattern.finditer(text.line))[:MOST_TRIES]:
             at = match.start("blank")
             if _around(text, at) == "{":
-                found = _written(text, variant, text.within(at, at, sign))
+                end = at if variant == "comma_missing" or pattern is BESIDE else match.end("blank")
+                found = _written(text, variant, text.within(at, end, sign))
                 if found is not None:
                     return found
     return None
@@ -346,12 +356,14 @@ def note(text: Broken) -> Slip | None:
     is_comment = any(a == "#" and b == " " for a, b in zip(above, code))
     comment = is_comment and not above.startswith("#!")
     first = match["first"]
+    goes_on = comment and first in ("and", "or", "in", "is", "as", "not")
     is_code = first in FOREIGN or keyword.iskeyword(first) or first in ("match", "case", "type")
+    is_code = is_code and not goes_on
     colon = match["colon"] is not None or match["later"] is not None
     is_name = colon and not first[0].isupper()
     if is_code or (is_name and not comment) or len(words) < (2 if comment else 3):
         return None
-    if not comment and len(words) == 3 and not (colon or "," in written):
+    if not comment and len(words) == 3 and not (colon or "," in written or first[0].isupper()):
         return None
     start = text.source.start_of(text.number) + len(indent_of(written))
     fixed = text.changed(Splice(start, start, "# "))

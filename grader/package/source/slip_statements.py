@@ -190,12 +190,26 @@ def _between(text: Broken) -> Slip | None:
     if re.search(r"\blambda\b[^:]*:[ \t]*$", _above(text)):
         return None
     for splices, variant in _ways(text):
-        if variant == "comma_missing" and not inside:
+        if variant == "comma_missing" and (not inside or CALLED_NUMBER.search(text.line)):
             continue
         new = text.changed(*splices)
         if new is not None:
+            at = splices[0].start - text.code.start_of(text.number)
+            if variant == "comma_missing" and _are_names(text.line, at):
+                return text.slip("signs", "comma_or_name", text.source.line(text.number), *splices)
             return text.slip("signs", variant, text.source.line(text.number), *splices, fixed=new)
     return None
+
+
+CALLED_NUMBER = re.compile(r"(?<![\w.])\d[\d.]*[ \t]*\(")
+
+
+def _are_names(line: str, at: int) -> bool:
+    """Whether two names are beside a place of a line that is no def."""
+    before, after = line[:at], line[at:]
+    is_def = re.match(r"[ \t]*(?:async[ \t]+)?def\b", line) is not None
+    names = re.search(r"[A-Za-z_]\w*\Z", before) and re.match(r"[ \t]+[A-Za-z_]", after)
+    return names is not None and not is_def
 
 
 def _above(text: Broken) -> str:
@@ -213,7 +227,8 @@ def _ways(text: Broken) -> Iterator[tuple[list[Splice], str]]:
         quoted = {match["before"], code[match.end()]} & {"'", '"'}
         is_text = any((TEXTS.search(code[: match.end()]), CONVERTED.match(code, match.end())))
         shown = is_text or _ends_path(text, at) or ASSIGNS.match(code)
-        if quoted and shown and match["blank"].strip("\r\n"):
+        number = code[match.end()].isdigit()
+        if quoted and shown and not number and match["blank"].strip("\r\n"):
             plus = Splice(at, at + len(match["blank"]), " + ")
             values = [] if _ends_path(text, at) else [*_as_text(code, match, start)]
             yield [plus, *values], "plus_missing"

@@ -43,9 +43,18 @@ RULES = (
 )  # fmt: skip
 
 
+COMPARES = re.compile(r"[ \t]*(?:if|elif|while|assert|return|and|or|not)\b|[^=]*[(\[]")
+
+
 def _by_rule(text: Broken) -> Slip | None:
     for rule in RULES:
         for match in list(rule.pattern.finditer(text.line))[:MOST_TRIES]:
+            if (
+                rule.variant == "operator_split"
+                and match["sign"] == "="
+                and not COMPARES.match(text.line)
+            ):
+                continue
             splice = text.within(*match.span(), text.expanded(match, rule.new))
             new = text.changed(splice)
             if new is not None:

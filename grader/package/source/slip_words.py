@@ -18,7 +18,7 @@ MODIFIERS = (
     "public|private|protected|static|final|const|constexpr|abstract|virtual|override|export|"
     "inline|@Override"
 )
-GENERIC = r"[A-Za-z_][\w:.]*(?:<[^<>=()]*>|\[[ \t]*\])?[ \t]*[*&]?"
+GENERIC = r"[A-Za-z_][\w:.]*(?:<[^<>=()]*>|\[[ \t]*\])?[ \t]*[*&]{0,2}"
 PLACE = r"(?:self\.)?[A-Za-z_]\w*"
 DECLARED = re.compile(
     rf"^[ \t]*(?P<type>(?:(?:{MODIFIERS}|mut)[ \t]+)*{TYPES}(?:<[^<>=()]*>|\[[ \t]*\])?[ \t]*[*&]?[ \t]+)"
@@ -43,10 +43,14 @@ HEAD = re.compile(
 )
 DEF = re.compile(r"^[ \t]*(?:async[ \t]+)?def[ \t]+\w+[ \t]*\((?P<given>[^()]*)\)")
 TWO = re.compile(rf"[ \t]*(?P<one>{GENERIC})[ \t]+(?P<two>[A-Za-z_]\w*)[ \t]*(?P<default>=.*)?")
-TYPE = re.compile(rf"{TYPES}|[A-Za-z_][\w:.]*(?:<[^<>=]*>|\[[ \t]*\]|[*&])|[A-Z]\w*")
+TYPE = re.compile(rf"{TYPES}|[A-Za-z_][\w:.]*(?:<[^<>=]*>|\[[ \t]*\]|[ \t]*[*&]{{1,2}})|[A-Z]\w*")
 CATCH = re.compile(
     r"^[ \t]*(?P<all>(?:\}[ \t]*)?catch\b[ \t]*\(?[ \t]*(?:const[ \t]+)?(?P<type>[A-Za-z_][\w.]*)?[ \t]*&?"
     r"(?:[ \t]+(?:as[ \t]+)?(?P<name>\w+))?[ \t]*\)?[ \t]*[:{]?)[ \t]*$"
+)
+LIKE_EXCEPT = re.compile(
+    r"^[ \t]*(?P<word>on|rescue|when|if|elif|case|error|trap)[ \t]+\(?[\w.]*(?:Interrupt|Exception|Error)\)?"
+    r"(?:[ \t]+as[ \t]+\w+)?[ \t]*:[ \t]*$"
 )
 THROW = re.compile(r"^[ \t]*(?P<all>throw[ \t]+(?:new[ \t]+)?)")
 SWITCH = re.compile(r"^[ \t]*(?P<all>switch\b[ \t]*(?P<what>\(.*\)|[^:{]*?)[ \t]*[:{]?)[ \t]*$")
@@ -194,6 +198,8 @@ def two_words(text: Broken) -> Slip | None:
     known = {"self", "print", "echo", "new", "set", "define", "this", "super", "function"}
     if any(keyword.iskeyword(w) or w in known for w in words):
         return None
+    if re.fullmatch(r"[A-Z]\w*[a-z]\w*|[A-Z]", words[0]) and words[1][0].islower():
+        return _replaced(text, "declaration", match.span("all"), words[1])
     splice = text.within(*match.span("all"), f"{words[0]}_{words[1]}")
     if text.changed(splice) is None:
         return None
@@ -225,6 +231,11 @@ def _modifier(text: Broken) -> Slip | None:
 
 
 def _catch(text: Broken) -> Slip | None:
+    match = LIKE_EXCEPT.match(text.line)
+    if match is not None and "'except'" in text.fault.text:
+        splice = text.within(*match.span("word"), "except")
+        fixed = text.changed(splice)
+        return text.slip("signs", "clause_misspelt", _shown(text), splice, fixed=fixed)
     match = CATCH.match(text.line)
     if match is None:
         return None
