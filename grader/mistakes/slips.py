@@ -505,7 +505,7 @@ def unexplained(fault: PythonFault) -> str:
     """Return the variant of a fault for which no slip is known: what Python says of it, and where."""
     if fault.kind != "syntax" or not fault.part:
         return fault.kind
-    return "stops_at" if fault.text.endswith("invalid syntax") else "told_at"
+    return "stops_at" if "invalid syntax" in fault.text else "told_at"
 
 
 def description(slip: Slip | Pasted) -> Message:

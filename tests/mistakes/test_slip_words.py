@@ -95,6 +95,8 @@ LINES = [
     ("if (a.b := 3):\n    c()\n", "walrus_place", 1, ""),
     ("f(\"a \"b\"\")\n", "quotes_other", 1, "f('a \"b\"')"),
     ("a =\n", "ends_open", 1, "="),
+    ("Import sys as s\n", "capital", 1, "import sys as s"),
+    ("If a is b:\n    c()\n", "capital", 1, "if a is b:"),
     ("def f():\n", "block_missing", 1, ""),
     ("exec 'a'\n", "call_of_word", 1, "exec"),
 ]  # fmt: skip

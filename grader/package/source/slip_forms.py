@@ -344,6 +344,14 @@ def _ends_open(text: Broken) -> Slip | None:
     return Slip("signs", "ends_open", text.number, _shown(text), match["sign"])
 
 
+def is_code_in_capitals(text: Broken) -> bool:
+    """Whether Python reads a line if its first word is written in small letters."""
+    match = re.match(r"[ \t]*(?P<word>[A-Za-z]+)", text.line)
+    if match is None or not keyword.iskeyword(match["word"].lower()):
+        return False
+    return text.changed(text.within(*match.span("word"), match["word"].lower())) is not None
+
+
 def note(text: Broken) -> Slip | None:
     """Return a line of plain words: the rest of a comment, or a note without a #."""
     written = text.source.line(text.number)
@@ -358,7 +366,8 @@ def note(text: Broken) -> Slip | None:
     first = match["first"]
     goes_on = comment and first in ("and", "or", "in", "is", "as", "not")
     is_code = first in FOREIGN or keyword.iskeyword(first) or first in ("match", "case", "type")
-    is_code = is_code and not goes_on
+    in_capitals = keyword.iskeyword(first.lower()) and len(words) < 4
+    is_code = (is_code and not goes_on) or in_capitals or is_code_in_capitals(text)
     colon = match["colon"] is not None or match["later"] is not None
     is_name = colon and not first[0].isupper()
     if is_code or (is_name and not comment) or len(words) < (2 if comment else 3):

@@ -18,7 +18,13 @@ from grader.package.source.pasted import WHOLE_LINES, cleaned, pasted_in
 from grader.package.source.slip_blocks import BLOCK_LOOKS, two_statements
 from grader.package.source.slip_brackets import open_bracket
 from grader.package.source.slip_fields import FIELD_LOOKS
-from grader.package.source.slip_forms import FORM_LOOKS, LAST_FORM_LOOKS, innermost, note
+from grader.package.source.slip_forms import (
+    FORM_LOOKS,
+    LAST_FORM_LOOKS,
+    innermost,
+    is_code_in_capitals,
+    note,
+)
 from grader.package.source.slip_future import FUTURE_LOOKS
 from grader.package.source.slip_indent import behind_colon, first_of_block, further_in
 from grader.package.source.slip_joined import JOINED_LOOKS
@@ -125,7 +131,7 @@ PROSE = re.compile(r"[A-Z][a-z']{0,30}(?:,? [\w'`-]{1,40}){3,40}[.:!]?")
 def _prose(text: Broken) -> Slip | None:
     """Return a sentence at the margin that is no code."""
     written = text.source.line(text.number).rstrip()
-    if PROSE.fullmatch(written) is None:
+    if PROSE.fullmatch(written) is None or is_code_in_capitals(text):
         return None
     new = text.source.spliced([text.source.without(text.number)])
     return Slip("pasted", "prose", text.number, written, fixed=new)
