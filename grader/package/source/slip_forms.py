@@ -366,7 +366,7 @@ def note(text: Broken) -> Slip | None:
     first = match["first"]
     goes_on = comment and first in ("and", "or", "in", "is", "as", "not")
     is_code = first in FOREIGN or keyword.iskeyword(first) or first in ("match", "case", "type")
-    in_capitals = keyword.iskeyword(first.lower()) and len(words) < 4
+    in_capitals = first[0].isupper() and keyword.iskeyword(first.lower()) and len(words) < 4
     is_code = (is_code and not goes_on) or in_capitals or is_code_in_capitals(text)
     colon = match["colon"] is not None or match["later"] is not None
     is_name = colon and not first[0].isupper()
