@@ -131,8 +131,9 @@ KINDS = (
                 "Python calls what that line contains."
             ),
             "unreadable": msg(
-                "Fix that line of setup.py, then build again. Often a comma, a "
-                "quote or a bracket is missing in the line above."
+                "Python stops at that line of setup.py. The mistake is there or before it, often at "
+                "the end of the line above. Compare both lines with those that ros2 pkg create "
+                "writes, then build again."
             ),
             "no_import": msg("Add at the top of setup.py, then build again: {statement}"),
             "outside": msg(

@@ -34,6 +34,7 @@ NAMES: Mapping[str, Value] = {
     "module": "xml.dom.Node",
     "turtle": "turtle1",
     "radius": "2",
+    "part": "=",
     "callback": CALLBACK,
     "start": 0,
     "statement": "from rclpy.node import Node",

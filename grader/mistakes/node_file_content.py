@@ -327,8 +327,9 @@ KINDS = (
             "nothing runs."
         ),
         fix=msg(
-            "Look at that line and the line above it: often a bracket, a quote or a colon is "
-            "missing."
+            "Go to the line that the message names. The mistake is at the place that Python shows "
+            "or before it, in this line or at the end of the line above. Compare both lines with "
+            "lines of the same kind that work."
         ),
         fixes={
             "tabs": msg("Indent with spaces only. In VS Code: 'Convert Indentation to Spaces'."),

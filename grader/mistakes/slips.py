@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from grader.base.i18n.message import Message, msg, say
 from grader.base.shown import shown
+from grader.mistakes.slip_forms import FORMS, WORDS
 from grader.package.source.broken_python import Slip
 from grader.package.source.pasted import Pasted
+from grader.package.source.python import PythonFault
 
 WEB = msg(
     "A web page or a document shows code with its own quotes, spaces and labels. If they are copied "
@@ -141,6 +143,7 @@ LANGUAGE = {
     "base": msg("The base class is in round brackets after the name. Write: {wanted}"),
     "member": msg("Python has a dot between an object and its part. Write: {wanted}"),
     "except": msg("Python has try: and except …: for errors, and raise instead of throw."),
+    **WORDS,
     "arrow": msg(
         "Python has no =>. Write a method with def, and give its name without brackets; a short "
         "function without a name begins with lambda."
@@ -170,7 +173,10 @@ SIGNS = {
     "equals": msg(
         "In a call, write name=value: '=' between the two, and no quotes around the name."
     ),
-    "quote": msg("Add the missing quote: a text begins and ends with the same quote, on one line."),
+    "quote": msg(
+        "A text begins and ends with the same quote, on one line, and a quote of this line has no "
+        "other. Add the missing quote; or, if a quote is there that begins and ends no text, delete it."
+    ),
     "apostrophe": msg(
         "The text is in single quotes, so the ' inside it ends the text. Write double quotes around "
         "the text: {wanted}"
@@ -337,7 +343,8 @@ SIGNS = {
     "parameter_outside": msg("The parameters of a def are inside its brackets. Write: {wanted}"),
     "import_comma": msg("An import does not end with a comma. Write: {wanted}"),
     "backslash_end": msg(
-        "A backslash continues a line only if nothing is behind it. Delete the spaces behind it."
+        "A backslash continues a line only if nothing is behind it. Delete the spaces and the comment "
+        "behind it."
     ),
     "colon_inside": msg("A line that begins a block has a colon before the block. Write: {wanted}"),
     "lambda_statement": msg(
@@ -422,7 +429,7 @@ SIGNS = {
     "text_unquoted": msg("A text is in quotes. Write: {wanted}"),
     "loop_word": msg(
         "{wanted} works only inside a loop (for, while), and this line is in none. Delete it, or "
-        "write pass if its block has no other line."
+        "write pass if its block has no other line. To leave a function, write return."
     ),
     "global_late": msg(
         "Move this line up: it comes before all lines of the function that use the name."
@@ -434,7 +441,7 @@ SIGNS = {
     ),
     "outside_function": msg(
         "{wanted} works only inside a function, and this line is in none. Indent it as far as the "
-        "lines of its function."
+        "lines of the function to which it belongs, or delete it if it belongs to none."
     ),
     "await_outside": msg(
         "await and async work only inside an async def, and a node needs neither. Delete that word."
@@ -471,6 +478,7 @@ SIGNS = {
         "A text in three quotes begins in this line and has no end. Write {wanted} where the text "
         "ends."
     ),
+    **FORMS,
 }
 KINDS = {
     "pasted": "source.pasted",
@@ -497,6 +505,13 @@ def words_of(slip: Slip | Pasted) -> dict[str, str]:
     line = str(slip.other) if isinstance(slip, Slip) else ""
     step = shown(slip.step) if isinstance(slip, Slip) else ""
     return {"found": shown(slip.found), "wanted": shown(wanted), "line": line, "step": step}
+
+
+def unexplained(fault: PythonFault) -> str:
+    """Return the variant of a fault for which no slip is known: what Python says of it, and where."""
+    if fault.kind != "syntax" or not fault.part:
+        return fault.kind
+    return "stops_at" if "invalid syntax" in fault.text else "told_at"
 
 
 def description(slip: Slip | Pasted) -> Message:

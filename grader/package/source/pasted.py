@@ -47,7 +47,7 @@ ALONE = ("ls", "pwd", "clear", "ros2", "colcon", "rviz2", "rqt", "rqt_graph")
 OPERATORS = "and|or|in|is|if|else|for|not|as"
 """What Python has between two words of a line."""
 SHELL = rf"""
-    (?:{"|".join(COMMANDS)})[ ]{{1,9}}(?:
+    (?!export[ ]+(?:class|def|default|function|const)\b)(?:{"|".join(COMMANDS)})[ ]{{1,9}}(?:
         (?!(?:{OPERATORS})\b)[A-Za-z_~$"'][^\r\n]{{0,400}}
       | (?:[-+]\w|[\w~./$<>])[^\r\n=(]{{0,400}}
       | \.{{1,2}}

@@ -16,6 +16,7 @@ from grader.package.source.kept import keep_small
 from grader.package.source.newer_python import SINCE, first_difference, with_older_quotes
 
 SHEBANG = "#!/usr/bin/env python3"
+PART = re.compile(r"\.?\d[\w.]*|\w+|[^\w\s]")
 """The first line that the course asks for."""
 
 MOST_BYTES = 100_000
@@ -29,15 +30,19 @@ ENCODINGS = re.compile(
 
 class PythonFault(Exception):  # noqa: N818 - a fault in the student's file, not an error
     """Why Python cannot read a file: `kind` is `encoding`, `syntax`, `indentation`, `tabs`,
-    `null` or `size`; `line` is counted from 1, `shown` is that line's text.
+    `null` or `size`; `line` is counted from 1, `shown` is that line's text, and `part` is what is
+    written in it where Python stops ("" if that is not known).
     """
 
-    def __init__(self, kind: str, text: str, line: int | None = None, shown: str = "") -> None:
+    def __init__(
+        self, kind: str, text: str, line: int | None = None, shown: str = "", part: str = ""
+    ) -> None:
         super().__init__(text)
         self.kind = kind
         self.text = text
         self.line = line
         self.shown = shown
+        self.part = part
 
 
 @dataclass(frozen=True)
@@ -132,8 +137,19 @@ def _fault(error: SyntaxError, text: str) -> PythonFault:
         kind = "indentation"
     lines = text.splitlines()
     line = error.lineno if error.lineno and error.lineno > 0 else None
-    shown = lines[line - 1].strip() if line and line <= len(lines) else ""
-    return PythonFault(kind, f"{type(error).__name__}: {error.msg}"[:300], line, shown[:160])
+    row = lines[line - 1] if line and line <= len(lines) else ""
+    reason = f"{type(error).__name__}: {error.msg}"[:300]
+    return PythonFault(kind, reason, line, row.strip()[:160], _part(error, row))
+
+
+def _part(error: SyntaxError, row: str) -> str:
+    """Return the word or sign of a line at which Python stops; "" if that is not certain."""
+    if not error.offset or error.offset < 1 or not row.isascii() or error.text is None:
+        return ""
+    if error.text.rstrip("\r\n") != row.rstrip("\r\n"):
+        return ""
+    match = PART.match(row, error.offset - 1)
+    return match[0] if match is not None else ""
 
 
 def decode(found: bytes) -> str:

@@ -21,6 +21,7 @@ CLAUSE = re.compile(r"[ \t]*(?:except|finally|else|elif)\b")
 AFTER_COLON = re.compile(r"expected an indented block after .{0,60} on line (?P<line>\d{1,6})")
 TRIPLE = re.compile(r"\"\"\"|'''")
 EQUALS = re.compile(r"(?<![=!<>:+*/%-])=(?!=)")
+CONDITION = re.compile(r"[ \t]*(?:if|elif|while|assert|and|or|not)\b")
 LONGEST_TEXT = 4  # lines of a docstring after which its end is looked for
 
 
@@ -92,7 +93,7 @@ def _capital(text: Broken) -> Slip | None:
 
 def _compare(text: Broken) -> Slip | None:
     """Return one equals sign where two are needed."""
-    if "'=='" not in text.fault.text:
+    if "'=='" not in text.fault.text or CONDITION.match(text.line) is None:
         return None
     for match in list(EQUALS.finditer(text.line))[:MOST_TRIES]:
         splice = text.within(*match.span(), "==")
@@ -110,6 +111,8 @@ def _not_indented(text: Broken) -> Slip | None:
     if match is None or text.fault.kind != "indentation":
         return None
     head, shown = int(match["line"]), text.source.line(text.number).strip()
+    if head == text.number:
+        return Slip("signs", "block_missing", head, shown)
     if not 0 < head < text.number:
         return None
     width = len(indent_of(text.source.line(head)))
@@ -282,12 +285,23 @@ def _def_brackets(text: Broken) -> Slip | None:
     return text.slip("signs", "def_brackets", written, splice, fixed=new) if new else None
 
 
+LONE_NAME = re.compile(r"[ \t]*[A-Za-z_][\w.]*")
+ENDS_NAME = re.compile(r"[A-Za-z_]\w*\Z")
+OPENS_CALL = re.compile(r"[A-Za-z_]\w*[ \t]*\(")
+
+
 def two_statements(text: Broken) -> Slip | None:
     """Return two statements on one line."""
     indent = indent_of(text.line)
     for match in list(
         re.finditer(r"(?<=[)\w'\"])[ \t]+(?=[A-Za-z_][\w.]*[ \t]*[(=+-])", text.line)
     ):
+        if LONE_NAME.fullmatch(text.line[: match.start()]):
+            continue  # two words of one name, or a call without brackets
+        if OPENS_CALL.match(text.line, match.end()) and ENDS_NAME.search(
+            text.line[: match.start()]
+        ):
+            continue
         splice = text.within(*match.span(), text.source.newline + indent)
         new = text.changed(splice)
         if new is not None and can_parse(new):

@@ -103,6 +103,8 @@ def _goes_on(text: Broken) -> Slip | None:
 
 def _dot(text: Broken) -> Slip | None:
     """Return a missing dot between an object and its part."""
+    if re.match(r"[ \t]*(?:import|from)\b", text.line):
+        return None
     matches = list(DOT_MISSING.finditer(text.line))[:MOST_TRIES]
     spans = [m.span(next(g for g in ("log", "super", "object") if m[g])) for m in matches]
     splices = [text.within(*span, ".") for span in spans]
@@ -153,6 +155,8 @@ def _cast(text: Broken) -> Slip | None:
 
 def _separator(text: Broken) -> Slip | None:
     """Return a ; or a : between two values in brackets."""
+    if re.search(r"\blambda\b", text.line):
+        return None
     for match in list(SEPARATOR.finditer(text.line))[:MOST_TRIES]:
         at = text.code.start_of(text.number) + match.start("sign")
         if not _in_round(text.code.text[:at]):

@@ -26,6 +26,7 @@ WORD_AS_NAME = (
     re.compile(r"^[ \t]*(?:def|class)[ \t]+(?P<name>[A-Za-z]+)[ \t]*[(:]"),
     re.compile(r"\.(?P<name>[a-z]+)\b"),
     re.compile(r"^[ \t]*(?P<name>[a-z]+)[ \t]*=(?!=)"),
+    re.compile(r"[(,][ \t]*(?P<name>[a-z]+)[ \t]*=(?!=)"),
 )
 FIRST_WORD = re.compile(r"^[ \t]*(?P<word>[a-z]{2,8})\b(?=[ \t]+[\w('\"]|[ \t]*:)")
 WORDS = (
@@ -39,6 +40,7 @@ NO_NAME = re.compile(r"^[ \t]*(?:from[ \t]+[\w.]+[ \t]+)?import(?:[ \t]+[\w.]+[ 
 CALL_WITHOUT = re.compile(
     rf"^[ \t]*(?P<name>{PLACE}(?:\(\)\.[\w.]{{1,80}})?)(?P<blank>[ \t]+)(?P<given>[\w'\"].*?)[ \t]*$"
 )
+ASSIGNS_ALSO = re.compile(r"[^('\"=]+(?<![=!<>])=(?!=)")
 HANDLER = re.compile(r"^[ \t]*except[ \t]+(?P<types>[\w.]+[ \t]*,[ \t]*(?P<last>\w+))[ \t]*:")
 OPERANDS = re.compile(r"(?P<before>[\w'\")\]}])(?P<blank>[ \t]+|[ \t]*[\r\n][ \t\r\n]*)(?=[\w'\"])")
 ASSIGNS = re.compile(r"[ \t]*(?:return\b|[A-Za-z_][\w.]{0,80}[ \t]*\+?=(?!=))")
@@ -125,7 +127,7 @@ def _renamed(text: Broken, word: str) -> bytes | None:
 def _word(text: Broken) -> Slip | None:
     """Return a misspelt word of Python at the start of a line."""
     match = FIRST_WORD.match(text.line)
-    if match is None or match["word"] in WORDS:
+    if match is None or match["word"] in (*WORDS, "print", "switch", "foreach"):
         return None
     close = MISSPELT.get(match["word"]) or nearest(match["word"], WORDS, cutoff=0.7)
     splice = text.within(*match.span("word"), close)
@@ -155,7 +157,7 @@ def _import(text: Broken) -> Slip | None:
 def _call(text: Broken) -> Slip | None:
     """Return a call without brackets, on a line of its own."""
     match = CALL_WITHOUT.match(text.line)
-    if match is None or keyword.iskeyword(match["name"]):
+    if match is None or keyword.iskeyword(match["name"]) or ASSIGNS_ALSO.match(text.line):
         return None
     if "." not in match["name"] and match["name"] != "print":
         return None
@@ -186,13 +188,33 @@ def _between(text: Broken) -> Slip | None:
     inside = "forgot a comma" in text.fault.text
     if not inside and ASSIGNS.match(text.line) is None:
         return None
+    if re.search(r"\blambda\b[^:]*:[ \t]*$", _above(text)):
+        return None
     for splices, variant in _ways(text):
-        if variant == "comma_missing" and not inside:
+        if variant == "comma_missing" and (not inside or CALLED_NUMBER.search(text.line)):
             continue
         new = text.changed(*splices)
         if new is not None:
+            at = splices[0].start - text.code.start_of(text.number)
+            if variant == "comma_missing" and _are_names(text.line, at):
+                return text.slip("signs", "comma_or_name", text.source.line(text.number), *splices)
             return text.slip("signs", variant, text.source.line(text.number), *splices, fixed=new)
     return None
+
+
+CALLED_NUMBER = re.compile(r"(?<![\w.])\d[\d.]*[ \t]*\(")
+
+
+def _are_names(line: str, at: int) -> bool:
+    """Whether two names are beside a place of a line that is no def."""
+    before, after = line[:at], line[at:]
+    is_def = re.match(r"[ \t]*(?:async[ \t]+)?def\b", line) is not None
+    names = re.search(r"[A-Za-z_]\w*\Z", before) and re.match(r"[ \t]+[A-Za-z_]", after)
+    return names is not None and not is_def
+
+
+def _above(text: Broken) -> str:
+    return text.code.line(text.number - 1) if text.number > 1 else ""
 
 
 def _ways(text: Broken) -> Iterator[tuple[list[Splice], str]]:
@@ -206,7 +228,8 @@ def _ways(text: Broken) -> Iterator[tuple[list[Splice], str]]:
         quoted = {match["before"], code[match.end()]} & {"'", '"'}
         is_text = any((TEXTS.search(code[: match.end()]), CONVERTED.match(code, match.end())))
         shown = is_text or _ends_path(text, at) or ASSIGNS.match(code)
-        if quoted and shown and match["blank"].strip("\r\n"):
+        number = code[match.end()].isdigit()
+        if quoted and shown and not number and match["blank"].strip("\r\n"):
             plus = Splice(at, at + len(match["blank"]), " + ")
             values = [] if _ends_path(text, at) else [*_as_text(code, match, start)]
             yield [plus, *values], "plus_missing"
@@ -365,3 +388,19 @@ STATEMENT_LOOKS: tuple[Look, ...] = (
     _says(r"leading zeros in decimal", "number_zeros"),
     _word_as_name,
 )  # fmt: skip
+MESSAGE_LOOKS: tuple[Look, ...] = (
+    _says(r"Missing parentheses in call to '(\w+)'", "call_of_word"),
+    _says(r"cannot contain assignment", "call_assigns"),
+    _says(r"cannot use assignment expressions with", "walrus_place"),
+    _says(r"':' expected after dictionary key", "key_alone"),
+    _says(r"expression expected after dictionary key", "value_missing"),
+    _says(r"unexpected character after line continuation", "backslash_alone"),
+    _says(r"makes remaining patterns unreachable", "case_last"),
+    _says(r"default 'except:' must be last", "except_last"),
+    _says(r"import \* only allowed at module level", "import_star"),
+    _says(r"expected default value expression", "default_missing"),
+    _says(r"Generator expression must be parenthesized", "generator"),
+    _says(r"(?:multiple exception types must be parenthesized)", "handler_types"),
+    _says(r"comprehension target", "comprehension"),
+    _says(r"future feature (\w+) is not defined", "future_unknown"),
+)

@@ -43,9 +43,18 @@ RULES = (
 )  # fmt: skip
 
 
+COMPARES = re.compile(r"[ \t]*(?:if|elif|while|assert|return|and|or|not)\b|[^=]*[(\[]")
+
+
 def _by_rule(text: Broken) -> Slip | None:
     for rule in RULES:
         for match in list(rule.pattern.finditer(text.line))[:MOST_TRIES]:
+            if (
+                rule.variant == "operator_split"
+                and match["sign"] == "="
+                and not COMPARES.match(text.line)
+            ):
+                continue
             splice = text.within(*match.span(), text.expanded(match, rule.new))
             new = text.changed(splice)
             if new is not None:
@@ -57,7 +66,7 @@ def _by_rule(text: Broken) -> Slip | None:
 def _colon_inside(text: Broken) -> Slip | None:
     """Return a block behind its head on one line, without the colon between the two."""
     head = re.match(rf"[ \t]*(?:{BLOCK})\b", text.line)
-    if head is None or text.line.rstrip().endswith(":"):
+    if head is None or "'else'" in text.fault.text or text.line.rstrip().endswith(":"):
         return None
     found = []
     for match in list(re.finditer(r"[ \t]+(?=[\w'\"])", text.line[head.end() :]))[: 2 * MOST_TRIES]:
@@ -170,7 +179,7 @@ def _first_quote(text: Broken, match: re.Match[str]) -> Slip | None:
 
 
 SIGNS = {"\u2192": "->", "\u21d2": "=>", "\u2260": "!=", "\u2264": "<=", "\u2265": ">=",
-         "\u00d7": "*", "\u00f7": "/", "\u2217": "*", "\u2215": "/"}  # fmt: skip
+         "\u00d7": "*", "\u00f7": "/", "\u00b2": "**2", "\u00b3": "**3", "\u2217": "*", "\u2215": "/"}  # fmt: skip
 
 
 def _character(text: Broken) -> Slip | None:

@@ -18,14 +18,22 @@ from grader.package.source.pasted import WHOLE_LINES, cleaned, pasted_in
 from grader.package.source.slip_blocks import BLOCK_LOOKS, two_statements
 from grader.package.source.slip_brackets import open_bracket
 from grader.package.source.slip_fields import FIELD_LOOKS
+from grader.package.source.slip_forms import (
+    FORM_LOOKS,
+    LAST_FORM_LOOKS,
+    innermost,
+    is_code_in_capitals,
+    note,
+)
 from grader.package.source.slip_future import FUTURE_LOOKS
 from grader.package.source.slip_indent import behind_colon, first_of_block, further_in
 from grader.package.source.slip_joined import JOINED_LOOKS
 from grader.package.source.slip_output import OUTPUT_LOOKS
-from grader.package.source.slip_statements import STATEMENT_LOOKS
+from grader.package.source.slip_statements import MESSAGE_LOOKS, STATEMENT_LOOKS
 from grader.package.source.slip_tabs import tab
 from grader.package.source.slip_try import try_block
 from grader.package.source.slip_typed import LATE_LOOKS, QUOTE_LOOKS, TYPED_LOOKS
+from grader.package.source.slip_words import WORD_LOOKS, block_word, two_words
 
 TYPES = (
     "int|float|double|bool|boolean|string|String|var|let|const|auto|char|long|size_t|std::string"
@@ -123,7 +131,7 @@ PROSE = re.compile(r"[A-Z][a-z']{0,30}(?:,? [\w'`-]{1,40}){3,40}[.:!]?")
 def _prose(text: Broken) -> Slip | None:
     """Return a sentence at the margin that is no code."""
     written = text.source.line(text.number).rstrip()
-    if PROSE.fullmatch(written) is None:
+    if PROSE.fullmatch(written) is None or is_code_in_capitals(text):
         return None
     new = text.source.spliced([text.source.without(text.number)])
     return Slip("pasted", "prose", text.number, written, fixed=new)
@@ -230,13 +238,12 @@ RULES = (
           r"\g<start>from \g<module> import \g<what>"),
     _rule("base", r"^(?P<start>[ \t]*class[ \t]+\w+)[ \t]*(?:\[(?P<in>[\w., ]*)\]|<(?P<less>[\w., ]*)>)",
           r"\g<start>(\g<in>\g<less>)"),
-    _rule("base", r"^(?P<start>[ \t]*class[ \t]+\w+)[ \t]*(?:extends[ \t]+|:[ \t]*(?:public[ \t]+)?)(?P<base>\w[\w.]*)[ \t]*:?[ \t]*$",
+    _rule("base", r"^(?P<start>[ \t]*class[ \t]+\w+)[ \t]*(?:(?:extends|inherits|implements|from)[ \t]+|:[ \t]*(?:public[ \t]+)?)(?P<base>\w[\w.]*)[ \t]*:?[ \t]*$",
           r"\g<start>(\g<base>):"),
-    _rule("member", r"(?<=\w)[ \t]*->[ \t]*(?=[A-Za-z_])", "."),
-    _rule("member", r"(?<=[)\]])[ \t]*->[ \t]*(?=[A-Za-z_])", ".", certain=False),
-    _rule("member", r"(?<=\w)::(?=[A-Za-z_])", ".", certain=False),
+    _rule("member", r"(?<=\w)[ \t]*->[ \t]*(?!(?:self|this)\b)(?=[A-Za-z_])", "."),
+    _rule("member", r"(?<=[)\]])[ \t]*->[ \t]*(?!(?:self|this)\b)(?=[A-Za-z_])", ".", certain=False),
+    _rule("member", r"(?<=[\w)])::(?=[A-Za-z_])", ".", certain=False),
     _rule("except", r"^[ \t]*(?:\}[ \t]*)?catch\b", None),
-    _rule("except", r"^(?P<start>[ \t]*)throw\b", r"\g<start>raise"),
     _rule("function", r"^(?P<start>[ \t]*)(?P<name>\w+)[ \t]*=[ \t]*\((?P<given>[^()]*)\)[ \t]*=>[ \t]*\{?[ \t]*$",
           r"\g<start>def \g<name>(\g<given>):", certain=False),
     _rule("arrow", r"=>", None),
@@ -361,6 +368,8 @@ def _keys(text: Broken) -> Slip | None:
     """Return a key with `=` in a dict, or a name with `:` or in quotes in a call."""
     for number, match in _key_matches(text):
         start = text.code.start_of(number)
+        if not innermost(text.code.text[: start + match.start("key")]):
+            continue
         key = text.source.text[start + match.start("key") : start + match.end("key")]
         sign = Splice(start + match.start("sign"), start + match.end("sign"), "")
         bare = key.strip("'\"")
@@ -444,6 +453,10 @@ def _quotes(text: Broken) -> Slip | None:
     return text.slip("signs", "quote", written)
 
 
+OWN_QUOTE = re.compile(r"\b[fF](?P<quote>['\"])[^{}'\"]*\{[^{}]*?(?P=quote)[^{}]*[{}]")
+"""An f-string in whose braces is a quote of its own kind."""
+
+
 def _brace(text: Broken) -> Slip | None:
     """Return an f-string with a brace that is not closed."""
     written = text.source.line(text.number)
@@ -463,7 +476,10 @@ def _brace(text: Broken) -> Slip | None:
             new = text.changed(splice)
             if new is not None:
                 return text.slip("signs", "brace_twice", written, splice, fixed=new)
-    return text.slip("signs", "brace_alone" if single else "brace_wrong", written)
+    variant = "brace_alone" if single else "brace_wrong"
+    if not single and OWN_QUOTE.search(written):
+        variant = "field_quotes"
+    return text.slip("signs", variant, written)
 
 
 CONSTRUCTOR = re.compile(
@@ -500,6 +516,6 @@ def _global(text: Broken) -> Slip | None:
 
 
 LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
-    _conflict, *FUTURE_LOOKS, _prose, *OUTPUT_LOOKS, _numbers, *FIELD_LOOKS, _brace, _global, _do_while, _constructor, _braces, _comment, _commas, _apostrophe, *QUOTE_LOOKS, _quotes, _keys, open_bracket, tab, behind_colon, try_block,
-    *JOINED_LOOKS, *TYPED_LOOKS, *STATEMENT_LOOKS, first_of_block, *BLOCK_LOOKS, further_in, _other_sign, *LATE_LOOKS, two_statements,
+    _conflict, *FUTURE_LOOKS, _prose, *OUTPUT_LOOKS, _numbers, *FIELD_LOOKS, _brace, _global, _do_while, _constructor, _braces, note, _comment, *WORD_LOOKS, *FORM_LOOKS, _commas, _apostrophe, *QUOTE_LOOKS, _quotes, _keys, open_bracket, tab, behind_colon, try_block,
+    *JOINED_LOOKS, *TYPED_LOOKS, *STATEMENT_LOOKS, first_of_block, *BLOCK_LOOKS, further_in, _other_sign, *LATE_LOOKS, two_words, two_statements, block_word, *LAST_FORM_LOOKS, *MESSAGE_LOOKS,
 )  # fmt: skip

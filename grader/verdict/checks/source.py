@@ -11,7 +11,7 @@ from grader.base.i18n.message import joined, say
 from grader.base.nearest import nearest, with_difference
 from grader.base.shown import shown
 from grader.mistakes.hints import hints
-from grader.mistakes.slips import KINDS, description, words_of
+from grader.mistakes.slips import KINDS, description, unexplained, words_of
 from grader.package.edit.text import read_source
 from grader.package.source.broken_python import Slip
 from grader.package.source.documents import code_cells, document_of
@@ -359,8 +359,8 @@ def _not_python(path: str, fault: PythonFault, found: bytes) -> Failed:
         expected=say("a file that Python can read"),
         actual=joined(text, code, by=", "),
         where=Where(file=path, line=line),
-        words={"line": str(line), "found": shown(name)},
-        variant=kind_of_encoding(found) if fault.kind == "encoding" else fault.kind,
+        words={"line": str(line), "found": shown(name), "part": shown(fault.part)},
+        variant=kind_of_encoding(found) if fault.kind == "encoding" else unexplained(fault),
         params={"error": str(text), "kind": fault.kind},
     )
 

@@ -7,6 +7,8 @@ import re
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
+from grader.base.shown import shown
+from grader.package.source.newer_python import with_older_quotes
 from grader.package.source.python import PythonFault, parse_python
 from grader.verdict.checks.actual_node import actual_path
 from grader.verdict.checks.declare import RUN, check
@@ -80,14 +82,17 @@ def _ended(evidence: Evidence) -> Outcome:
         manifest = evidence.has_failed("package.manifest")
         return Blocked(by="package.manifest" if manifest else "build.colcon")
     error, where = traceback_of(evidence, run)
-    newer = _newer_line(evidence) if error.startswith("SyntaxError") else 0
+    newer, older = _newer_line(evidence) if error.startswith("SyntaxError") else (0, "")
     if newer and evidence.distro is not None:
         return Inconclusive(
             say(
-                "line {line} of the node's file needs Python {version}, which ROS {distro} has; this "
-                "grader runs with an older one. Run it with that Python (make setup "
-                "PYTHON=python{version}), or mark in a container.",
+                "the f-string in line {line} of the node's file contains, in a value, the quotes that are "
+                "around it. Only Python {version} and later can read that: ROS {distro} has it, but this "
+                "grader runs with an older Python. Write that line so that every Python 3 can read it, "
+                "and grade again: {code} (Or run the grader with that Python, make setup "
+                "PYTHON=python{version}, or mark in a container.)",
                 line=str(newer),
+                code=shown(older),
                 version=evidence.distro.python,
                 distro=evidence.distro.name,
             )
@@ -113,15 +118,19 @@ def _ended(evidence: Evidence) -> Outcome:
     )
 
 
-def _newer_line(evidence: Evidence) -> int:
-    """Return the line of the node's file that needs a newer Python than this one; 0 if none."""
+def _newer_line(evidence: Evidence) -> tuple[int, str]:
+    """Return the line of the node's file that needs a newer Python than this one (0 if none does),
+    and how it is written for every Python 3.
+    """
     file = evidence.submission.file(actual_path(evidence))
     if file is None or file.kind != "file":
-        return 0
+        return 0, ""
     try:
-        return parse_python(file.data).newer
+        parsed = parse_python(file.data)
     except PythonFault:
-        return 0
+        return 0, ""
+    older = with_older_quotes(parsed.text) if parsed.newer else None
+    return parsed.newer, older.splitlines()[parsed.newer - 1].strip() if older else ""
 
 
 def _others_start(evidence: Evidence) -> None:
