@@ -432,7 +432,8 @@ KINDS = (
         fix=msg("Write <name>{package}</name> in package.xml, then build again."),
         fixes={
             "setup": msg(
-                "Set name (or package_name) in setup.py to '{package}', then build again."
+                "Give setup() the name '{package}', then build again. If the name comes from a "
+                "variable, correct the value of the variable."
             ),
             "throughout": msg(
                 "Use the name {package} in package.xml, setup.py, setup.cfg and for "

@@ -67,10 +67,10 @@ KINDS = (
                 "install it by that name: ['resource/{package}']. Then build again."
             ),
             "other": msg(
-                "Make that line install 'resource/{package}': set package_name in setup.py "
-                "to '{package}'. Then build again."
+                "Make that line install 'resource/{package}', then build again. If the name comes "
+                "from a variable, correct the value of the variable."
             ),
-            "path": msg("Write ['resource/' + package_name] in that line, then build again."),
+            "path": msg("Write ['resource/{package}'] in that line, then build again."),
             "moved": msg("Rename the folder {close} to resource, then build again."),
             "inner": msg(
                 "Move it out of the inner folder. In the package's folder, run: mv {there} ."

@@ -11,15 +11,14 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import Message, joined, say
 from grader.base.nearest import nearest
 from grader.base.shown import shown
-from grader.mistakes.fixes.setup_cfg import KEYS
 from grader.mistakes.slips import description, words_of
 from grader.package.source.module import parse_module
 from grader.package.source.names import dotted
 from grader.package.source.pasted import labels_in
 from grader.package.source.python import PythonFault
-from grader.package.source.setup_cfg import Setting, SetupCfgFault, read_setup_cfg
-from grader.package.source.setup_faults import NOT_REACHED, UNREAD, SetupFault, setup_fault
-from grader.package.source.setup_packages import packages_of
+from grader.package.source.setup_cfg import KEYS, Setting, SetupCfgFault, read_setup_cfg
+from grader.package.source.setup_faults import INSIDE, NOT_REACHED, UNREAD, SetupFault, setup_fault
+from grader.package.source.setup_packages import packages_of, parsed_setup, setup_call
 from grader.package.source.setup_py import called_value, entry_outside, missing_imports
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
@@ -46,6 +45,9 @@ NO_OPTION = re.compile(
 EGG_BASE = re.compile(r"error: error in 'egg_base' option: '[^'\n]{1,200}'")
 NOT_WRITTEN = re.compile(
     r"error: \[Errno \d{1,3}\] (?:Read-only file system|Permission denied): '(?P<path>[^'\n]{1,200})'"
+)
+NO_VARIABLE = re.compile(
+    r"^ValueError: invalid variable '|^configparser\.Interpolation\w{1,40}Error: ", re.MULTILINE
 )
 IGNORED = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 """Files for which colcon passes over a folder."""
@@ -86,8 +88,8 @@ def colcon_builds(evidence: Evidence) -> Passed:
         raise Blocked(by="entry_point.mapping")
     if evidence.has_mistake("package.setup_cfg", "package.setup_cfg_syntax"):
         raise Blocked(by="package.setup_cfg")
-    elsewhere = NOT_WRITTEN.search(build.log)
-    if evidence.has_failed("package.setup_cfg") and elsewhere is not None:
+    of_path = NOT_WRITTEN.search(build.log) or NO_VARIABLE.search(build.log)
+    if evidence.has_failed("package.setup_cfg") and of_path is not None:
         raise Blocked(by="package.setup_cfg")
     of_group = evidence.has_mistake("entry_point.mapping", "setup.group_misspelt")
     if of_group and BAD_GROUP in build.log:
@@ -165,6 +167,7 @@ def _ros_line(found: bytes) -> int | None:
 def _broken(evidence: Evidence) -> Failed:
     build = evidence.build
     error, line = setup_error(build.log)
+    error = re.sub(r"^(?:\w+\.)+(?=Invalid)", "", error)
     where = Where(file="setup.py", line=line)
     expected = say("colcon build ends with: Summary: 1 package finished")
     if ANSWER in build.log and error.startswith(("SyntaxError", "ValueError", "IndentationError")):
@@ -206,6 +209,9 @@ def _broken(evidence: Evidence) -> Failed:
     if error:
         return _raised(evidence, expected, error, where)
     folder = NO_FOLDER.search(build.log)
+    source = _fault(evidence, folder[0]) if folder is not None else None
+    if folder is not None and source is not None:
+        return _refused(expected, folder[0], source)
     if folder is not None or FLAT in build.log:
         return _not_packaged(evidence, expected, shown(folder[1]) if folder is not None else "")
     ignored = [name for name in IGNORED if evidence.submission.file(name) is not None]
@@ -233,20 +239,51 @@ def _broken(evidence: Evidence) -> Failed:
     copy = NO_COPY.search(build.log) or EGG_BASE.search(build.log)
     fault = _fault(evidence, copy[0]) if copy is not None else None
     if copy is not None and fault is not None:
-        return Failed(
-            "build.failed",
-            expected=expected,
-            actual=copy[0],
-            where=Where(file="setup.py", line=fault.line),
-            variant=fault.variant,
-            params={"status": -1 if build.status is None else build.status, "error": copy[0]},
-            words=fault.words,
-        )
+        return _refused(expected, copy[0], fault)
+    last = _last_error(build.log)
     return Failed(
         "build.failed",
         expected=expected,
-        actual=_summary(build.log) or ended,
+        actual=last or _summary(build.log) or ended,
+        where=_named_in(_setup_py(evidence), last),
+        variant="last" if last else "",
         params={"status": -1 if build.status is None else build.status},
+    )
+
+
+def _last_error(log: str) -> str:
+    """Return the last line with which a program of the build says why it stopped; "" if none."""
+    found = re.findall(
+        r"^(?:error: |error in \S{1,80} |file \S{1,200} \(for ).*$", log, re.MULTILINE
+    )
+    return found[-1][:400] if found else ""
+
+
+def _named_in(found: bytes, error: str) -> Where | None:
+    """Return the one line of setup.py with the path that an error names; None if it is unknown."""
+    path = re.search(r"'([^'\n]{1,300})'", error)
+    module = parsed_setup(found)
+    if path is None or module is None:
+        return None
+    lines = {
+        node.lineno
+        for node in module.nodes
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value.strip("/.")
+        if f"/{path[1]}".endswith(f"/{node.value.strip('/')}")
+    }
+    return Where(file="setup.py", line=lines.pop()) if len(lines) == 1 else None
+
+
+def _refused(expected: str, error: str, fault: SetupFault) -> Failed:
+    """Return that the build stopped at a value of setup.py."""
+    return Failed(
+        "build.failed",
+        expected=expected,
+        actual=error,
+        where=Where(file="setup.py", line=fault.line),
+        variant=fault.variant,
+        params={"error": error},
+        words=fault.words,
     )
 
 
@@ -299,19 +336,29 @@ def _not_packaged(evidence: Evidence, expected: str, folder: str) -> Failed:
     """Return that `packages` names a folder that is not there, or that setup() has no packages."""
     package = evidence.assignment.package
     found = packages_of(_setup_py(evidence), package, nested=has_subpackages(evidence))
-    actual = say("setup() has no argument packages=")
+    actual, line = say("setup() gets no packages"), found.line
     variant = "import" if found.statement else "misspelt" if found.misspelt else "argument"
     if folder:
         actual = say("setup.py names a folder that is not in the package: {folder}", folder=folder)
         variant = "import" if found.statement else "text" if found.is_text else "folder"
+        others = {name: at for name, at in found.extra.items() if name.replace(".", "/") == folder}
+        if found.is_there and others:
+            variant, line = "other_folder", min(others.values())
+        elif found.is_there or (found.is_moved and not found.is_text):
+            variant = "unknown_folder"
     return Failed(
         "setup.not_packaged",
         expected=expected,
         actual=actual,
-        where=Where(file="setup.py", line=found.line),
+        where=Where(file="setup.py", line=line),
         variant=variant,
         params={"folder": folder} if folder else {},
-        words={"wanted": found.wanted, "statement": found.statement, "name": found.misspelt},
+        words={
+            "wanted": found.wanted,
+            "statement": found.statement,
+            "name": found.misspelt,
+            "path": folder,
+        },
     )
 
 
@@ -328,11 +375,14 @@ def _answer(evidence: Evidence, expected: str) -> Failed:
             params={"error": UNREAD},
             words=fault.words,
         )
+    writes = any(word in code for word in (b"print", b"stdout", b"system", b"subprocess"))
+    printed = say("setup.py prints something: colcon could not read its answer")
     return Failed(
         "build.setup_prints",
         expected=expected,
-        actual=say("setup.py prints something: colcon could not read its answer"),
+        actual=printed if writes else say("colcon could not read the answer of setup.py"),
         where=Where(file="setup.py", line=_first_print(evidence)),
+        variant="" if writes else "answer",
     )
 
 
@@ -366,7 +416,16 @@ def _never_called(found: bytes) -> _NeverCalled:
                 return _NeverCalled("function", statement.lineno, statement.name)
     if not exits and any(n in ast.walk(s) for n in calls for s in _plain(module.tree.body)):
         return _NeverCalled("refused", calls[0].lineno)
-    return _NeverCalled()
+    ends = [s.lineno for s in _plain(module.tree.body) if _is_exit(s)]
+    if ends and ends[0] < calls[0].lineno:
+        return _NeverCalled("", ends[0])
+    return _NeverCalled("not_done")
+
+
+def _is_exit(statement: ast.stmt) -> bool:
+    """Whether a statement is a call such as sys.exit()."""
+    value = statement.value if isinstance(statement, ast.Expr) else None
+    return isinstance(value, ast.Call) and dotted(value.func) in EXITS
 
 
 def _plain(body: list[ast.stmt]) -> list[ast.stmt]:
@@ -376,10 +435,12 @@ def _plain(body: list[ast.stmt]) -> list[ast.stmt]:
 
 def _never(variant: str) -> Message:
     """Return what is known if setup() did not finish its work."""
-    if variant in ("refused", "entries_list", "entries_dict"):
+    if variant in ("entries_list", "entries_dict") or variant.startswith("refused"):
         return say("setuptools stopped in setup(), and gave no reason")
     if variant == "guard":
         return say("the condition above setup() is never true, so nothing calls it")
+    if variant == "not_done":
+        return say("setup.py ended, and setup() had not done its work")
     return say("setup.py ended before it called setup()")
 
 
@@ -422,11 +483,22 @@ def _raised(evidence: Evidence, expected: str, error: str, where: Where) -> Fail
             {"line": str(found.end_lineno)},
         )
         return _stopped_with(expected, error, place, "comma", words=words)
-    fault = _fault(evidence, error)
+    inside = _is_inside(evidence.build.log, error)
+    fault = _fault(evidence, error) or (_fault(evidence, INSIDE) if inside else None)
     if fault is not None:
         place = Where(file="setup.py", line=fault.line)
         return _stopped_with(expected, error, place, fault.variant, words=fault.words)
-    return _stopped_with(expected, error, where)
+    return _stopped_with(expected, error, where, "inside" if inside else "")
+
+
+def _is_inside(log: str, error: str) -> bool:
+    """Whether an error comes from what setup() called, or from colcon's reading of its values."""
+    of_setup = log[: max(0, log.rfind(error[:200]))]
+    frames = re.findall(r'^  File "([^"\n]{1,300})", line \d+, in ', of_setup, re.MULTILINE)
+    own = [n for n, path in enumerate(frames) if path.endswith("/setup.py") or path == "<string>"]
+    called = frames[own[-1] + 1 :] if own else frames
+    parts = ("setuptools/", "distutils/", "colcon_")
+    return any(part in path for path in called for part in parts)
 
 
 def _stopped_with(
@@ -452,11 +524,19 @@ def _stopped_with(
 
 def _unreadable(evidence: Evidence, expected: str, error: str, where: Where) -> Failed:
     repeated = re.search(r"keyword argument repeated: (\w{1,80})", error)
+    twice = _repeated(_setup_py(evidence), repeated[1]) if repeated is not None else []
     outside = entry_outside(_setup_py(evidence))
     slip = slip_of(_setup_py(evidence)) if repeated is None and outside is None else None
     variant, words = "unreadable", {}
     if repeated is not None:
         variant, words = "repeated", {"name": repeated[1]}
+        if len(twice) == 2:
+            first, last = twice
+            variant = "repeated_lines"
+            words = {"name": repeated[1], "line": str(first.lineno), "last": str(last.lineno)}
+            empty = [one for one in twice if _is_empty(one.value)]
+            if len(empty) == 1:
+                variant, where = "repeated_empty", Where(file="setup.py", line=empty[0].lineno)
     elif outside is not None:
         variant, words = "outside", {"line": str(outside.above)}
         where = Where(file="setup.py", line=outside.line)
@@ -477,6 +557,22 @@ def _unreadable(evidence: Evidence, expected: str, error: str, where: Where) -> 
         params={"error": error},
         words=words,
     )
+
+
+def _repeated(found: bytes, name: str) -> list[ast.keyword]:
+    """Return the arguments of setup() with a name."""
+    module = parsed_setup(found)
+    call = setup_call(module) if module is not None else None
+    return [k for k in call.keywords if k.arg == name] if call is not None else []
+
+
+def _is_empty(node: ast.expr) -> bool:
+    """Whether a value is an empty list, text or dict, or contains only such values."""
+    if isinstance(node, ast.Dict):
+        return all(_is_empty(value) for value in node.values)
+    if isinstance(node, ast.List | ast.Tuple):
+        return not node.elts
+    return isinstance(node, ast.Constant) and node.value in ("", None)
 
 
 def _setup_py(evidence: Evidence) -> bytes:
@@ -512,7 +608,8 @@ def setup_error(log: str) -> tuple[str, int | None]:
 def python_error(text: str, file: str) -> tuple[str, int | None]:
     """Return the last Python error in a text ("TypeError: …") and its line in `file`, if any."""
     errors = re.findall(
-        r"^((?:[A-Za-z_][\w.]*\.)?[A-Z]\w*(?:Error|Exception|Exit|Interrupt|Iteration)(?:: .*)?)$",
+        r"^((?:[A-Za-z_][\w.]*\.)?(?:[A-Z]\w*(?:Error|Exception|Exit|Interrupt|Iteration)|"
+        r"Invalid[A-Z]\w*)(?:: .*)?)$",
         text,
         re.MULTILINE,
     )

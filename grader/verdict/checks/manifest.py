@@ -13,6 +13,7 @@ from grader.base.nearest import meant, nearest, there_is, with_difference
 from grader.base.shown import shown
 from grader.package.source.broken_xml import TAGS, XmlFault, xml_fault
 from grader.package.source.manifest import (
+    DEPENDS,
     REQUIRED,
     Element,
     Manifest,
@@ -419,6 +420,35 @@ def _of_ros_1(names: Mapping[str, int]) -> list[str]:
     ]
 
 
+def _misplaced_depend(manifest: Manifest) -> Message | None:
+    """Return advice on a dependency on rclpy that is inside of another tag."""
+    inside = (e for e in manifest.elements if DEPENDS.fullmatch(e.tag) and e.within != "package")
+    element = next((e for e in inside if e.text == "rclpy"), None)
+    if element is None:
+        return None
+    return say(
+        "package.xml, line {line}: <{tag}>{name}</{tag}> does not count inside of <{within}>. Move "
+        "it out of that tag, so that it is directly inside of <package>. It runs here because "
+        "rclpy is installed anyway.",
+        line=element.line,
+        tag=shown(element.tag),
+        name=element.text,
+        within=shown(element.within),
+    )
+
+
+def _cpp_library(names: Mapping[str, int]) -> Message | None:
+    """Return advice on a dependency on ROS's library for C++, if there is none on Python's."""
+    if "rclcpp" not in names:
+        return None
+    return say(
+        "package.xml, line {line}: '{name}' is the library of ROS for C++. A node in Python needs "
+        "rclpy: write <depend>rclpy</depend> instead. It runs here because rclpy is installed anyway.",
+        line=names["rclcpp"],
+        name="rclcpp",
+    )
+
+
 def _advice(manifest: Manifest, *, asked: bool) -> list[str]:
     """Return advice that costs no points; `asked`: a check asks for the dependencies."""
     names = {element.text: element.line for element in manifest.depends}
@@ -427,7 +457,9 @@ def _advice(manifest: Manifest, *, asked: bool) -> list[str]:
     is_named = "rclpy" in parts or any(meant_package(name) == "rclpy" for name in names)
     if not is_named and not asked and not advice:
         advice.append(
-            say(
+            _misplaced_depend(manifest)
+            or _cpp_library(names)
+            or say(
                 "package.xml does not say that the package needs rclpy: add "
                 "<depend>rclpy</depend>. It runs here because rclpy is installed anyway."
             )
