@@ -92,14 +92,14 @@ def packages_of(found: bytes, package: str, *, nested: bool) -> Packages:
     statement = imports if nested and not known else ""
     line = keyword.value.lineno if keyword else call.lineno if call else None
     is_text = isinstance(value_of(module, keyword.value), str) if keyword else False
-    given = {} if keyword is None else _named(module, keyword.value)
+    items = {} if keyword is None else _named(module, keyword.value)
     same = keyword is not None and wanted == f"packages={module.text.code(keyword.value)}"
-    is_there = same or package in given
-    changes = not is_there or len(given) == 2  # (the other one is deleted)
+    is_there = same or package in items
+    changes = not is_there or len(items) == 2  # (the other one is deleted)
     fixed = _fixed(module, call, keyword, wanted, statement) if changes else None
     return Packages(
         wanted, line, statement, is_text, fixed, is_there=is_there,
-        extra={name: at for name, at in given.items() if name != package},
+        extra={name: at for name, at in items.items() if name != package},
         is_moved=any(k.arg in (None, "package_dir") for k in _keywords(module)),
     )  # fmt: skip
 

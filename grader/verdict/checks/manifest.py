@@ -146,7 +146,9 @@ def _unusable(error: ManifestError, found: bytes) -> Failed:
         said, variant = say("package.xml is empty"), "empty"
         return _failed("package.broken_xml", said, error.line, variant=variant, params=params)
     if fault is None:
-        return _failed("package.broken_xml", text, error.line, params=params)
+        known = {"undefined entity": "entity", "duplicate attribute": "attribute_twice"}
+        variant = known.get(error.text, "")
+        return _failed("package.broken_xml", text, error.line, variant=variant, params=params)
     return _failed(
         "package.broken_xml",
         _described(fault),
@@ -196,13 +198,18 @@ def _check_rules(evidence: Evidence, manifest: Manifest) -> None:
         if element is None:
             _check_tag_name(manifest, tag, within="package")
         if element is None or (not element.text and tag != "description"):
+            comment = 0 if element else _line_of_comment(evidence, tag)
+            variant = (
+                "empty" if element else tag if tag in ("version", "maintainer", "name") else ""
+            )
             raise _failed(
                 "package.manifest_tag",
                 say("<{tag}> is empty", tag=tag) if element else say("<{tag}> is missing", tag=tag),
-                element.line if element else None,
+                element.line if element else comment or None,
                 expected=say("<{tag}> that is not empty", tag=tag),
-                variant="empty" if element else "",
+                variant="commented" if comment else variant,
                 params={"tag": tag},
+                words={"package": evidence.asked.package},
             )
     if not manifest.fault:
         return
@@ -210,7 +217,9 @@ def _check_rules(evidence: Evidence, manifest: Manifest) -> None:
     package = evidence.asked.package
     fault = rule_fault(manifest, package)
     if fault is None:
-        raise _failed("package.manifest_rules", params["error"], None, params=params)
+        told = re.search(r"\bline (\d{1,6})\b", manifest.fault)
+        line = int(told[1]) if told is not None else None
+        raise _failed("package.manifest_rules", params["error"], line, params=params)
     words = _rule_words(fault, package)
     raise _failed(
         "package.manifest_rules",
@@ -220,6 +229,19 @@ def _check_rules(evidence: Evidence, manifest: Manifest) -> None:
         params=params,
         words=words,
     )
+
+
+def _line_of_comment(evidence: Evidence, tag: str) -> int:
+    """Return the line of the one comment that contains only tags, and this tag; 0 if none does."""
+    file = file_of(evidence, FILE)
+    text = file.data.decode("utf-8", "replace") if file is not None else ""
+    lines = []
+    for match in re.finditer(r"<!--(.*?)-->", text, re.DOTALL):
+        inside = match[1].strip()
+        closed = f"<{tag}>" in inside and f"</{tag}>" in inside
+        if closed and inside.startswith("<") and inside.endswith(">") and inside.count("<") < 9:
+            lines.append(text.count("\n", 0, match.start()) + 1)
+    return lines[0] if len(lines) == 1 else 0
 
 
 def _rule_words(fault: RuleFault, package: str) -> dict[str, Value]:
@@ -347,6 +369,9 @@ def _check_build_type(evidence: Evidence, manifest: Manifest) -> None:
     if not elements:
         _check_tag_name(manifest, "build_type", within="export")
         export, missing = manifest.first("export"), say("there is no <build_type>")
+        if comment := _line_of_comment(evidence, "build_type"):
+            found = Element("build_type", "", comment, "", {})
+            raise _build_type(found, missing, "commented")
         if export is None:
             raise _build_type(None, missing)
         raise _build_type(export, missing, "in_export", first=export.line)

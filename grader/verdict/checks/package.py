@@ -114,8 +114,12 @@ def marker(evidence: Evidence) -> Passed:
     raise Failed(
         "package.marker_not_installed",
         expected=say("setup.py installs {path} in {folder}", path=path, folder=INDEX),
-        actual=say("data_files in setup.py has no line for it"),
+        actual=say("data_files in setup.py has no line for it")
+        if data_files is not None
+        else say("setup() has no argument data_files"),
         where=Where(file="setup.py", line=line),
+        variant="" if data_files is not None else "argument",
+        words={"package": package},
     )
 
 
