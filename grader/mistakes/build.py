@@ -265,9 +265,9 @@ KINDS = (
                 "The files of a line of data_files are a list. Write: {wanted}, then build again."
             ),
             "inside": msg(
-                "The build stopped at a value of setup(). Compare each value with a setup.py that "
-                "ros2 pkg create makes: is it a text, a list or a dict there? Correct what differs, "
-                "then build again."
+                "The build stopped at a value of setup(), or of [metadata] or [options] in setup.cfg "
+                "if you have them. Compare each value with a setup.py that ros2 pkg create makes, and "
+                "with what the error says. Correct what differs, then build again."
             ),
             "path_object": msg(
                 "colcon reads only texts here. Write str(…) around each path of pathlib in {argument}, "
@@ -334,6 +334,20 @@ KINDS = (
                 Replace(SETUP, "    entry_points={", "    entry_points={},\n    entry_points={"),
                 fails="build.colcon",
                 blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_argument_repeated_empty_last",
+                Replace(
+                    SETUP, "    },\n)\n", "    },\n    entry_points={'console_scripts': []},\n)\n"
+                ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_version_in_cfg",
+                Replace(CFG, "[develop]", "[metadata]\nversion = 1.0-SNAPSHOT\n[develop]"),
+                Replace(SETUP, "    version='0.0.0',\n", ""),
+                fails="build.colcon",
             ),
             example(
                 "setup_opens_relative_path",
@@ -800,8 +814,8 @@ KINDS = (
                 "package_dir and write {wanted}, then build again."
             ),
             "no_copy": msg(
-                "data_files in setup.py lists {name}, and the package has no such file. Delete it "
-                "from data_files, or create the file, then build again."
+                "data_files in setup.py lists {name}, and the package has no such file (a folder is "
+                "none). Delete it from data_files, or create the file, then build again."
             ),
             "no_files": msg(
                 "Each line of data_files is a folder and a list of files. Write: {wanted}, then "

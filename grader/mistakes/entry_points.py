@@ -488,8 +488,8 @@ KINDS = (
             "renamed": msg("Write entry_points instead of {argument}, then build again."),
             "comment": msg("Remove the # before '{wanted}', then build again."),
             "empty": msg(
-                "Write in setup(), instead of the entry_points that is there: "
-                "entry_points={{'console_scripts': ['{wanted}']}}, Then build again."
+                "Write in setup() instead of the entry_points that is there, then build again: "
+                "entry_points={{'console_scripts': ['{wanted}']}},"
             ),
             "group": msg(
                 "Add to the dict entry_points, then build again: 'console_scripts': ['{wanted}'],"

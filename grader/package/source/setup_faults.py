@@ -13,7 +13,7 @@ from grader.package.edit.text import Positioned, Splice
 from grader.package.source.module import Module
 from grader.package.source.names import dotted
 from grader.package.source.python import can_parse
-from grader.package.source.setup_packages import FINDERS, parsed_setup, setup_call
+from grader.package.source.setup_packages import FINDERS, parsed_setup, setup_call, value_of
 from grader.package.source.setup_values import (
     RefusedValue,
     path_object,
@@ -461,7 +461,7 @@ def _file_alone(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
 def _not_copied(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
     """A file of `data_files` that is not in the package, or a folder without a list of files."""
     build, text = f"/build/{reader.package}/", reader.module.text
-    path = match["path"].rpartition(build)[2] if build in match["path"] else match["path"]
+    path: str = match["path"].rpartition(build)[2] if build in match["path"] else match["path"]
     data_files = reader.argument("data_files")
     items = data_files.elts if isinstance(data_files, ast.List | ast.Tuple) else []
     plain = [i for i in items if isinstance(i, ast.BinOp | ast.Constant | ast.JoinedStr)]
@@ -480,7 +480,7 @@ def _not_copied(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
     ):
         named = files.elts if isinstance(files, ast.List | ast.Tuple) else []
         for node in named:
-            if isinstance(node, ast.Constant) and node.value == path:
+            if value_of(reader.module, node) == path:
                 close = nearest(path, ["package.xml"], cutoff=0.8)
                 if close:
                     wanted = f"{text.quote}{close}{text.quote}"

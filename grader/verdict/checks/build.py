@@ -18,8 +18,13 @@ from grader.package.source.pasted import labels_in
 from grader.package.source.python import PythonFault
 from grader.package.source.setup_cfg import KEYS, Setting, SetupCfgFault, read_setup_cfg
 from grader.package.source.setup_faults import INSIDE, NOT_REACHED, UNREAD, SetupFault, setup_fault
-from grader.package.source.setup_packages import packages_of, parsed_setup, setup_call
-from grader.package.source.setup_py import called_value, entry_outside, missing_imports
+from grader.package.source.setup_packages import packages_of, parsed_setup
+from grader.package.source.setup_py import (
+    called_value,
+    entry_outside,
+    is_setup_call,
+    missing_imports,
+)
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
 from grader.verdict.checks.cmake import CMAKE, cmake_error
@@ -259,6 +264,15 @@ def _last_error(log: str) -> str:
     return found[-1][:400] if found else ""
 
 
+def _line_of_cfg(evidence: Evidence, error: str) -> Where | None:
+    """Return the one line of setup.cfg with the value that an error names; None if it is unknown."""
+    value, file = re.search(r"'([^'\n]{1,300})'", error), evidence.submission.file("setup.cfg")
+    text = file.data.decode("utf-8", "replace") if file is not None else ""
+    rows = enumerate(text.splitlines(), 1)
+    lines = [n for n, row in rows if value is not None and value[1] in row]
+    return Where(file="setup.cfg", line=lines[0]) if len(lines) == 1 else None
+
+
 def _named_in(found: bytes, error: str) -> Where | None:
     """Return the one line of setup.py with the path that an error names; None if it is unknown."""
     path = re.search(r"'([^'\n]{1,300})'", error)
@@ -488,6 +502,8 @@ def _raised(evidence: Evidence, expected: str, error: str, where: Where) -> Fail
     if fault is not None:
         place = Where(file="setup.py", line=fault.line)
         return _stopped_with(expected, error, place, fault.variant, words=fault.words)
+    if inside:
+        where = _named_in(code, error) or _line_of_cfg(evidence, error) or where
     return _stopped_with(expected, error, where, "inside" if inside else "")
 
 
@@ -561,9 +577,13 @@ def _unreadable(evidence: Evidence, expected: str, error: str, where: Where) -> 
 
 def _repeated(found: bytes, name: str) -> list[ast.keyword]:
     """Return the arguments of setup() with a name."""
-    module = parsed_setup(found)
-    call = setup_call(module) if module is not None else None
-    return [k for k in call.keywords if k.arg == name] if call is not None else []
+    try:
+        tree = ast.parse(found)  # (Python refuses the file only when it compiles the tree)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return []
+    calls = [node for node in ast.walk(tree) if is_setup_call(node)]
+    call = calls[0] if len(calls) == 1 else None
+    return [k for k in call.keywords if k.arg == name] if isinstance(call, ast.Call) else []
 
 
 def _is_empty(node: ast.expr) -> bool:
