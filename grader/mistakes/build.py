@@ -173,7 +173,7 @@ KINDS = (
                 "The file is there, but colcon build --symlink-install runs setup.py in the build "
                 "folder, and from there a relative path leads to another place."
             ),
-            **dict.fromkeys(("no_file", "no_file_above", "no_file_value"), OPENED),
+            **dict.fromkeys(("no_file", "no_file_above", "no_file_value", "no_file_other"), OPENED),
             **dict.fromkeys((*REFUSED, "inside", "path_object"), NOT_ACCEPTED),
             **dict.fromkeys(LANGUAGE, OTHER_LANGUAGE),
             **dict.fromkeys(SIGNS, UNREADABLE),
@@ -212,6 +212,10 @@ KINDS = (
             "no_file_there": DELETE,
             "no_file_above": DELETE_ALL,
             "no_file_there_above": DELETE_ALL,
+            "no_file_other": msg(
+                "Do not read {name} in setup.py: write the value itself in place of the code that "
+                "reads it, then build again."
+            ),
             "no_file_value": msg(
                 "Write the value itself instead of reading {name}: {wanted}, then build again."
             ),

@@ -498,6 +498,11 @@ KINDS = (
                 "Add this line to console_scripts below [options.entry_points] in setup.cfg, "
                 "indented and without quotes: {wanted}. Then build again."
             ),
+            "scripts": msg(
+                "Add to setup(), then build again: entry_points={{'console_scripts': "
+                "['{wanted}']}}, (scripts= only copies files under their own names: you can delete "
+                "it.)"
+            ),
             "nothing": msg(
                 "Add to setup(), then build again: entry_points={{'console_scripts': "
                 "['{wanted}']}},"

@@ -68,6 +68,18 @@ def test_a_path_of_setup_cfg_that_stops_the_build_costs_points_once(tmp_path: Pa
     assert "No executable found" not in report.check("package.setup_cfg").rationale
 
 
+def test_a_folder_of_another_name_is_told_once(tmp_path: Path) -> None:
+    package = write(BY_NAME["setup_raises"], tmp_path)
+    setup = package / "setup.py"
+    code = setup.read_text(encoding="utf-8").replace("raise RuntimeError('not today')\n", "")
+    code = code.replace("find_packages(exclude=['test'])", "[package_name]")
+    setup.write_text(code, encoding="utf-8")
+    (package / PACKAGE).rename(package / "robot_code")
+    report = mark(package)
+    assert report.check("source.node_file").status == "failed"
+    assert report.check("build.colcon").status == "skipped"
+
+
 def test_packages_that_are_right_are_not_asked_for(tmp_path: Path) -> None:
     found, _ = _check("setup_source_folder_of_packages_missing", "build.colcon", tmp_path)
     assert "packages=" not in found.fix
@@ -108,6 +120,14 @@ def test_a_guard_does_not_hide_a_refused_value() -> None:
     fault = setup_fault(found, NOT_REACHED, PACKAGE)
     assert fault is not None
     assert (fault.variant, fault.line) == ("refused_boolean", 3)
+
+
+def test_a_file_that_a_helper_reads_is_not_to_be_made() -> None:
+    found = b"def version():\n    return open('VERSION').read()\n\n\nsetup(version=version())\n"
+    error = "FileNotFoundError: [Errno 2] No such file or directory: 'VERSION'"
+    fault = setup_fault(found, error, PACKAGE)
+    assert fault is not None
+    assert (fault.variant, fault.line, fault.words["name"]) == ("no_file_other", 2, "VERSION")
 
 
 def test_a_function_below_the_call_is_moved_up() -> None:

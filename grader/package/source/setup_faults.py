@@ -140,7 +140,7 @@ def _no_file(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
         return _argument_reads(reader, keyword, variant, base)
     statement = next((n for n in around if n in reader.module.tree.body), None)
     if not isinstance(statement, ast.Assign | ast.With | ast.Expr):
-        return None
+        return reader.fault("no_file_other", named[0], name=base)
     splices = _without_statement(reader, statement)
     return reader.fault(f"{variant}_above", statement, *splices, name=base)
 

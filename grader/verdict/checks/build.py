@@ -27,6 +27,7 @@ from grader.package.source.setup_py import (
 )
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
+from grader.verdict.checks.build_log import is_inside, last_error, setup_error, summary_of
 from grader.verdict.checks.cmake import CMAKE, cmake_error
 from grader.verdict.checks.declare import BUILD, check
 from grader.verdict.checks.parsed import has_subpackages, node_path
@@ -66,7 +67,13 @@ ANSWER = 'File "<unknown>", line '  # colcon evaluates setup.py's output, which 
     "build.colcon",
     stage=BUILD,
     depends=["package.found"],
-    after=["package.manifest", "package.marker", "package.setup_cfg", "entry_point.mapping"],
+    after=[
+        "package.manifest",
+        "package.marker",
+        "package.setup_cfg",
+        "entry_point.mapping",
+        "source.node_file",
+    ],
     quotes="build_log",
 )
 def colcon_builds(evidence: Evidence) -> Passed:
@@ -101,6 +108,10 @@ def colcon_builds(evidence: Evidence) -> Passed:
         raise Blocked(by="entry_point.mapping")
     if evidence.has_failed("entry_point.mapping") and NEVER_CALLED in build.log:
         raise Blocked(by="entry_point.mapping")
+    lost = NO_FOLDER.search(build.log)
+    is_inner = lost is not None and lost[1] == evidence.assignment.folder
+    if is_inner and evidence.has_failed("source.node_file"):
+        raise Blocked(by="source.node_file")  # (the inner folder has another name)
     raise _broken(evidence)
 
 
@@ -224,7 +235,7 @@ def _broken(evidence: Evidence) -> Failed:
         return Failed(
             "build.ignored",
             expected=expected,
-            actual=_summary(build.log),
+            actual=summary_of(build.log),
             where=Where(file=ignored[0]),
             words={"name": ignored[0]},
         )
@@ -245,23 +256,15 @@ def _broken(evidence: Evidence) -> Failed:
     fault = _fault(evidence, copy[0]) if copy is not None else None
     if copy is not None and fault is not None:
         return _refused(expected, copy[0], fault)
-    last = _last_error(build.log)
+    last = last_error(build.log)
     return Failed(
         "build.failed",
         expected=expected,
-        actual=last or _summary(build.log) or ended,
+        actual=last or summary_of(build.log) or ended,
         where=_named_in(_setup_py(evidence), last),
         variant="last" if last else "",
         params={"status": -1 if build.status is None else build.status},
     )
-
-
-def _last_error(log: str) -> str:
-    """Return the last line with which a program of the build says why it stopped; "" if none."""
-    found = re.findall(
-        r"^(?:error: |error in \S{1,80} |file \S{1,200} \(for ).*$", log, re.MULTILINE
-    )
-    return found[-1][:400] if found else ""
 
 
 def _line_of_cfg(evidence: Evidence, error: str) -> Where | None:
@@ -497,7 +500,7 @@ def _raised(evidence: Evidence, expected: str, error: str, where: Where) -> Fail
             {"line": str(found.end_lineno)},
         )
         return _stopped_with(expected, error, place, "comma", words=words)
-    inside = _is_inside(evidence.build.log, error)
+    inside = is_inside(evidence.build.log, error)
     fault = _fault(evidence, error) or (_fault(evidence, INSIDE) if inside else None)
     if fault is not None:
         place = Where(file="setup.py", line=fault.line)
@@ -505,16 +508,6 @@ def _raised(evidence: Evidence, expected: str, error: str, where: Where) -> Fail
     if inside:
         where = _named_in(code, error) or _line_of_cfg(evidence, error) or where
     return _stopped_with(expected, error, where, "inside" if inside else "")
-
-
-def _is_inside(log: str, error: str) -> bool:
-    """Whether an error comes from what setup() called, or from colcon's reading of its values."""
-    of_setup = log[: max(0, log.rfind(error[:200]))]
-    frames = re.findall(r'^  File "([^"\n]{1,300})", line \d+, in ', of_setup, re.MULTILINE)
-    own = [n for n, path in enumerate(frames) if path.endswith("/setup.py") or path == "<string>"]
-    called = frames[own[-1] + 1 :] if own else frames
-    parts = ("setuptools/", "distutils/", "colcon_")
-    return any(part in path for path in called for part in parts)
 
 
 def _stopped_with(
@@ -611,42 +604,9 @@ def limit_name(limit: str) -> str:
     return names.get(limit, limit)
 
 
-def setup_error(log: str) -> tuple[str, int | None]:
-    """Return the Python error that ended setup.py, and its line there, if any.
-
-    colcon runs setup.py in a process of its own with distutils' run_setup, so that the traceback
-    has no file name. colcon's own traceback about the failed process follows that of setup.py.
-    """
-    of_setup = re.sub(r"^subprocess\.CalledProcessError: .*$", "", log, flags=re.MULTILINE)
-    error, line = python_error(of_setup, "setup.py")
-    if not error:
-        return python_error(log, "setup.py")
-    nameless = re.findall(r'in run_setup\n.*\n  File "<string>", line (\d+)', of_setup)
-    return error, line or (int(nameless[-1]) if nameless else None)
-
-
-def python_error(text: str, file: str) -> tuple[str, int | None]:
-    """Return the last Python error in a text ("TypeError: …") and its line in `file`, if any."""
-    errors = re.findall(
-        r"^((?:[A-Za-z_][\w.]*\.)?(?:[A-Z]\w*(?:Error|Exception|Exit|Interrupt|Iteration)|"
-        r"Invalid[A-Z]\w*)(?:: .*)?)$",
-        text,
-        re.MULTILINE,
-    )
-    lines = re.findall(rf'File "[^"\n]*{re.escape(file)}", line (\d+)', text)
-    return (errors[-1][:400] if errors else ""), (int(lines[-1]) if lines else None)
-
-
 def _first_print(evidence: Evidence) -> int | None:
     text = _setup_py(evidence).decode("utf-8", errors="replace")
     for number, line in enumerate(text.splitlines(), start=1):
         if re.match(r"\s*print\s*\(", line):
             return number
     return None
-
-
-def _summary(log: str) -> str:
-    lines = [line.strip() for line in log.splitlines() if line.strip()]
-    wanted = ("Failed", "error:", "ERROR", "Error", "Summary:")
-    telling = [line for line in lines if any(word in line for word in wanted)]
-    return " / ".join(telling[:3])[:600]

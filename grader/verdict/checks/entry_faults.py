@@ -205,6 +205,7 @@ def _no_entry(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed
         variant, actual = "empty", say("entry_points is empty")
     elif not points.groups:
         variant, actual = "nothing", say("setup() has no entry_points argument")
+        variant = "scripts" if setup.argument("scripts") is not None else variant
     elif in_cfg:
         variant = "cfg"
     elif "console_scripts" not in points.groups:
