@@ -75,6 +75,45 @@ def _installed(slug: str, title: str, fix: str, **parts: Unpack[Parts]) -> Kind:
     )
 
 
+REFUSED = {
+    "refused_version": msg(
+        "'{found}' is not a version. A version consists of numbers with points between them: write "
+        "'0.0.0' instead, then build again."
+    ),
+    "refused_condition": msg(
+        "Write {argument} as a text with a condition, such as {argument}='>=3.8', or delete this "
+        "argument. Then build again."
+    ),
+    "refused_requirement": msg(
+        "'{found}' in {argument} is not the name of a Python package, alone or with a version, such "
+        "as 'setuptools>=58'. Correct it or delete it, then build again."
+    ),
+    "refused_boolean": msg(
+        "Write {argument}=True or {argument}=False, without quotes, then build again."
+    ),
+    "refused_dict": msg(
+        "The value of {argument} is a dict, with {{ }} and a colon between key and value. Correct "
+        "it, or delete {argument} if you do not need it. Then build again."
+    ),
+    "refused_text": msg(
+        "The value of {argument} is a text. Write it in quotes, without a list around it, then "
+        "build again."
+    ),
+    "refused_list": msg(
+        "The value of {argument} is a list. Write its texts between [ and ], with commas between "
+        "them. Then build again."
+    ),
+    "refused_pair": msg(
+        "Each line of data_files has two parts, a folder and a list of files: (folder, [file, "
+        "file]). Correct this line, then build again: {found}"
+    ),
+}
+NOT_ACCEPTED = msg(
+    "colcon runs setup.py to install the package into the workspace's install folder. The "
+    "build stops at a value of setup() that it cannot use."
+)
+
+
 KINDS = (
     _build(
         "ignored",
@@ -94,6 +133,19 @@ KINDS = (
             "colcon asks setup.py for its data and reads its output as the answer. What print() "
             "writes ends up in the middle of that answer."
         ),
+        fixes={
+            "answer": msg(
+                "Look for a value of setup() that is an object or a function instead of a text, a "
+                "number, a list or a dict, and for code in setup.py that writes output. Correct it, "
+                "then build again."
+            ),
+        },
+        whys={
+            "answer": msg(
+                "colcon asks setup.py for its data and reads its output as the answer. It could not "
+                "read this one."
+            ),
+        },
         fixed_by=(setup_py.prints,),
         examples=(
             example(
@@ -121,7 +173,8 @@ KINDS = (
                 "The file is there, but colcon build --symlink-install runs setup.py in the build "
                 "folder, and from there a relative path leads to another place."
             ),
-            **dict.fromkeys(("no_file", "no_file_above", "no_file_value"), OPENED),
+            **dict.fromkeys(("no_file", "no_file_above", "no_file_value", "no_file_other"), OPENED),
+            **dict.fromkeys((*REFUSED, "inside", "path_object"), NOT_ACCEPTED),
             **dict.fromkeys(LANGUAGE, OTHER_LANGUAGE),
             **dict.fromkeys(SIGNS, UNREADABLE),
         },
@@ -146,12 +199,24 @@ KINDS = (
             "repeated": msg(
                 "Give {name} to setup() only once: delete the one that you do not need."
             ),
+            "repeated_lines": msg(
+                "{name} is given to setup() twice, in lines {line} and {last}. Delete the one that "
+                "you do not need, then build again."
+            ),
+            "repeated_empty": msg(
+                "{name} is given to setup() twice, in lines {line} and {last}. Delete the empty one, "
+                "then build again."
+            ),
             "hidden": msg("Give {name}.py another name, or move it out of the package."),
             "relative": msg("Do not open {name} in setup.py: delete that line and what uses it."),
             "no_file": DELETE,
             "no_file_there": DELETE,
             "no_file_above": DELETE_ALL,
             "no_file_there_above": DELETE_ALL,
+            "no_file_other": msg(
+                "Do not read {name} in setup.py: write the value itself in place of the code that "
+                "reads it, then build again."
+            ),
             "no_file_value": msg(
                 "Write the value itself instead of reading {name}: {wanted}, then build again."
             ),
@@ -165,11 +230,11 @@ KINDS = (
             "misspelt": msg("Write {close} instead of {name}, then build again."),
             "variable": msg("Write above setup(, then build again: {statement}"),
             "late": msg(
-                "Python reads the file from top to bottom. Move line {line}, which sets {name}, above "
-                "setup(, then build again."
+                "Python reads the file from top to bottom. Move line {line}, which defines {name}, "
+                "above setup(, then build again."
             ),
             "late_lines": msg(
-                "Python reads the file from top to bottom. Move lines {line} to {last}, which set "
+                "Python reads the file from top to bottom. Move lines {line} to {last}, which define "
                 "{name}, above setup(, then build again."
             ),
             "undefined": msg(
@@ -177,8 +242,8 @@ KINDS = (
                 "'{name}'. If it is a variable, give it a value above setup(. Then build again."
             ),
             "no_module": msg(
-                "Python finds no module {name}. Delete that import (a setup.py needs only "
-                "setuptools), or correct the name, then build again."
+                "Python finds no module {name}. Correct its name, or delete that import and what "
+                "uses it (a setup.py needs only setuptools). Then build again."
             ),
             "positional": msg(
                 "Each value in setup() has a name and an = before it. Write: {wanted}, then build "
@@ -204,6 +269,16 @@ KINDS = (
             "file_alone": msg(
                 "The files of a line of data_files are a list. Write: {wanted}, then build again."
             ),
+            "inside": msg(
+                "The build stopped at a value of setup(), or of [metadata] or [options] in setup.cfg "
+                "if you have them. Compare each value with a setup.py that ros2 pkg create makes, and "
+                "with what the error says. Correct what differs, then build again."
+            ),
+            "path_object": msg(
+                "colcon reads only texts here. Write str(…) around each path of pathlib in {argument}, "
+                "then build again."
+            ),
+            **REFUSED,
             **PASTED,
             **DOCUMENTS,
             **LANGUAGE,
@@ -264,6 +339,20 @@ KINDS = (
                 Replace(SETUP, "    entry_points={", "    entry_points={},\n    entry_points={"),
                 fails="build.colcon",
                 blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_argument_repeated_empty_last",
+                Replace(
+                    SETUP, "    },\n)\n", "    },\n    entry_points={'console_scripts': []},\n)\n"
+                ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_version_in_cfg",
+                Replace(CFG, "[develop]", "[metadata]\nversion = 1.0-SNAPSHOT\n[develop]"),
+                Replace(SETUP, "    version='0.0.0',\n", ""),
+                fails="build.colcon",
             ),
             example(
                 "setup_opens_relative_path",
@@ -492,6 +581,28 @@ KINDS = (
                 fails="build.colcon",
             ),
             example(
+                "setup_version_of_maven",
+                Replace(SETUP, "\nsetup(\n", "\nVERSION = '1.0-SNAPSHOT'\n\nsetup(\n"),
+                Replace(SETUP, "version='0.0.0'", "version=VERSION"),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_license_in_a_list",
+                Replace(SETUP, "license='Apache-2.0'", "license=['Apache-2.0']"),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_line_of_data_files_in_three",
+                Replace(SETUP, "('share/' + package_name,", "('share/', package_name,"),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_path_of_pathlib",
+                Replace(SETUP, "\nsetup(\n", "\nfrom pathlib import Path\n\nsetup(\n"),
+                Replace(SETUP, "['package.xml']", "[Path('package.xml')]"),
+                fails="build.colcon",
+            ),
+            example(
                 "setup_raises",
                 Replace(SETUP, "\nsetup(\n", "\nraise RuntimeError('not today')\nsetup(\n"),
                 fails="build.colcon",
@@ -537,10 +648,16 @@ KINDS = (
                 "In {name}, each entry is one text, 'name = package.module:function', in a list. "
                 "Write instead of the inner braces: {wanted}. Then build again."
             ),
+            **REFUSED,
             "refused": msg(
                 "setuptools prints its reason only if you start it yourself. In the package's "
                 "folder, run: python3 setup.py --version. Correct the value of setup() that it "
                 "names, then build again."
+            ),
+            "not_done": msg(
+                "In the package's folder, run: python3 setup.py --version. If that prints an error, "
+                "correct what it names. If it prints nothing, something in setup.py ends it, or no "
+                "line reaches the call of setup(). Then build again."
             ),
             "missing": msg(
                 "setup.py does not call setup(…). Compare the file with the one that ros2 pkg "
@@ -562,7 +679,7 @@ KINDS = (
                 "condition is never true, and nothing is installed."
             ),
             **dict.fromkeys(
-                ("refused", "entries_list", "entries_dict"),
+                ("refused", "entries_list", "entries_dict", *REFUSED),
                 msg(
                     "setuptools stops at a value that it does not accept. colcon then says only "
                     "that distutils.core.setup() was never called."
@@ -621,6 +738,16 @@ KINDS = (
                 fails="build.colcon",
             ),
             example(
+                "setup_requirement_refused",
+                Replace(SETUP, "['setuptools']", "['setuptools', 'rclpy is needed']"),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_boolean_in_quotes",
+                Replace(SETUP, "zip_safe=True", "zip_safe='yes'"),
+                fails="build.colcon",
+            ),
+            example(
                 "setup_never_called",
                 Replace(SETUP, "\nsetup(\n", "\ndict(\n"),
                 fails="build.colcon",
@@ -631,7 +758,10 @@ KINDS = (
     _build(
         "timeout",
         msg("The build does not finish"),
-        msg("Remove the loop, the sleep or the input() from setup.py."),
+        msg(
+            "Find what setup.py waits for or repeats without end (such as a loop, a sleep or "
+            "input()), remove it, then build again."
+        ),
         msg(
             "colcon runs setup.py to install the package into the workspace's install folder, "
             "the only place where ros2 run looks. A setup.py that loops or waits never "
@@ -672,16 +802,25 @@ KINDS = (
             "Read the build log below, starting at its first error. Build again after each change."
         ),
         fixes={
+            "last": msg(
+                "Correct what this message names, in setup.py or in the files of the package, then "
+                "build again. The build log below has the lines around it."
+            ),
             "no_copy_close": msg(
                 "Write {wanted} instead of {name} in data_files, then build again."
+            ),
+            "package_dir_alone": msg(
+                "package_dir leads to the folder {name}, and the package has no such folder. Delete "
+                "package_dir, then build again: without it, setuptools looks for the packages beside "
+                "setup.py."
             ),
             "package_dir": msg(
                 "package_dir leads to the folder {name}, and the package has no such folder. Delete "
                 "package_dir and write {wanted}, then build again."
             ),
             "no_copy": msg(
-                "data_files in setup.py lists {name}, and the package has no such file. Delete it "
-                "from data_files, or create the file, then build again."
+                "data_files in setup.py lists {name}, and the package has no such file (a folder is "
+                "none). Delete it from data_files, or create the file, then build again."
             ),
             "no_files": msg(
                 "Each line of data_files is a folder and a list of files. Write: {wanted}, then "
@@ -731,6 +870,15 @@ KINDS = (
                     SETUP,
                     "    packages=find_packages(exclude=['test']),",
                     "    packages=find_packages(where='src'),\n    package_dir={'': 'src'},",
+                ),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_source_folder_of_packages_missing",
+                Replace(
+                    SETUP,
+                    "    packages=find_packages(exclude=['test']),",
+                    "    packages=[package_name],\n    package_dir={package_name: 'src/' + package_name},",
                 ),
                 fails="build.colcon",
             ),
@@ -795,7 +943,10 @@ KINDS = (
     _installed(
         "not_installed",
         msg("The executable was not installed"),
-        msg("Check that entry_points is an argument of setup(), then build again."),
+        msg(
+            "setup.py names an entry, and the build still made no executable of it. Delete from "
+            "setup.py what changes the installation, such as cmdclass, then build again."
+        ),
         examples=(
             example(
                 "develop_does_nothing",

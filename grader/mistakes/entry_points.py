@@ -487,6 +487,22 @@ KINDS = (
         {
             "renamed": msg("Write entry_points instead of {argument}, then build again."),
             "comment": msg("Remove the # before '{wanted}', then build again."),
+            "empty": msg(
+                "Write in setup() instead of the entry_points that is there, then build again: "
+                "entry_points={{'console_scripts': ['{wanted}']}},"
+            ),
+            "group": msg(
+                "Add to the dict entry_points, then build again: 'console_scripts': ['{wanted}'],"
+            ),
+            "cfg": msg(
+                "Add this line to console_scripts below [options.entry_points] in setup.cfg, "
+                "indented and without quotes: {wanted}. Then build again."
+            ),
+            "scripts": msg(
+                "Add to setup(), then build again: entry_points={{'console_scripts': "
+                "['{wanted}']}}, (scripts= only copies files under their own names: you can delete "
+                "it.)"
+            ),
             "nothing": msg(
                 "Add to setup(), then build again: entry_points={{'console_scripts': "
                 "['{wanted}']}},"
@@ -518,6 +534,36 @@ KINDS = (
                     SETUP,
                     "            'test_node = my_robot_controller.my_first_node:main',\n",
                     "            # 'test_node = my_robot_controller.my_first_node:main',\n",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "entry_points_empty",
+                Replace(
+                    SETUP,
+                    (
+                        "    entry_points={\n"
+                        "        'console_scripts': [\n"
+                        "            'test_node = my_robot_controller.my_first_node:main',\n"
+                        "        ],\n"
+                        "    },\n"
+                    ),
+                    "    entry_points={},\n",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "entry_points_without_console_scripts",
+                Replace(
+                    SETUP,
+                    (
+                        "        'console_scripts': [\n"
+                        "            'test_node = my_robot_controller.my_first_node:main',\n"
+                        "        ],\n"
+                    ),
+                    "        'launch': ['hello = my_robot_controller.hello:main'],\n",
                 ),
                 fails="entry_point.mapping",
                 blocks=UNINSTALLED,
@@ -684,8 +730,7 @@ KINDS = (
             "entry point leads to a module that does not exist."
         ),
         whys={
-            "folder": FOLDERS,
-            "import": FOLDERS,
+            **dict.fromkeys(("folder", "import", "other_folder", "unknown_folder"), FOLDERS),
             **dict.fromkeys(("argument", "misspelt"), NO_PACKAGES),
             "text": msg(
                 "packages= is a list of folders. This value is a text, and setuptools takes each "
@@ -694,6 +739,14 @@ KINDS = (
         },
         fix=msg("Write in setup(): {wanted}, then build again."),
         fixes={
+            "other_folder": msg(
+                "Delete the name of the folder {path} from packages=, or create that folder with an "
+                "__init__.py in it. Then build again."
+            ),
+            "unknown_folder": msg(
+                "Find what makes setup.py name {path}: packages= together with package_dir=, or the "
+                "values that they are made of. Correct it, then build again."
+            ),
             "misspelt": msg("Write packages= instead of {name}= in setup(), then build again."),
             "import": msg(
                 "Write at the top of setup.py: {statement}, and in setup(): {wanted}, then build "
@@ -719,6 +772,15 @@ KINDS = (
                 Replace(SETUP, "find_packages(exclude=['test'])", "['my_first_node']"),
                 fails="build.colcon",
                 note="find_packages is not imported",
+            ),
+            example(
+                "packages_name_another_folder_too",
+                Replace(
+                    SETUP,
+                    "find_packages(exclude=['test'])",
+                    "[package_name, package_name + '.utils']",
+                ),
+                fails="build.colcon",
             ),
             example(
                 "packages_missing",

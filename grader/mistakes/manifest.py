@@ -124,10 +124,18 @@ KINDS = (
         "broken_xml",
         msg("package.xml is not well-formed XML"),
         msg(
-            "Look at that line and the line above it: each <tag> needs its </tag>, and & is "
-            "written &amp;."
+            "Look at that line and the line above it, and compare them with a package.xml that ros2 "
+            "pkg create makes: each <tag> needs its </tag>, and & is written &amp;."
         ),
         fixes={
+            "entity": msg(
+                "XML knows only &amp; &lt; &gt; &quot; and &apos;. Write the character itself instead "
+                "of any other & with a name and ; behind it."
+            ),
+            "attribute_twice": msg(
+                "A tag has each attribute only once. Delete the second one of the same name in that "
+                "tag."
+            ),
             "empty": msg(
                 "Write the file again: save it in the editor, or copy the one that ros2 "
                 "pkg create makes."
@@ -179,6 +187,18 @@ KINDS = (
             example(
                 "format_without_quotes",
                 Replace(MANIFEST, 'format="3"', "format=3"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "entity_of_html",
+                Replace(MANIFEST, "<description>", "<description>Hello&nbsp;"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "email_twice_in_a_tag",
+                Replace(MANIFEST, "<maintainer ", '<maintainer email="a@todo.todo" '),
                 fails="package.manifest",
                 blocks=UNBUILT,
             ),
@@ -274,10 +294,34 @@ KINDS = (
         msg("Add <{tag}>…</{tag}> inside <package>."),
         fixes={
             "empty": msg("Write something between <{tag}> and </{tag}>."),
+            "commented": msg(
+                "<{tag}> is in the comment that begins in this line. Delete the <!-- before it and "
+                "the --> behind it, so that it counts. Then build again."
+            ),
+            "version": msg("Add <version>0.0.0</version> inside <package>."),
+            "name": msg("Add <name>{package}</name> inside <package>."),
+            "maintainer": msg(
+                'Add <maintainer email="student@todo.todo">student</maintainer> inside <package>. You '
+                "may invent the address."
+            ),
             "renamed": msg("Write <{tag}> instead of <{close}>, and the same in its end tag."),
         },
         fixed_by=(manifest.tag_name, manifest.version, manifest.name),
         examples=(
+            example(
+                "license_in_a_comment",
+                Replace(MANIFEST, "<license>", "<!-- <license>"),
+                Replace(MANIFEST, "</license>", "</license> -->"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "maintainer_in_a_comment_with_words",
+                Replace(MANIFEST, "<maintainer", "<!-- who? <maintainer"),
+                Replace(MANIFEST, "</maintainer>", "</maintainer> -->"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
             example(
                 "license_misspelt",
                 Replace(MANIFEST, "<license>", "<licence>"),
@@ -432,7 +476,8 @@ KINDS = (
         fix=msg("Write <name>{package}</name> in package.xml, then build again."),
         fixes={
             "setup": msg(
-                "Set name (or package_name) in setup.py to '{package}', then build again."
+                "Give setup() the name '{package}', then build again. If the name comes from a "
+                "variable, correct the value of the variable."
             ),
             "throughout": msg(
                 "Use the name {package} in package.xml, setup.py, setup.cfg and for "
@@ -578,6 +623,10 @@ KINDS = (
                 "has: <export><build_type>ament_python</build_type></export>. Then build again."
             ),
             "renamed": msg("Write <{tag}> instead of <{close}>, and the same in its end tag."),
+            "commented": msg(
+                "<build_type> is in the comment that begins in this line. Delete the <!-- before it "
+                "and the --> behind it, so that it counts. Then build again."
+            ),
             "line": msg(
                 "Write in this line instead, then build again: "
                 "<build_type>ament_python</build_type>"
@@ -606,6 +655,13 @@ KINDS = (
             example(
                 "build_type_missing",
                 Replace(MANIFEST, "    <build_type>ament_python</build_type>\n", ""),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "export_in_a_comment",
+                Replace(MANIFEST, "  <export>", "  <!-- <export>"),
+                Replace(MANIFEST, "  </export>", "  </export> -->"),
                 fails="package.manifest",
                 blocks=UNBUILT,
             ),

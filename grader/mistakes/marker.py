@@ -67,10 +67,10 @@ KINDS = (
                 "install it by that name: ['resource/{package}']. Then build again."
             ),
             "other": msg(
-                "Make that line install 'resource/{package}': set package_name in setup.py "
-                "to '{package}'. Then build again."
+                "Make that line install 'resource/{package}', then build again. If the name comes "
+                "from a variable, correct the value of the variable."
             ),
-            "path": msg("Write ['resource/' + package_name] in that line, then build again."),
+            "path": msg("Write ['resource/{package}'] in that line, then build again."),
             "moved": msg("Rename the folder {close} to resource, then build again."),
             "inner": msg(
                 "Move it out of the inner folder. In the package's folder, run: mv {there} ."
@@ -162,18 +162,22 @@ KINDS = (
             ),
         },
         fix=msg(
-            "Add to data_files: ('share/ament_index/resource_index/packages', ['resource/' + "
-            "package_name]),"
+            "Add to data_files: ('share/ament_index/resource_index/packages', "
+            "['resource/{package}']),"
         ),
         fixes={
+            "argument": msg(
+                "Add to setup(): data_files=[('share/ament_index/resource_index/packages', "
+                "['resource/{package}'])],"
+            ),
             "other": msg(
-                "Make that line install 'resource/{package}': set package_name in setup.py "
-                "to '{package}'. Then build again."
+                "Make that line install 'resource/{package}', then build again. If the name comes "
+                "from a variable, correct the value of the variable."
             ),
             "place": msg("Write '{wanted}' instead of '{folder}' in that line, then build again."),
         },
         link=links.DEVELOPING,
-        seen=r"doesn't explicitly install a marker in the package index",
+        seen=r"(?:[Pp]ackage '(?P<package>\w{1,120})' )?doesn't explicitly install a marker in the package index",
         fixed_by=(setup_py.marker_place, setup_py.marker),
         examples=(
             example(

@@ -72,7 +72,29 @@ KINDS = (
             "setuptools reads this file in every build and stops at a line that it cannot read."
         ),
         fix=msg("Fix that line: a line is either [section] or key=value."),
+        whys={
+            **dict.fromkeys(
+                ("heading_above", "below", "no_section"),
+                msg(
+                    "setup.cfg consists of sections: a line such as [develop] begins one, and its "
+                    "settings are below it. setuptools stops at a line above the first section."
+                ),
+            ),
+        },
         fixes={
+            "heading_above": msg(
+                "Write [{other}] on a line of its own above this line, then build again."
+            ),
+            "below": msg(
+                "Move this line below [{other}], which is in line {line}, then build again."
+            ),
+            "no_section": msg(
+                "Delete this line, or write above it the [section] to which it belongs. Then build "
+                "again."
+            ),
+            "mark": msg(
+                "Save the file again with the encoding UTF-8, without a BOM (byte order mark)."
+            ),
             "section": msg("Write [{other}] on that line: setup.cfg needs both sections."),
             "headings": msg(
                 "Write [develop] on a line of its own above script_dir, and [install] above "
@@ -102,6 +124,12 @@ KINDS = (
                 blocks=UNBUILT,
             ),
             example(
+                "setup_cfg_first_heading_missing",
+                Replace(CFG, "[develop]\n", ""),
+                fails="package.setup_cfg",
+                blocks=UNBUILT,
+            ),
+            example(
                 "setup_cfg_not_ini",
                 Replace(CFG, "[develop]", "[develop"),
                 fails="package.setup_cfg",
@@ -116,6 +144,17 @@ KINDS = (
         why=OTHER_PLACE,
         whys={
             **dict.fromkeys(("key", "misspelt", "heading", "section"), TWO_SECTIONS),
+            "sections": TWO_SECTIONS,
+            "comment": msg(
+                "setup.cfg sets where executables are installed, and ros2 run looks only in "
+                "lib/<package>. In setup.cfg, a comment has a line of its own: behind a value, it is "
+                "part of the path."
+            ),
+            "variable": msg(
+                "setup.cfg sets where executables are installed, and ros2 run looks only in "
+                "lib/<package>. setup.cfg does not know the variables of setup.py: a build that uses "
+                "this path stops at {name}."
+            ),
             "quotes": msg(
                 "setup.cfg sets where executables are installed, and ros2 run looks only in "
                 "lib/<package>. setup.cfg is not Python: its quotes are part of the path, so the "
@@ -128,15 +167,27 @@ KINDS = (
                 "Delete the quotes around the path (lines: {line}), so that it is {wanted}. Then "
                 "build again."
             ),
+            "comment": msg(
+                "Delete the comment behind the path (lines: {line}), so that the path is {wanted}. "
+                "Then build again."
+            ),
+            "variable": msg(
+                "Write the whole path without {name} (lines: {line}), so that it is {wanted}. Then "
+                "build again."
+            ),
             "both": msg(
-                "Write both lines with the package's name: below [develop] script_dir={wanted}, "
-                "and below [install] install_scripts={wanted}. Then build again."
+                "Write below [develop] script_dir={wanted}, and below [install] "
+                "install_scripts={wanted}. Then build again."
             ),
             "key": msg("Write below [{section}]: {key}={wanted}, then build again."),
             "misspelt": msg("Write {key} instead of {close} in this line, then build again."),
             "heading": msg("Write [{section}] instead of [{close}], then build again."),
             "section": msg(
                 "Add two lines: [{section}] and below it {key}={wanted}. Then build again."
+            ),
+            "sections": msg(
+                "Add four lines to setup.cfg: [develop], below it script_dir={wanted}, then "
+                "[install], and below it install_scripts={wanted}. Then build again."
             ),
         },
         link=links.DEVELOPING,
@@ -154,6 +205,35 @@ KINDS = (
                         'script_dir="$base/lib/my_robot_controller"\n'
                         "[install]\n"
                         'install_scripts="$base/lib/my_robot_controller"\n'
+                    ),
+                ),
+                fails="package.setup_cfg",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "setup_cfg_variable_of_setup_py",
+                Write(
+                    CFG,
+                    (
+                        "[develop]\n"
+                        "script_dir=$base/lib/$package_name\n"
+                        "[install]\n"
+                        "install_scripts=$base/lib/$package_name\n"
+                    ),
+                ),
+                fails="package.setup_cfg",
+                blocks=UNBUILT,
+                note="ValueError: invalid variable 'package_name'",
+            ),
+            example(
+                "setup_cfg_comment_behind_value",
+                Write(
+                    CFG,
+                    (
+                        "[develop]\n"
+                        "script_dir=$base/lib/my_robot_controller  # for ros2 run\n"
+                        "[install]\n"
+                        "install_scripts=$base/lib/my_robot_controller  # for ros2 run\n"
                     ),
                 ),
                 fails="package.setup_cfg",

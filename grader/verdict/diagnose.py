@@ -167,6 +167,8 @@ def _not_installed(error: str, evidence: Evidence) -> RecognisedMistake | None:
     found = packages_of(
         setup.data if setup is not None else b"", package, nested=has_subpackages(evidence)
     )
+    if found.is_there:
+        return None
     return RecognisedMistake(
         kind="setup.not_packaged",
         words={"wanted": found.wanted, "statement": found.statement},

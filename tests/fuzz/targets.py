@@ -29,7 +29,7 @@ from grader.package.source.setup_py import literal_name, read_setup_py
 from grader.package.source.slips import slip_of
 from grader.run.terminal import Terminal
 from grader.sandbox.base import Console
-from grader.verdict.checks.build import python_error
+from grader.verdict.checks.build_log import python_error
 from grader.verdict.fix import first_fix, fix_files
 from tests.corpus.build import SOLUTION
 from tests.corpus.model import CFG, MANIFEST, MARKER, NODE, SETUP

@@ -210,6 +210,9 @@ def test_an_uninstalled_module_is_distinguished_from_a_missing_one(bench: Bench)
     error = "ModuleNotFoundError: No module named 'my_robot_controller.my_first_node'"
     printed = TRACEBACK.format(line=5, error=error)
     text = diagnose(failed("run.died_at_start"), evidence(bench, RIGHT, printed))
+    assert text.mistakes[0].id != "setup.not_packaged"  # (what it asks for is there)
+    bench.change("setup.py", "find_packages(exclude=['test'])", "[]")
+    text = diagnose(failed("run.died_at_start"), evidence(bench, RIGHT, printed))
     assert text.mistakes[0].id == "setup.not_packaged"
     (bench.root / "my_robot_controller/__init__.py").unlink()
     text = diagnose(failed("run.died_at_start"), evidence(bench, RIGHT, printed))

@@ -8,10 +8,9 @@ from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import SourceText, Splice, indent_of, read_text
-from grader.package.source.setup_cfg import SetupCfg, SetupCfgFault, read_setup_cfg
+from grader.package.source.setup_cfg import KEYS, SetupCfg, SetupCfgFault, read_setup_cfg
 
 FILE = "setup.cfg"
-KEYS = {"develop": "script_dir", "install": "install_scripts"}
 
 
 def wanted(package: str) -> str:
@@ -99,6 +98,8 @@ def syntax(case: Case) -> Files | None:
     if "[" not in text.text:
         return _headings(case, text)
     line = text.line(case.finding.line or 0)
+    if _key(line) in KEYS.values() and line[:1].strip():
+        return _heading_above(case, text, line)
     if line.strip() in ("[develop]", "[install]"):
         return _other_section(case, text, line)
     match = re.fullmatch(r"(\[?)([A-Za-z_.]{1,40})(\]?)\s*", line)
@@ -118,6 +119,20 @@ def _headings(case: Case, text: SourceText) -> Files | None:
         if text.line(number).replace("-", "_").startswith(key)
     ]
     new = text.spliced(splices) if len(splices) == len(KEYS) else None
+    return case.with_data(FILE, new) if new and _is_read(new) else None
+
+
+def _key(line: str) -> str:
+    """Return the name that a line sets, with _ instead of -."""
+    return re.split(r"[=:\s]", line.strip(), maxsplit=1)[0].replace("-", "_")
+
+
+def _heading_above(case: Case, text: SourceText, line: str) -> Files | None:
+    """Write the heading of a key above it, if the file does not have that heading."""
+    section = next(name for name, key in KEYS.items() if key == _key(line))
+    if any(row.strip() == f"[{section}]" for row in text.lines):
+        return None
+    new = text.spliced([text.before(case.finding.line or 1, f"[{section}]")])
     return case.with_data(FILE, new) if new and _is_read(new) else None
 
 

@@ -3,24 +3,41 @@
 from __future__ import annotations
 
 import configparser
+import re
 from dataclasses import dataclass
 
 from grader.base.i18n.message import say
 
 MOST_BYTES = 100_000
+KEYS = {"develop": "script_dir", "install": "install_scripts"}
+"""The setting of each section that says where executables are installed."""
+VARIABLE = re.compile(r"(?:\$\{?|%\(|\{)(?P<name>\w{1,80})(?:\}|\)s)?")
+KNOWN = (
+    *("base", "platbase", "usersite", "userbase", "prefix", "exec_prefix", "sys_prefix"),
+    *("sys_exec_prefix", "dist_name", "dist_version", "dist_fullname", "py_version"),
+    *("py_version_short", "py_version_nodot", "abiflags", "platlibdir", "implementation"),
+    *("implementation_lower", "HOME"),
+)
+"""The names after $ that setuptools replaces in a path."""
 
 
 class SetupCfgFault(Exception):  # noqa: N818 - a fault in the student's file, not an error
     """Why setuptools cannot read a setup.cfg, and on which line."""
 
     def __init__(
-        self, text: str, line: int | None = None, variant: str = "", other: str = ""
+        self,
+        text: str,
+        line: int | None = None,
+        variant: str = "",
+        other: str = "",
+        there: int = 0,
     ) -> None:
         super().__init__(text)
         self.text = text
         self.line = line
         self.variant = variant
         self.other = other
+        self.there = there
 
 
 @dataclass(frozen=True)
@@ -64,11 +81,7 @@ def read_setup_cfg(found: bytes) -> SetupCfg:
     try:
         parser.read_string(text)
     except configparser.MissingSectionHeaderError as error:
-        reason = say("a line before the first [section]")
-        if text[:1] == "\ufeff":
-            reason = say("a byte order mark before the first [section]")
-        headless = "[" not in text and all(key in text for key in ("script_dir", "install_scripts"))
-        raise SetupCfgFault(reason, error.lineno, "headings" if headless else "") from None
+        raise _without_section(text, error.lineno) from None
     except (configparser.DuplicateOptionError, configparser.DuplicateSectionError) as error:
         twice = getattr(error, "option", None) or f"[{error.section}]"
         section = getattr(error, "option", None) is None
@@ -86,6 +99,35 @@ def read_setup_cfg(found: bytes) -> SetupCfg:
     except (configparser.Error, ValueError) as error:
         raise SetupCfgFault(str(error).splitlines()[0]) from None
     return _with_lines(parser, text)
+
+
+def _without_section(text: str, line: int) -> SetupCfgFault:
+    """Return what is wrong with the first line of a file that does not begin with a section."""
+    if text[:1] == "\ufeff":
+        return SetupCfgFault(say("a byte order mark before the first [section]"), line, "mark")
+    reason, rows = say("a line before the first [section]"), text.splitlines()
+    if "[" not in text and all(key in text for key in KEYS.values()):
+        return SetupCfgFault(reason, line, "headings")
+    row = rows[line - 1] if line <= len(rows) else ""
+    key = re.split(r"[=:\s]", row.strip(), maxsplit=1)[0].replace("-", "_")
+    section = next((name for name, known in KEYS.items() if known == key), "")
+    there = next((n for n, r in enumerate(rows, 1) if r.strip() == f"[{section}]"), 0)
+    if not section or row[:1].isspace():
+        return SetupCfgFault(reason, line, "no_section")
+    return SetupCfgFault(reason, line, "below" if there else "heading_above", section, there)
+
+
+def slip_of_path(value: str, wanted: str) -> tuple[str, str]:
+    """Return how a path differs from the right one, and a name that setup.cfg does not know.
+
+    "" if it is another path.
+    """
+    if value[:1] in ("'", '"') and value.strip("'\"").rstrip("/") == wanted:
+        return "quotes", ""
+    if re.split(r"\s[#;]", value, maxsplit=1)[0].rstrip().rstrip("/") == wanted != value:
+        return "comment", ""
+    names = [m for m in VARIABLE.finditer(value) if m["name"] not in KNOWN]
+    return ("variable", names[0][0]) if names else ("", "")
 
 
 def _with_lines(parser: configparser.RawConfigParser, text: str) -> SetupCfg:

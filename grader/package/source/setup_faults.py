@@ -13,7 +13,15 @@ from grader.package.edit.text import Positioned, Splice
 from grader.package.source.module import Module
 from grader.package.source.names import dotted
 from grader.package.source.python import can_parse
-from grader.package.source.setup_packages import FINDERS, parsed_setup, setup_call
+from grader.package.source.setup_packages import FINDERS, parsed_setup, setup_call, value_of
+from grader.package.source.setup_values import (
+    RefusedValue,
+    path_object,
+    refused_value,
+    refused_version,
+    wrong_form,
+)
+from grader.package.source.values import Evaluator, Table, Text
 
 CONSTANTS = {"true": "True", "false": "False", "null": "None", "none": "None"}
 """What other languages call Python's constants."""
@@ -132,7 +140,7 @@ def _no_file(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
         return _argument_reads(reader, keyword, variant, base)
     statement = next((n for n in around if n in reader.module.tree.body), None)
     if not isinstance(statement, ast.Assign | ast.With | ast.Expr):
-        return None
+        return reader.fault("no_file_other", named[0], name=base)
     splices = _without_statement(reader, statement)
     return reader.fault(f"{variant}_above", statement, *splices, name=base)
 
@@ -190,7 +198,7 @@ def _name(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
         return None
     first = min(uses, key=lambda n: (n.lineno, n.col_offset))
     if name in _bound(module):
-        sets = [s for s in module.tree.body if isinstance(s, ast.Assign) and _sets(s, name)]
+        sets = [s for s in module.tree.body if _sets(s, name)]
         late = len(sets) == 1 and sets[0].lineno > first.lineno
         if not late:
             return None
@@ -214,8 +222,11 @@ def _name(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
     return reader.fault("undefined", first, *(swaps if len(uses) == 1 else []), name=name)
 
 
-def _sets(statement: ast.Assign, name: str) -> bool:
-    return any(isinstance(t, ast.Name) and t.id == name for t in statement.targets)
+def _sets(statement: ast.stmt, name: str) -> bool:
+    if isinstance(statement, ast.FunctionDef | ast.ClassDef):
+        return statement.name == name
+    targets = statement.targets if isinstance(statement, ast.Assign) else []
+    return any(isinstance(t, ast.Name) and t.id == name for t in targets)
 
 
 def _bound(module: Module) -> set[str]:
@@ -223,7 +234,10 @@ def _bound(module: Module) -> set[str]:
     imports = (n for n in module.nodes if isinstance(n, ast.Import | ast.ImportFrom))
     names = {alias.asname or alias.name for n in imports for alias in n.names}
     stored = (n for n in module.nodes if isinstance(n, ast.Name))
-    return names | {n.id for n in stored if isinstance(n.ctx, ast.Store)}
+    defined = {n.name for n in module.nodes if isinstance(n, ast.FunctionDef | ast.ClassDef)} | {
+        n.arg for n in module.nodes if isinstance(n, ast.arg)
+    }
+    return names | defined | {n.id for n in stored if isinstance(n.ctx, ast.Store)}
 
 
 def _not_in_setuptools(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
@@ -294,8 +308,36 @@ def _never_called(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
     del match
     for statement in reader.module.tree.body:
         if isinstance(statement, ast.If) and reader.call in ast.walk(statement):
-            return _wrong_guard(reader, statement)
-    return _entries_form(reader)
+            guard = _wrong_guard(reader, statement)
+            if guard is not None or statement.orelse:
+                return guard
+    return _entries_form(reader) or _of_value(refused_value(reader.module, reader.call))
+
+
+def _of_value(found: RefusedValue | None) -> SetupFault | None:
+    """The fault of a value that setuptools refuses."""
+    if found is None:
+        return None
+    words = {"argument": found.argument, "found": found.found}
+    filled = {key: shown(value) for key, value in words.items()}
+    return SetupFault(found.variant, found.line, filled)
+
+
+def _refused_version(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    del match
+    return _of_value(refused_version(reader.module, reader.call))
+
+
+def _path_object(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """A path of pathlib in a value that colcon reads."""
+    del match
+    return _of_value(path_object(reader.module, reader.call))
+
+
+def _wrong_form(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """An argument of setup() that has another type than setuptools can use."""
+    del match
+    return _of_value(wrong_form(reader.module, reader.call))
 
 
 def _wrong_guard(reader: _Reader, statement: ast.If) -> SetupFault | None:
@@ -340,19 +382,28 @@ def _entries_form(reader: _Reader) -> SetupFault | None:
 
 def _no_source_folder(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
     """`package_dir` leads to a folder that is not there."""
-    value = reader.argument("package_dir")
     keyword = next((k for k in reader.call.keywords if k.arg == "package_dir"), None)
     packages = reader.argument("packages")
-    if value is None or keyword is None or packages is None:
+    if keyword is None or packages is None or not _leads_to(reader, keyword.value, match["path"]):
         return None
     text = reader.module.text
     splices = reader.without(keyword, reader.call.keywords)
-    wanted = text.code(packages)
-    if isinstance(packages, ast.Call) and dotted(packages.func).rpartition(".")[2] in FINDERS:
-        wanted = f"{dotted(packages.func)}(exclude=[{text.quote}test{text.quote}])"
-        splices.append(text.swap(packages, wanted))
-    words = {"name": match["path"], "wanted": f"packages={wanted}"}
-    return reader.fault("package_dir", keyword, *splices, **words)
+    words = {"name": match["path"]}
+    if not isinstance(packages, ast.Call) or not (packages.args or packages.keywords):
+        return reader.fault("package_dir_alone", keyword, *splices, **words)
+    if dotted(packages.func).rpartition(".")[2] not in FINDERS:
+        return None
+    wanted = f"{dotted(packages.func)}(exclude=[{text.quote}test{text.quote}])"
+    splices.append(text.swap(packages, wanted))
+    return reader.fault("package_dir", keyword, *splices, **words, wanted=f"packages={wanted}")
+
+
+def _leads_to(reader: _Reader, package_dir: ast.expr, path: str) -> bool:
+    """Whether a folder is one that package_dir names, or is in it."""
+    table = Evaluator(reader.module.tree, reader.module.text.text).value(package_dir)
+    named = [v for _, v in table.pairs] if isinstance(table, Table) else []
+    folders = [value.value.strip("/") for value in named if isinstance(value, Text)]
+    return any(f"{path}/".startswith(f"{folder}/") for folder in folders if folder)
 
 
 def _of_ros_1(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
@@ -410,7 +461,7 @@ def _file_alone(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
 def _not_copied(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
     """A file of `data_files` that is not in the package, or a folder without a list of files."""
     build, text = f"/build/{reader.package}/", reader.module.text
-    path = match["path"].rpartition(build)[2] if build in match["path"] else match["path"]
+    path: str = match["path"].rpartition(build)[2] if build in match["path"] else match["path"]
     data_files = reader.argument("data_files")
     items = data_files.elts if isinstance(data_files, ast.List | ast.Tuple) else []
     plain = [i for i in items if isinstance(i, ast.BinOp | ast.Constant | ast.JoinedStr)]
@@ -429,7 +480,7 @@ def _not_copied(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
     ):
         named = files.elts if isinstance(files, ast.List | ast.Tuple) else []
         for node in named:
-            if isinstance(node, ast.Constant) and node.value == path:
+            if value_of(reader.module, node) == path:
                 close = nearest(path, ["package.xml"], cutoff=0.8)
                 if close:
                     wanted = f"{text.quote}{close}{text.quote}"
@@ -456,8 +507,15 @@ LOOKS: tuple[tuple[str, Callable[[_Reader, re.Match[str]], SetupFault | None]], 
     (r"colcon cannot read", _function_given),
     (r"setup\(\) was never called", _never_called),
     (r"error: error in 'egg_base' option: '(?P<path>[^'\n]{1,200})'", _no_source_folder),
+    (r"(?:error: )?package directory '(?P<path>[^'\n]{1,200})'", _no_source_folder),
     (r"OSError: Path ", _of_ros_1),
+    (r"ValueError: malformed node or string", _path_object),
+    (r"AttributeError: '\w{0,20}Path' object has no attribute", _path_object),
+    (r"InvalidVersion: ", _refused_version),
+    (r"inside of setup\(\)", _wrong_form),
 )
+INSIDE = "inside of setup()"
+"""Stands for an error that comes from inside of setuptools, and is not known."""
 NOT_REACHED = "setup() was never called"
 """Stands for the error if setup.py ends before setup() has done its work."""
 UNREAD = "colcon cannot read"

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import ast
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from grader.base.nearest import nearest
 from grader.package.edit.text import Splice
 from grader.package.source.module import Module, parse_module
 from grader.package.source.python import PythonFault, can_parse
 from grader.package.source.setup_py import is_setup_call
+from grader.package.source.values import Evaluator, Listing, Text
 
 FINDERS = ("find_packages", "find_namespace_packages")
 
@@ -20,7 +22,8 @@ class Packages:
 
     `is_text` is whether it is a text: setuptools takes each of its letters for a folder.
     `misspelt` is the argument that was meant. `fixed` is the file after the change; None if no
-    change is certain.
+    change is certain. `is_there` is whether the source says it already, `extra` the line of the
+    other names in the list, by the name. `is_moved`: something else can change the folders.
     """
 
     wanted: str
@@ -29,6 +32,9 @@ class Packages:
     is_text: bool = False
     fixed: bytes | None = None
     misspelt: str = ""
+    is_there: bool = False
+    extra: Mapping[str, int] = field(default_factory=dict)
+    is_moved: bool = False
 
 
 def setup_call(module: Module) -> ast.Call | None:
@@ -47,15 +53,21 @@ def parsed_setup(found: bytes) -> Module | None:
 
 def value_of(module: Module, node: ast.expr | None) -> object:
     """Return the value of a constant, in place or assigned once to a name; None if it is neither."""
-    if isinstance(node, ast.Name):
-        stores = [
-            n
-            for n in module.nodes
-            if isinstance(n, ast.Assign)
-            and any(isinstance(t, ast.Name) and t.id == node.id for t in n.targets)
-        ]
-        node = stores[0].value if len(stores) == 1 else None
+    node = resolved(module, node) if node is not None else None
     return node.value if isinstance(node, ast.Constant) else None
+
+
+def resolved(module: Module, node: ast.expr) -> ast.expr:
+    """Return the value of a name that is assigned once; any other expression itself."""
+    if not isinstance(node, ast.Name):
+        return node
+    stores = [
+        n
+        for n in module.nodes
+        if isinstance(n, ast.Assign)
+        and any(isinstance(t, ast.Name) and t.id == node.id for t in n.targets)
+    ]
+    return stores[0].value if len(stores) == 1 else node
 
 
 def packages_of(found: bytes, package: str, *, nested: bool) -> Packages:
@@ -80,8 +92,23 @@ def packages_of(found: bytes, package: str, *, nested: bool) -> Packages:
     statement = imports if nested and not known else ""
     line = keyword.value.lineno if keyword else call.lineno if call else None
     is_text = isinstance(value_of(module, keyword.value), str) if keyword else False
-    fixed = _fixed(module, call, keyword, wanted, statement)
-    return Packages(wanted, line, statement, is_text, fixed)
+    items = {} if keyword is None else _named(module, keyword.value)
+    same = keyword is not None and wanted == f"packages={module.text.code(keyword.value)}"
+    is_there = same or package in items
+    changes = not is_there or len(items) == 2  # (the other one is deleted)
+    fixed = _fixed(module, call, keyword, wanted, statement) if changes else None
+    return Packages(
+        wanted, line, statement, is_text, fixed, is_there=is_there,
+        extra={name: at for name, at in items.items() if name != package},
+        is_moved=any(k.arg in (None, "package_dir") for k in _keywords(module)),
+    )  # fmt: skip
+
+
+def _named(module: Module, node: ast.expr) -> dict[str, int]:
+    """Return the names in a list of packages and their lines, as far as they are known."""
+    value = Evaluator(module.tree, module.text.text).value(node)
+    items = value.items if isinstance(value, Listing) else ()
+    return {item.value: item.line for item in items if isinstance(item, Text)}
 
 
 def _meant(module: Module) -> ast.keyword | None:

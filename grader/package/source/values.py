@@ -137,6 +137,11 @@ class Evaluator:
         return None
 
     def _call(self, node: ast.Call) -> Value | None:
+        if isinstance(node.func, ast.Name) and node.func.id == "dict" and not node.args:
+            pairs = [(k.arg, k.value) for k in node.keywords]
+            keys = (Text(a, v.lineno) if a is not None else Computed(v.lineno) for a, v in pairs)
+            values_of = (self.value(value) for _, value in pairs)
+            return Table(tuple(zip(keys, values_of, strict=True)), node.lineno)
         if node.keywords or not isinstance(node.func, ast.Attribute):
             return None
         values = self._items(node.args)

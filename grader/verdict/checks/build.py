@@ -11,18 +11,23 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import Message, joined, say
 from grader.base.nearest import nearest
 from grader.base.shown import shown
-from grader.mistakes.fixes.setup_cfg import KEYS
 from grader.mistakes.slips import description, words_of
 from grader.package.source.module import parse_module
 from grader.package.source.names import dotted
 from grader.package.source.pasted import labels_in
 from grader.package.source.python import PythonFault
-from grader.package.source.setup_cfg import Setting, SetupCfgFault, read_setup_cfg
-from grader.package.source.setup_faults import NOT_REACHED, UNREAD, SetupFault, setup_fault
-from grader.package.source.setup_packages import packages_of
-from grader.package.source.setup_py import called_value, entry_outside, missing_imports
+from grader.package.source.setup_cfg import KEYS, Setting, SetupCfgFault, read_setup_cfg
+from grader.package.source.setup_faults import INSIDE, NOT_REACHED, UNREAD, SetupFault, setup_fault
+from grader.package.source.setup_packages import packages_of, parsed_setup
+from grader.package.source.setup_py import (
+    called_value,
+    entry_outside,
+    is_setup_call,
+    missing_imports,
+)
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
+from grader.verdict.checks.build_log import is_inside, last_error, setup_error, summary_of
 from grader.verdict.checks.cmake import CMAKE, cmake_error
 from grader.verdict.checks.declare import BUILD, check
 from grader.verdict.checks.parsed import has_subpackages, node_path
@@ -47,6 +52,9 @@ EGG_BASE = re.compile(r"error: error in 'egg_base' option: '[^'\n]{1,200}'")
 NOT_WRITTEN = re.compile(
     r"error: \[Errno \d{1,3}\] (?:Read-only file system|Permission denied): '(?P<path>[^'\n]{1,200})'"
 )
+NO_VARIABLE = re.compile(
+    r"^ValueError: invalid variable '|^configparser\.Interpolation\w{1,40}Error: ", re.MULTILINE
+)
 IGNORED = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 """Files for which colcon passes over a folder."""
 EXITS = ("exit", "quit", "sys.exit", "os._exit", "os.abort")
@@ -59,7 +67,13 @@ ANSWER = 'File "<unknown>", line '  # colcon evaluates setup.py's output, which 
     "build.colcon",
     stage=BUILD,
     depends=["package.found"],
-    after=["package.manifest", "package.marker", "package.setup_cfg", "entry_point.mapping"],
+    after=[
+        "package.manifest",
+        "package.marker",
+        "package.setup_cfg",
+        "entry_point.mapping",
+        "source.node_file",
+    ],
     quotes="build_log",
 )
 def colcon_builds(evidence: Evidence) -> Passed:
@@ -86,14 +100,18 @@ def colcon_builds(evidence: Evidence) -> Passed:
         raise Blocked(by="entry_point.mapping")
     if evidence.has_mistake("package.setup_cfg", "package.setup_cfg_syntax"):
         raise Blocked(by="package.setup_cfg")
-    elsewhere = NOT_WRITTEN.search(build.log)
-    if evidence.has_failed("package.setup_cfg") and elsewhere is not None:
+    of_path = NOT_WRITTEN.search(build.log) or NO_VARIABLE.search(build.log)
+    if evidence.has_failed("package.setup_cfg") and of_path is not None:
         raise Blocked(by="package.setup_cfg")
     of_group = evidence.has_mistake("entry_point.mapping", "setup.group_misspelt")
     if of_group and BAD_GROUP in build.log:
         raise Blocked(by="entry_point.mapping")
     if evidence.has_failed("entry_point.mapping") and NEVER_CALLED in build.log:
         raise Blocked(by="entry_point.mapping")
+    lost = NO_FOLDER.search(build.log)
+    is_inner = lost is not None and lost[1] == evidence.assignment.folder
+    if is_inner and evidence.has_failed("source.node_file"):
+        raise Blocked(by="source.node_file")  # (the inner folder has another name)
     raise _broken(evidence)
 
 
@@ -165,6 +183,7 @@ def _ros_line(found: bytes) -> int | None:
 def _broken(evidence: Evidence) -> Failed:
     build = evidence.build
     error, line = setup_error(build.log)
+    error = re.sub(r"^(?:\w+\.)+(?=Invalid)", "", error)
     where = Where(file="setup.py", line=line)
     expected = say("colcon build ends with: Summary: 1 package finished")
     if ANSWER in build.log and error.startswith(("SyntaxError", "ValueError", "IndentationError")):
@@ -206,6 +225,9 @@ def _broken(evidence: Evidence) -> Failed:
     if error:
         return _raised(evidence, expected, error, where)
     folder = NO_FOLDER.search(build.log)
+    source = _fault(evidence, folder[0]) if folder is not None else None
+    if folder is not None and source is not None:
+        return _refused(expected, folder[0], source)
     if folder is not None or FLAT in build.log:
         return _not_packaged(evidence, expected, shown(folder[1]) if folder is not None else "")
     ignored = [name for name in IGNORED if evidence.submission.file(name) is not None]
@@ -213,7 +235,7 @@ def _broken(evidence: Evidence) -> Failed:
         return Failed(
             "build.ignored",
             expected=expected,
-            actual=_summary(build.log),
+            actual=summary_of(build.log),
             where=Where(file=ignored[0]),
             words={"name": ignored[0]},
         )
@@ -233,20 +255,52 @@ def _broken(evidence: Evidence) -> Failed:
     copy = NO_COPY.search(build.log) or EGG_BASE.search(build.log)
     fault = _fault(evidence, copy[0]) if copy is not None else None
     if copy is not None and fault is not None:
-        return Failed(
-            "build.failed",
-            expected=expected,
-            actual=copy[0],
-            where=Where(file="setup.py", line=fault.line),
-            variant=fault.variant,
-            params={"status": -1 if build.status is None else build.status, "error": copy[0]},
-            words=fault.words,
-        )
+        return _refused(expected, copy[0], fault)
+    last = last_error(build.log)
     return Failed(
         "build.failed",
         expected=expected,
-        actual=_summary(build.log) or ended,
+        actual=last or summary_of(build.log) or ended,
+        where=_named_in(_setup_py(evidence), last),
+        variant="last" if last else "",
         params={"status": -1 if build.status is None else build.status},
+    )
+
+
+def _line_of_cfg(evidence: Evidence, error: str) -> Where | None:
+    """Return the one line of setup.cfg with the value that an error names; None if it is unknown."""
+    value, file = re.search(r"'([^'\n]{1,300})'", error), evidence.submission.file("setup.cfg")
+    text = file.data.decode("utf-8", "replace") if file is not None else ""
+    rows = enumerate(text.splitlines(), 1)
+    lines = [n for n, row in rows if value is not None and value[1] in row]
+    return Where(file="setup.cfg", line=lines[0]) if len(lines) == 1 else None
+
+
+def _named_in(found: bytes, error: str) -> Where | None:
+    """Return the one line of setup.py with the path that an error names; None if it is unknown."""
+    path = re.search(r"'([^'\n]{1,300})'", error)
+    module = parsed_setup(found)
+    if path is None or module is None:
+        return None
+    lines = {
+        node.lineno
+        for node in module.nodes
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value.strip("/.")
+        if f"/{path[1]}".endswith(f"/{node.value.strip('/')}")
+    }
+    return Where(file="setup.py", line=lines.pop()) if len(lines) == 1 else None
+
+
+def _refused(expected: str, error: str, fault: SetupFault) -> Failed:
+    """Return that the build stopped at a value of setup.py."""
+    return Failed(
+        "build.failed",
+        expected=expected,
+        actual=error,
+        where=Where(file="setup.py", line=fault.line),
+        variant=fault.variant,
+        params={"error": error},
+        words=fault.words,
     )
 
 
@@ -299,19 +353,29 @@ def _not_packaged(evidence: Evidence, expected: str, folder: str) -> Failed:
     """Return that `packages` names a folder that is not there, or that setup() has no packages."""
     package = evidence.assignment.package
     found = packages_of(_setup_py(evidence), package, nested=has_subpackages(evidence))
-    actual = say("setup() has no argument packages=")
+    actual, line = say("setup() gets no packages"), found.line
     variant = "import" if found.statement else "misspelt" if found.misspelt else "argument"
     if folder:
         actual = say("setup.py names a folder that is not in the package: {folder}", folder=folder)
         variant = "import" if found.statement else "text" if found.is_text else "folder"
+        others = {name: at for name, at in found.extra.items() if name.replace(".", "/") == folder}
+        if found.is_there and others:
+            variant, line = "other_folder", min(others.values())
+        elif found.is_there or (found.is_moved and not found.is_text):
+            variant = "unknown_folder"
     return Failed(
         "setup.not_packaged",
         expected=expected,
         actual=actual,
-        where=Where(file="setup.py", line=found.line),
+        where=Where(file="setup.py", line=line),
         variant=variant,
         params={"folder": folder} if folder else {},
-        words={"wanted": found.wanted, "statement": found.statement, "name": found.misspelt},
+        words={
+            "wanted": found.wanted,
+            "statement": found.statement,
+            "name": found.misspelt,
+            "path": folder,
+        },
     )
 
 
@@ -328,11 +392,14 @@ def _answer(evidence: Evidence, expected: str) -> Failed:
             params={"error": UNREAD},
             words=fault.words,
         )
+    writes = any(word in code for word in (b"print", b"stdout", b"system", b"subprocess"))
+    printed = say("setup.py prints something: colcon could not read its answer")
     return Failed(
         "build.setup_prints",
         expected=expected,
-        actual=say("setup.py prints something: colcon could not read its answer"),
+        actual=printed if writes else say("colcon could not read the answer of setup.py"),
         where=Where(file="setup.py", line=_first_print(evidence)),
+        variant="" if writes else "answer",
     )
 
 
@@ -366,7 +433,16 @@ def _never_called(found: bytes) -> _NeverCalled:
                 return _NeverCalled("function", statement.lineno, statement.name)
     if not exits and any(n in ast.walk(s) for n in calls for s in _plain(module.tree.body)):
         return _NeverCalled("refused", calls[0].lineno)
-    return _NeverCalled()
+    ends = [s.lineno for s in _plain(module.tree.body) if _is_exit(s)]
+    if ends and ends[0] < calls[0].lineno:
+        return _NeverCalled("", ends[0])
+    return _NeverCalled("not_done")
+
+
+def _is_exit(statement: ast.stmt) -> bool:
+    """Whether a statement is a call such as sys.exit()."""
+    value = statement.value if isinstance(statement, ast.Expr) else None
+    return isinstance(value, ast.Call) and dotted(value.func) in EXITS
 
 
 def _plain(body: list[ast.stmt]) -> list[ast.stmt]:
@@ -376,10 +452,12 @@ def _plain(body: list[ast.stmt]) -> list[ast.stmt]:
 
 def _never(variant: str) -> Message:
     """Return what is known if setup() did not finish its work."""
-    if variant in ("refused", "entries_list", "entries_dict"):
+    if variant in ("entries_list", "entries_dict") or variant.startswith("refused"):
         return say("setuptools stopped in setup(), and gave no reason")
     if variant == "guard":
         return say("the condition above setup() is never true, so nothing calls it")
+    if variant == "not_done":
+        return say("setup.py ended, and setup() had not done its work")
     return say("setup.py ended before it called setup()")
 
 
@@ -422,11 +500,14 @@ def _raised(evidence: Evidence, expected: str, error: str, where: Where) -> Fail
             {"line": str(found.end_lineno)},
         )
         return _stopped_with(expected, error, place, "comma", words=words)
-    fault = _fault(evidence, error)
+    inside = is_inside(evidence.build.log, error)
+    fault = _fault(evidence, error) or (_fault(evidence, INSIDE) if inside else None)
     if fault is not None:
         place = Where(file="setup.py", line=fault.line)
         return _stopped_with(expected, error, place, fault.variant, words=fault.words)
-    return _stopped_with(expected, error, where)
+    if inside:
+        where = _named_in(code, error) or _line_of_cfg(evidence, error) or where
+    return _stopped_with(expected, error, where, "inside" if inside else "")
 
 
 def _stopped_with(
@@ -452,11 +533,19 @@ def _stopped_with(
 
 def _unreadable(evidence: Evidence, expected: str, error: str, where: Where) -> Failed:
     repeated = re.search(r"keyword argument repeated: (\w{1,80})", error)
+    twice = _repeated(_setup_py(evidence), repeated[1]) if repeated is not None else []
     outside = entry_outside(_setup_py(evidence))
     slip = slip_of(_setup_py(evidence)) if repeated is None and outside is None else None
     variant, words = "unreadable", {}
     if repeated is not None:
         variant, words = "repeated", {"name": repeated[1]}
+        if len(twice) == 2:
+            first, last = twice
+            variant = "repeated_lines"
+            words = {"name": repeated[1], "line": str(first.lineno), "last": str(last.lineno)}
+            empty = [one for one in twice if _is_empty(one.value)]
+            if len(empty) == 1:
+                variant, where = "repeated_empty", Where(file="setup.py", line=empty[0].lineno)
     elif outside is not None:
         variant, words = "outside", {"line": str(outside.above)}
         where = Where(file="setup.py", line=outside.line)
@@ -479,6 +568,26 @@ def _unreadable(evidence: Evidence, expected: str, error: str, where: Where) -> 
     )
 
 
+def _repeated(found: bytes, name: str) -> list[ast.keyword]:
+    """Return the arguments of setup() with a name."""
+    try:
+        tree = ast.parse(found)  # (Python refuses the file only when it compiles the tree)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return []
+    calls = [node for node in ast.walk(tree) if is_setup_call(node)]
+    call = calls[0] if len(calls) == 1 else None
+    return [k for k in call.keywords if k.arg == name] if isinstance(call, ast.Call) else []
+
+
+def _is_empty(node: ast.expr) -> bool:
+    """Whether a value is an empty list, text or dict, or contains only such values."""
+    if isinstance(node, ast.Dict):
+        return all(_is_empty(value) for value in node.values)
+    if isinstance(node, ast.List | ast.Tuple):
+        return not node.elts
+    return isinstance(node, ast.Constant) and node.value in ("", None)
+
+
 def _setup_py(evidence: Evidence) -> bytes:
     file = evidence.submission.file("setup.py")
     return file.data if file is not None and file.kind == "file" else b""
@@ -495,41 +604,9 @@ def limit_name(limit: str) -> str:
     return names.get(limit, limit)
 
 
-def setup_error(log: str) -> tuple[str, int | None]:
-    """Return the Python error that ended setup.py, and its line there, if any.
-
-    colcon runs setup.py in a process of its own with distutils' run_setup, so that the traceback
-    has no file name. colcon's own traceback about the failed process follows that of setup.py.
-    """
-    of_setup = re.sub(r"^subprocess\.CalledProcessError: .*$", "", log, flags=re.MULTILINE)
-    error, line = python_error(of_setup, "setup.py")
-    if not error:
-        return python_error(log, "setup.py")
-    nameless = re.findall(r'in run_setup\n.*\n  File "<string>", line (\d+)', of_setup)
-    return error, line or (int(nameless[-1]) if nameless else None)
-
-
-def python_error(text: str, file: str) -> tuple[str, int | None]:
-    """Return the last Python error in a text ("TypeError: …") and its line in `file`, if any."""
-    errors = re.findall(
-        r"^((?:[A-Za-z_][\w.]*\.)?[A-Z]\w*(?:Error|Exception|Exit|Interrupt|Iteration)(?:: .*)?)$",
-        text,
-        re.MULTILINE,
-    )
-    lines = re.findall(rf'File "[^"\n]*{re.escape(file)}", line (\d+)', text)
-    return (errors[-1][:400] if errors else ""), (int(lines[-1]) if lines else None)
-
-
 def _first_print(evidence: Evidence) -> int | None:
     text = _setup_py(evidence).decode("utf-8", errors="replace")
     for number, line in enumerate(text.splitlines(), start=1):
         if re.match(r"\s*print\s*\(", line):
             return number
     return None
-
-
-def _summary(log: str) -> str:
-    lines = [line.strip() for line in log.splitlines() if line.strip()]
-    wanted = ("Failed", "error:", "ERROR", "Error", "Summary:")
-    telling = [line for line in lines if any(word in line for word in wanted)]
-    return " / ".join(telling[:3])[:600]

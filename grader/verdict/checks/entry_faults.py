@@ -11,7 +11,7 @@ from grader.base.shown import shown
 from grader.package.source.entry_points import Entry, EntryPoints, Misplaced, is_refused, misplaced
 from grader.package.source.in_class import line_in_class
 from grader.package.source.python import PythonFault, parse_python
-from grader.package.source.values import Text
+from grader.package.source.values import Table, Text
 from grader.report.model import Where
 from grader.verdict.checks.parsed import file_of, names_in, node_path
 from grader.verdict.outcome import Failed
@@ -49,7 +49,12 @@ def _failed(
     **params: str,
 ) -> Failed:
     """Return the fault of an entry; `found` is the part that should be `meant_to_be`."""
-    text = shown(entry.text)
+    text, fix = shown(entry.text), ""
+    if entry.file == "setup.cfg" and not variant:
+        fix = say(
+            "Write in setup.cfg, without quotes: {wanted}. Then build again.",
+            wanted=wanted_entry(evidence),
+        )
     said = say("'{entry}': {because}", entry=text, because=because or title_of(mistake))
     return Failed(
         mistake,
@@ -58,6 +63,7 @@ def _failed(
         where=Where(file=entry.file, line=entry.line),
         variant=variant,
         params={"entry": text, **params},
+        fix=fix,
         words={"wanted": wanted_entry(evidence), **(words or {})},
     )
 
@@ -183,6 +189,7 @@ def _no_entry(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed
     names = ", ".join(shown(entry.name) for entry in points.group("console_scripts")[:4])
     line = points.lines.get("console_scripts", setup.line)
     variant, close, actual = "", "", say("console_scripts has no entry")
+    in_cfg = bool(points.groups) and _has_no_points(setup)
     if names:
         actual = say("there are only: {names}", names=names)
     if comment is not None:
@@ -194,17 +201,30 @@ def _no_entry(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed
         line = _line_of_argument(setup, close)
     elif (entry := _elsewhere(evidence)) is not None:
         return _misplaced(evidence, entry)
+    elif not points.groups and setup.argument("entry_points") is not None:
+        variant, actual = "empty", say("entry_points is empty")
     elif not points.groups:
         variant, actual = "nothing", say("setup() has no entry_points argument")
+        variant = "scripts" if setup.argument("scripts") is not None else variant
+    elif in_cfg:
+        variant = "cfg"
+    elif "console_scripts" not in points.groups:
+        variant, actual = "group", say("entry_points has no group console_scripts")
     return Failed(
         "setup.no_entry",
         expected=say("'{entry}' among the console_scripts", entry=wanted_entry(evidence)),
         actual=actual,
-        where=Where(file="setup.py", line=line),
+        where=Where(file="setup.cfg" if in_cfg else "setup.py", line=line),
         variant=variant,
         params={"argument": shown(close)} if close else {},
         words={"wanted": wanted_entry(evidence)},
     )
+
+
+def _has_no_points(setup: SetupPy) -> bool:
+    """Whether setup() has no entry points, so that those of setup.cfg count."""
+    given = setup.argument("entry_points")
+    return given is None or (isinstance(given, Table) and not given.pairs)
 
 
 def _near_argument(setup: SetupPy) -> str:

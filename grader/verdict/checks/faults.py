@@ -11,7 +11,8 @@ from grader.mistakes.placeholders import placeholder_values
 from grader.report.model import Where
 from grader.run.run import Program
 from grader.verdict.checks.actual_node import actual_path
-from grader.verdict.checks.build import limit_name, python_error
+from grader.verdict.checks.build import limit_name
+from grader.verdict.checks.build_log import python_error
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Failed
 

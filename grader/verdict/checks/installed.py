@@ -11,7 +11,7 @@ from grader.base.i18n.message import say
 from grader.base.shown import shown
 from grader.report.model import Where
 from grader.verdict.checks.as_declared import must_be_as_declared
-from grader.verdict.checks.build import setup_error
+from grader.verdict.checks.build_log import setup_error
 from grader.verdict.checks.declare import BUILD, check
 from grader.verdict.checks.entry_faults import wanted_entry
 from grader.verdict.checks.entry_point import mapping_from_source

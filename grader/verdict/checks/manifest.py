@@ -13,6 +13,7 @@ from grader.base.nearest import meant, nearest, there_is, with_difference
 from grader.base.shown import shown
 from grader.package.source.broken_xml import TAGS, XmlFault, xml_fault
 from grader.package.source.manifest import (
+    DEPENDS,
     REQUIRED,
     Element,
     Manifest,
@@ -145,7 +146,9 @@ def _unusable(error: ManifestError, found: bytes) -> Failed:
         said, variant = say("package.xml is empty"), "empty"
         return _failed("package.broken_xml", said, error.line, variant=variant, params=params)
     if fault is None:
-        return _failed("package.broken_xml", text, error.line, params=params)
+        known = {"undefined entity": "entity", "duplicate attribute": "attribute_twice"}
+        variant = known.get(error.text, "")
+        return _failed("package.broken_xml", text, error.line, variant=variant, params=params)
     return _failed(
         "package.broken_xml",
         _described(fault),
@@ -195,13 +198,18 @@ def _check_rules(evidence: Evidence, manifest: Manifest) -> None:
         if element is None:
             _check_tag_name(manifest, tag, within="package")
         if element is None or (not element.text and tag != "description"):
+            comment = 0 if element else _line_of_comment(evidence, tag)
+            variant = (
+                "empty" if element else tag if tag in ("version", "maintainer", "name") else ""
+            )
             raise _failed(
                 "package.manifest_tag",
                 say("<{tag}> is empty", tag=tag) if element else say("<{tag}> is missing", tag=tag),
-                element.line if element else None,
+                element.line if element else comment or None,
                 expected=say("<{tag}> that is not empty", tag=tag),
-                variant="empty" if element else "",
+                variant="commented" if comment else variant,
                 params={"tag": tag},
+                words={"package": evidence.asked.package},
             )
     if not manifest.fault:
         return
@@ -209,7 +217,9 @@ def _check_rules(evidence: Evidence, manifest: Manifest) -> None:
     package = evidence.asked.package
     fault = rule_fault(manifest, package)
     if fault is None:
-        raise _failed("package.manifest_rules", params["error"], None, params=params)
+        told = re.search(r"\bline (\d{1,6})\b", manifest.fault)
+        line = int(told[1]) if told is not None else None
+        raise _failed("package.manifest_rules", params["error"], line, params=params)
     words = _rule_words(fault, package)
     raise _failed(
         "package.manifest_rules",
@@ -219,6 +229,19 @@ def _check_rules(evidence: Evidence, manifest: Manifest) -> None:
         params=params,
         words=words,
     )
+
+
+def _line_of_comment(evidence: Evidence, tag: str) -> int:
+    """Return the line of the one comment that contains only tags, and this tag; 0 if none does."""
+    file = file_of(evidence, FILE)
+    text = file.data.decode("utf-8", "replace") if file is not None else ""
+    lines = []
+    for match in re.finditer(r"<!--(.*?)-->", text, re.DOTALL):
+        inside = match[1].strip()
+        closed = f"<{tag}>" in inside and f"</{tag}>" in inside
+        if closed and inside.startswith("<") and inside.endswith(">") and inside.count("<") < 9:
+            lines.append(text.count("\n", 0, match.start()) + 1)
+    return lines[0] if len(lines) == 1 else 0
 
 
 def _rule_words(fault: RuleFault, package: str) -> dict[str, Value]:
@@ -346,6 +369,9 @@ def _check_build_type(evidence: Evidence, manifest: Manifest) -> None:
     if not elements:
         _check_tag_name(manifest, "build_type", within="export")
         export, missing = manifest.first("export"), say("there is no <build_type>")
+        if comment := _line_of_comment(evidence, "build_type"):
+            found = Element("build_type", "", comment, "", {})
+            raise _build_type(found, missing, "commented")
         if export is None:
             raise _build_type(None, missing)
         raise _build_type(export, missing, "in_export", first=export.line)
@@ -419,6 +445,35 @@ def _of_ros_1(names: Mapping[str, int]) -> list[str]:
     ]
 
 
+def _misplaced_depend(manifest: Manifest) -> Message | None:
+    """Return advice on a dependency on rclpy that is inside of another tag."""
+    inside = (e for e in manifest.elements if DEPENDS.fullmatch(e.tag) and e.within != "package")
+    element = next((e for e in inside if e.text == "rclpy"), None)
+    if element is None:
+        return None
+    return say(
+        "package.xml, line {line}: <{tag}>{name}</{tag}> does not count inside of <{within}>. Move "
+        "it out of that tag, so that it is directly inside of <package>. It runs here because "
+        "rclpy is installed anyway.",
+        line=element.line,
+        tag=shown(element.tag),
+        name=element.text,
+        within=shown(element.within),
+    )
+
+
+def _cpp_library(names: Mapping[str, int]) -> Message | None:
+    """Return advice on a dependency on ROS's library for C++, if there is none on Python's."""
+    if "rclcpp" not in names:
+        return None
+    return say(
+        "package.xml, line {line}: '{name}' is the library of ROS for C++. A node in Python needs "
+        "rclpy: write <depend>rclpy</depend> instead. It runs here because rclpy is installed anyway.",
+        line=names["rclcpp"],
+        name="rclcpp",
+    )
+
+
 def _advice(manifest: Manifest, *, asked: bool) -> list[str]:
     """Return advice that costs no points; `asked`: a check asks for the dependencies."""
     names = {element.text: element.line for element in manifest.depends}
@@ -427,7 +482,9 @@ def _advice(manifest: Manifest, *, asked: bool) -> list[str]:
     is_named = "rclpy" in parts or any(meant_package(name) == "rclpy" for name in names)
     if not is_named and not asked and not advice:
         advice.append(
-            say(
+            _misplaced_depend(manifest)
+            or _cpp_library(names)
+            or say(
                 "package.xml does not say that the package needs rclpy: add "
                 "<depend>rclpy</depend>. It runs here because rclpy is installed anyway."
             )

@@ -10,7 +10,13 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import say
 from grader.base.nearest import nearest, there_is, with_difference
 from grader.base.shown import shown
-from grader.package.source.setup_cfg import SetupCfg, SetupCfgFault, read_setup_cfg
+from grader.package.source.setup_cfg import (
+    KEYS,
+    SetupCfg,
+    SetupCfgFault,
+    read_setup_cfg,
+    slip_of_path,
+)
 from grader.package.source.setup_py import INDEX
 from grader.package.source.values import Computed, Listing, Text, Value
 from grader.report.model import Where
@@ -54,29 +60,24 @@ def found(evidence: Evidence) -> Passed:
 
 def _both_are_wrong(cfg: SetupCfg, wanted: str) -> bool:
     """Whether both sections have a setting, and neither is right."""
-    pairs = (("develop", "script_dir"), ("install", "install_scripts"))
     given = [
         cfg.sections.get(section, {}).get(name)
-        for section, key in pairs
+        for section, key in KEYS.items()
         for name in (key, key.replace("_", "-"))
     ]
     values = [setting.value.rstrip("/") for setting in given if setting is not None]
     return len(values) > 1 and wanted not in values
 
 
-def _quoted_lines(cfg: SetupCfg, wanted: str) -> list[int]:
-    """Return the lines on which a path is right except for the quotes around it."""
+def _lines_of(cfg: SetupCfg, slip: str, wanted: str) -> list[int]:
+    """Return the lines on which a path is wrong in the same way."""
     given = [
         setting
-        for section, key in (("develop", "script_dir"), ("install", "install_scripts"))
+        for section, key in KEYS.items()
         for name, setting in cfg.sections.get(section, {}).items()
         if name in (key, key.replace("_", "-"))
     ]
-    return sorted(
-        setting.line
-        for setting in given
-        if setting.value[:1] in ("'", '"') and setting.value.strip("'\"").rstrip("/") == wanted
-    )
+    return sorted(s.line for s in given if slip_of_path(s.value, wanted)[0] == slip)
 
 
 @check("package.manifest", stage=INTAKE, depends=["package.found"])
@@ -113,8 +114,12 @@ def marker(evidence: Evidence) -> Passed:
     raise Failed(
         "package.marker_not_installed",
         expected=say("setup.py installs {path} in {folder}", path=path, folder=INDEX),
-        actual=say("data_files in setup.py has no line for it"),
+        actual=say("data_files in setup.py has no line for it")
+        if data_files is not None
+        else say("setup() has no argument data_files"),
         where=Where(file="setup.py", line=line),
+        variant="" if data_files is not None else "argument",
+        words={"package": package},
     )
 
 
@@ -316,7 +321,7 @@ def setup_cfg(evidence: Evidence) -> Passed:
             actual=say("setup.cfg cannot be parsed: {text}", text=printable_reason(fault.text)),
             where=Where(file="setup.cfg", line=fault.line),
             variant=fault.variant,
-            words={"other": fault.other},
+            words={"other": fault.other, "line": str(fault.there)},
         ) from None
     advice = [
         *_setting(cfg, "develop", "script_dir", wanted, expected),
@@ -348,10 +353,12 @@ def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) 
                 dashed=dashed,
             )
         ]
-    line, close, quoted = cfg.lines.get(section), "", _quoted_lines(cfg, wanted)
+    line, close, quoted, name = cfg.lines.get(section), "", list[int](), ""
     if setting is not None:
         line, variant = setting.line, "both" if _both_are_wrong(cfg, wanted) else ""
-        variant = "quotes" if setting.line in quoted else variant
+        slip, name = slip_of_path(setting.value, wanted)
+        quoted = _lines_of(cfg, slip, wanted) if slip else []
+        variant = slip or variant
         value = shown(setting.value)
         said: str = say("[{section}] has {key}={value}", section=section, key=key, value=value)
         actual = with_difference(said, setting.value, wanted)
@@ -369,6 +376,8 @@ def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) 
         actual = with_difference(said, close, section)
         if close and close in cfg.lines:
             line, variant = cfg.lines[close], "heading"
+        elif not close and not any(name in cfg.sections for name in KEYS):
+            variant = "sections"
     raise Failed(
         "package.setup_cfg_wrong",
         expected=expected,
@@ -380,5 +389,6 @@ def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) 
             "wanted": wanted,
             "close": shown(close),
             "line": ", ".join(str(number) for number in quoted),
+            "name": shown(name),
         },
     )
