@@ -13,6 +13,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
+from grader.mistakes.alike import is_typo, meant_by
 from grader.mistakes.constructor import lines_of
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import (
@@ -31,10 +32,11 @@ from grader.mistakes.recognised import NAME_ERROR, OWN_ATTRIBUTE, Raised, Recogn
 from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import starts_of, targets_of
-from grader.package.source.module import Function
-from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.module import Function, Module
+from grader.package.source.names import calls_in, dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS
-from grader.package.source.place import statement_at
+from grader.package.source.place import function_at, statement_at
+from grader.package.source.scopes import bindings, class_of, scope_of, visible_names
 
 ATTRIBUTE = (
     r"AttributeError: (?:module |type object )?'(?P<type>[\w.]{1,200})'(?: object)? has no "
@@ -43,6 +45,23 @@ ATTRIBUTE = (
 
 MISSPELT = 0.85  # how like two names are of which one is the other with a typing mistake
 
+TYPES = {
+    "void": "None",
+    **dict.fromkeys(("boolean", "Boolean"), "bool"),
+    **dict.fromkeys(("string", "char"), "str"),
+    **dict.fromkeys(("integer", "Integer", "long", "short", "unsigned"), "int"),
+    **dict.fromkeys(("double", "Double"), "float"),
+}
+"""Types of other languages, and those of Python."""
+
+SET_ELSEWHERE = msg(
+    "self.{name} does not exist until a line assigns to it. Line {lines} does so, but had not run "
+    "for this object when Python came to this line."
+)
+SET_IN_METHOD = msg(
+    "self.{name} does not exist until a line assigns to it. Line {lines} does so, in the method "
+    "{method}, which had not run for this object when Python came to this line."
+)
 PROPERTY = msg(
     "{method} is a property: it is read without (), so Python passes only self. A property cannot "
     "have another parameter."
@@ -52,21 +71,29 @@ OF_ROS = ("spin", "spin_once", *NODE_METHODS)
 
 
 def _close_attribute(raised: Raised, name: str) -> str:
-    return nearest(name, raised.source.attributes, cutoff=0.75)
+    return meant_by(name, raised.source.attributes, cutoff=0.75)
 
 
 def _close_method(raised: Raised, match: re.Match[str]) -> str:
     """Return the method that is meant: of the node, of rclpy or of the logger."""
     name = match["name"]
     if of_self(raised, match):
-        if _close_attribute(raised, name):
+        if _close_attribute(raised, name) and not _is_only_called(raised, name):
             return ""
-        return nearest(name, {*NODE_METHODS, *raised.source.methods}, cutoff=0.75)
+        return meant_by(name, {*NODE_METHODS, *raised.source.methods}, cutoff=0.75)
     if match["type"] == "rclpy":
-        return nearest(name, RCLPY, cutoff=0.7)
+        return meant_by(name, RCLPY, cutoff=0.7)
     if not _is_of_node(raised, match["type"]):
         return ""
-    return nearest(name, (*NODE_METHODS, *LOG_METHODS), cutoff=0.7)
+    return meant_by(name, (*NODE_METHODS, *LOG_METHODS), cutoff=0.7)
+
+
+def _is_only_called(raised: Raised, name: str) -> bool:
+    """Whether each use of an attribute of self calls it."""
+    parents = raised.module.parents
+    uses = [n for n in raised.module.nodes if dotted(n) == f"self.{name}"]
+    around = [(parents.get(use), use) for use in uses if isinstance(use, ast.Attribute)]
+    return bool(around) and all(isinstance(a, ast.Call) and a.func is use for a, use in around)
 
 
 def _is_of_node(raised: Raised, kind: str) -> bool:
@@ -91,6 +118,9 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if not of_self(raised, match) or match["name"] in raised.module.functions:
         return None
     name, close = match["name"], _close_attribute(raised, match["name"])
+    elsewhere = _set_elsewhere(raised, name)
+    if elsewhere is not None:
+        return elsewhere
     for timer in raised.source.timers:
         if dotted(timer.period or timer.call) == f"self.{name}" and not close:
             period = repr(raised.assignment.output.period)
@@ -107,14 +137,103 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
                 "attribute_not_set", at=node, name=value, written=_assigned(raised, node)
             )
             return replace(found, variant="annotated", words={**found.words, "attribute": name})
+    called = _called(raised, name)
+    if called is not None:
+        return called
+    return _without_value(raised, name, close)
+
+
+def _without_value(raised: Raised, name: str, close: str) -> RecognisedMistake:
+    """No line sets the attribute: a similar one is meant, or it needs a first value."""
     found = raised.finding("attribute_not_set", name=name, close=close)
     if not close and _is_object(raised, name):
         return replace(found, variant="object")
+    owner = _of_helper(raised, name)
+    if owner and not close:
+        params = {"name": f"self.{name}", "written": f"self.{owner[0]}.{name}"}
+        found = raised.finding("attribute_not_set", params=params)
+        words = {**found.words, "attribute": owner[0], "type": owner[1]}
+        return replace(found, variant="helper", words=words)
     start = node_names.start_of_other_name(raised.source, close)
-    if start is None:
+    if start is not None:
+        found = raised.finding("attribute_not_set", at=start, name=close, close=name)
+        return replace(found, variant="start")
+    if close or node_names.counts(raised.source, name):
         return found
-    found = raised.finding("attribute_not_set", at=start, name=close, close=name)
-    return replace(found, variant="start")
+    return replace(found, variant="value")
+
+
+def _of_helper(raised: Raised, name: str) -> tuple[str, str] | None:
+    """Return the attribute with the only object of a helper class that sets the name, and the class."""
+    module, source = raised.module, raised.source
+    helpers = {
+        c.name
+        for c in module.classes
+        if c not in source.family and any(_sets(module, n, f"self.{name}") for n in ast.walk(c))
+    }
+    made = [
+        (own_name(n.targets[0]), dotted(n.value.func))
+        for n in source.own_nodes
+        if isinstance(n, ast.Assign) and isinstance(n.value, ast.Call) and own_name(n.targets[0])
+    ]
+    found = [(attribute, kind) for attribute, kind in made if kind in helpers]
+    return found[0] if len(found) == 1 else None
+
+
+def _set_elsewhere(raised: Raised, name: str) -> RecognisedMistake | None:
+    """Lines of the same class set the attribute, but none of them ran before this one."""
+    module = raised.module
+    here = class_of(module, function_at(module, raised.line))
+    sets = [part for part in module.nodes if _sets(module, part, f"self.{name}")]
+    owners = [class_of(module, scope_of(module, part)) for part in sets]
+    own = {owner[1] for owner in owners if owner is not None and here and owner[0] is here[0]}
+    if not sets or here is None or None in owners or len(own) != len({o for o in owners if o}):
+        return None
+    rows = ", ".join(map(str, sorted({getattr(part, "lineno", 0) for part in sets})))
+    found = raised.finding("attribute_not_set", params={"name": name, "lines": rows})
+    if len(own) != 1:
+        return replace(found, variant="set_here")
+    method = own.pop()
+    words = {**found.words, "method": method.name}
+    if method.name == "__init__":
+        return replace(found, variant="set_here")
+    if method is here[1]:
+        return replace(found, variant="set_again", words=words)
+    named = {n.attr for n in raised.source.all_nodes if isinstance(n, ast.Attribute)}
+    plain = len(method.args.args) == 1 and not method.decorator_list
+    uncalled = method.name not in named and plain and here[0] is raised.source.node_class
+    return replace(found, variant="set_by_uncalled" if uncalled else "set_later", words=words)
+
+
+def _sets(module: Module, part: ast.AST, name: str) -> bool:
+    """Whether a part of the file gives a name a value that does not come from itself."""
+    if not isinstance(part, ast.Attribute) or not isinstance(part.ctx, ast.Store):
+        return False
+    around = module.parents.get(part)
+    if dotted(part) != name or isinstance(around, ast.AugAssign):
+        return False
+    value = around.value if isinstance(around, ast.Assign | ast.AnnAssign) else part
+    return value is not None and all(dotted(n) != name for n in ast.walk(value) if n is not part)
+
+
+def _called(raised: Raised, name: str) -> RecognisedMistake | None:
+    """The attribute that no line sets is called: a first value in (), or a missing method."""
+    module, statement = raised.module, statement_at(raised.module, raised.line)
+    calls = [
+        n
+        for n in (ast.walk(statement) if statement is not None else ())
+        if isinstance(n, ast.Call) and dotted(n.func) == f"self.{name}"
+    ]
+    if len(calls) != 1 or statement is None:
+        return None
+    call, code = calls[0], module.text.code(calls[0])
+    alone = isinstance(statement, ast.Expr) and statement.value is call
+    given = call.args[0] if len(call.args) == 1 and not call.keywords else None
+    if alone and isinstance(given, ast.Constant) and not _is_only_called(raised, name):
+        written = f"self.{name} = {module.text.code(given)}"
+        found = raised.finding("attribute_not_set", params={"name": code, "written": written})
+        return replace(found, variant="initialiser", words={**found.words, "attribute": name})
+    return replace(raised.finding("attribute_not_set", name=name), variant="no_method")
 
 
 def _assigned(raised: Raised, node: ast.AnnAssign) -> str:
@@ -135,20 +254,41 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     statement = statement_at(raised.module, raised.line)
     if isinstance(statement, ast.Expr) and dotted(statement.value) == name:
         return replace(raised.finding("name_unknown", name=name), variant="alone")
-    if any(dotted(timer.period or timer.call) == name for timer in raised.source.timers):
+    if name in TYPES and (types := _as_type(raised, name)) is not None:
+        return types
+    timers = [] if bindings(raised.module, name) else raised.source.timers
+    if any(dotted(timer.period or timer.call) == name for timer in timers):
         period = repr(raised.assignment.output.period)
         found = raised.finding("name_unknown", name=name, written=period)
         return replace(found, variant="period")
     if (own := _class_for(raised, name)) is not None:
         return _instead(raised.finding("name_unknown", name=name, close=own))
-    close = nearest(name, _known(raised, name) - {name, "None", "True", "False"}, 0.7)
+    seen = {*visible_names(raised.module, raised.line, name), *IMPORTS}
+    known = (_known(raised, name) & seen) - {name, "None", "True", "False"}
+    close = "" if bindings(raised.module, name) else meant_by(name, known, 0.7)
     if isinstance(statement, ast.ClassDef) and close:
         return _instead(raised.finding("name_unknown", name=name, close=close, written=close))
     variables = raised.source.node_variables
-    if name in spun_names(raised.source) and len(variables) == 1 and name not in variables:
+    if name in spun_names(raised.source) and len(variables) == 1 and variables < seen - {name}:
         return _instead(raised.finding("name_unknown", name=name, close=min(variables)))
     found = raised.finding("name_unknown", name=name, close=close)
     return _instead(found) if close and nearest(name, [close], cutoff=MISSPELT) else found
+
+
+def _as_type(raised: Raised, name: str) -> RecognisedMistake | None:
+    """A def or a variable has a type of another language: all uses of the name are types."""
+    module = raised.module
+    uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
+    around = [(module.parents.get(use), use) for use in uses]
+    types = [
+        getattr(a, "annotation", None) is use or getattr(a, "returns", None) is use
+        for a, use in around
+    ]
+    if not uses or not all(types):
+        return None
+    rows = ", ".join(str(row) for row in sorted({use.lineno for use in uses}))
+    found = raised.finding("name_unknown", name=name, close=TYPES[name])
+    return replace(found, variant="type", words={**found.words, "lines": rows})
 
 
 def _instead(found: RecognisedMistake) -> RecognisedMistake:
@@ -225,9 +365,25 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         code = f"{match['type']}.{match['name']}"
         found = raised.finding("attribute_unknown", name=code, written=own)
         return replace(found, variant="written")
+    return _similar(raised, match)
+
+
+def _similar(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    """Python's own suggestion, if it is the same name with a typing mistake."""
+    name, kind = match["name"], last_part(match["type"])
     suggested = re.search(r"Did you mean: '(\w{1,120})'", raised.error)
-    close = suggested[1] if suggested and _is_written(raised, match["name"]) else ""
-    return raised.finding("attribute_unknown", name=match["name"], close=close)
+    other = suggested[1] if suggested and _is_written(raised, name) else ""
+    if other and is_typo(name, other):
+        return raised.finding("attribute_unknown", name=name, close=other)
+    found = raised.finding("attribute_unknown", name=name)
+    found = replace(found, words={**found.words, "type": kind})
+    own = [c for m in raised.source.modules for c in m.classes if c.name == kind]
+    if len(own) == 1 and own[0] not in raised.source.family:
+        words = {**found.words, "line": str(own[0].lineno)}
+        return replace(found, variant="own_class", words=words)
+    if other:
+        return replace(found, variant="similar", words={**found.words, "other": other})
+    return found
 
 
 def _of_parameter(raised: Raised, name: str) -> RecognisedMistake:
@@ -417,6 +573,33 @@ KINDS = (
                 "Write the period in seconds instead of self.{name}: {written}. Or write self.{name} "
                 "= {written} above this line."
             ),
+            "value": msg(
+                "Give it a value in __init__, above the line that creates the timer: self.{name} = "
+                "and the value that it has at the beginning."
+            ),
+            "set_here": msg(
+                "See why Python did not run line {lines} before this line: it may be further down, "
+                "in a branch or a loop that was not entered, or in a function that was not called. "
+                "Move it to where it always runs first, as a rule to the beginning of __init__."
+            ),
+            "set_again": msg(
+                "Set self.{name} in __init__ too, above the line that creates the timer: "
+                "self.{name} = and the value that it has at the beginning."
+            ),
+            "set_later": msg(
+                "Set self.{name} in __init__ too, before this line can run, or call {method} "
+                "before this line can run."
+            ),
+            "set_by_uncalled": msg(
+                "Write self.{method}() in __init__, before the line that creates the timer, or move "
+                "line {lines} to __init__."
+            ),
+            "initialiser": msg("Write {written} instead of {name}."),
+            "helper": msg("Write {written} instead of {name}, here and in the other lines."),
+            "no_method": msg(
+                "Write def {name}(self): with its lines in the class, write the name of the method "
+                "that you mean, or delete the call if it is not needed."
+            ),
             "object": msg(
                 "Delete this line if it belongs to another example. If the node needs it, create "
                 "self.{name} in __init__ first."
@@ -426,7 +609,23 @@ KINDS = (
             "annotated": msg(
                 "A colon after a name only states a type. A value is assigned with =, so "
                 "self.{attribute} does not exist yet."
-            )
+            ),
+            "set_here": SET_ELSEWHERE,
+            "set_again": SET_ELSEWHERE,
+            "set_later": SET_IN_METHOD,
+            "set_by_uncalled": msg(
+                "self.{name} does not exist until a line assigns to it. Line {lines} does so, in the "
+                "method {method}, which no line calls."
+            ),
+            "initialiser": msg(
+                "() behind a name calls it, and self.{attribute} does not exist until a line assigns "
+                "to it: with =."
+            ),
+            "helper": msg(
+                "The class {type} sets this attribute, and self.{attribute} is an object of this "
+                "class. self is another object."
+            ),
+            "no_method": msg("self.{name}() calls a method, and the class has no method {name}."),
         },
         raised={OWN_ATTRIBUTE: _not_set},
         fixed_by=(lines.written, node_names.close_attribute, node_names.counter),
@@ -501,8 +700,15 @@ KINDS = (
         "name_unknown",
         "callback",
         msg("A name is used that is not defined"),
-        msg("Python knows only names that the file imports or defines; case matters."),
-        msg("Write the name exactly as it is defined, or define it first."),
+        msg(
+            "Python knows a name only after a line has imported or defined it, and what a function "
+            "defines is known only inside of this function. Case matters."
+        ),
+        msg(
+            "Look where {name} is defined. If no line does, write the right name, or import or "
+            "define {name} first. If a line does, it must run before this line, and outside of "
+            "other functions."
+        ),
         links.PYTHON_ERRORS,
         close=msg("Write {close} instead of {name}, or define {name} first."),
         fixes={
@@ -512,6 +718,10 @@ KINDS = (
             ),
             "period": msg("Write the period in seconds instead of {name}: {written}"),
             "instead": msg("Write {close} instead of {name}."),
+            "type": msg("Write {close} instead of {name} in line {lines}."),
+        },
+        whys={
+            "type": msg("{name} is a type of other programming languages. Python has no {name}."),
         },
         seen=r"NameError: name '(?P<name>\w{1,120})' is not defined",
         raised={NAME_ERROR: _undefined},
@@ -703,8 +913,15 @@ KINDS = (
         "attribute_unknown",
         "callback",
         msg("An object has no attribute with that name"),
-        msg("Python finds a method or an attribute only by its exact name."),
-        msg("Compare the name on that line with the documentation or with your own class."),
+        msg(
+            "{name} is read from an object behind a dot, and the object on this line has nothing "
+            "with this name."
+        ),
+        msg(
+            "Look up what this object can do: in the documentation of its class, or in the class if "
+            "it is your own. There may be another name for {name}, or no such thing. Or another "
+            "object is meant."
+        ),
         links.RCLPY,
         close=msg("Write {close} instead of {name}."),
         whys={
@@ -725,6 +942,14 @@ KINDS = (
         },
         fixes={
             "written": msg("Write {written} instead of {name}."),
+            "similar": msg(
+                "Look up what a {type} can do. It has the similar name {other}: write that only if "
+                "it does what you want."
+            ),
+            "own_class": msg(
+                "Write a name that the class {type} has (line {line}), or let its __init__ set "
+                "self.{name}."
+            ),
             "function": msg("Write {written} instead of {name}."),
             "parameter": msg("Write {written} instead of {name} behind get_parameter(…)."),
             "number": msg("Write {written} instead of {name}."),
