@@ -9,7 +9,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.constructor import PRIVATE, is_of_node
-from grader.mistakes.example import NODE, example
+from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.rename import splices_of
 from grader.mistakes.kind import Family
@@ -125,6 +125,22 @@ KINDS = (
                     "        print(node.__counter)\n        node.destroy_node()",
                 ),
                 fails="run.interrupt",
+            ),
+            example(
+                "private_counter_of_base",
+                Replace(
+                    NODE,
+                    "class MyFirstNode(Node):",
+                    "class CountingNode(Node):\n\n    def __init__(self, name):\n"
+                    "        super().__init__(name)\n        self.__counter = 0\n\n"
+                    "    def step(self):\n        self.__counter += 1\n\n\n"
+                    "class MyFirstNode(CountingNode):",
+                ),
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(NODE, "str(self.counter_)", "str(self.__counter)"),
+                Replace(NODE, "self.counter_ += 1", "self.step()"),
+                fails="run.output",
+                blocks=DEAD,
             ),
         ),
     ),

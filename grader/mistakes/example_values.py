@@ -142,7 +142,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "name": "self.get_logger().log(LoggingSeverity.INFO, text)",
         "written": "self.get_logger().log(text, LoggingSeverity.INFO)",
     },
-    "node.private_name": {"name": "__counter", "written": "_counter"},
+    "node.private_name": {"name": "__counter", "written": "_counter", "lines": "9, 14"},
     "node.base_stops": {"name": "Greets", "written": "super().__init__(name)"},
     "node.renamed": {
         "name": "rclpy.init(args=['--ros-args', '-r', '__node:=other'])",
@@ -571,7 +571,6 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.logger_of_node": {"name": "self.info", "written": "self.get_logger().info"},
     "node.args_is_none": {"name": "args", "short": "args", "line": 17},
-    "node.private_name": {"name": "__counter", "written": "_counter", "lines": "9, 14"},
     "node.own_module_alone": {
         "path": "my_package/helpers.py",
         "there": "helpers.py",

@@ -11,7 +11,7 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.alike import meant_by
-from grader.mistakes.example import INNER, NODE, example
+from grader.mistakes.example import DEAD, INNER, NODE, example
 from grader.mistakes.fixes import lines, node_imports, node_life, node_names, node_objects, rename
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect, always
@@ -365,6 +365,20 @@ KINDS = (
                 fails="run.starts",
             ),
             example(
+                "function_imported_like_a_file",
+                Write(f"{INNER}/helpers.py", TEXT_OF),
+                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}import {INNER}.helpers.text_of\n"),
+                fails="run.starts",
+            ),
+            example(
+                "file_used_by_its_last_name",
+                Write(f"{INNER}/helpers.py", TEXT_OF),
+                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}import {INNER}.helpers\n"),
+                Replace(NODE, "str(self.counter_)", "helpers.text_of(self.counter_)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
                 "own_file_beside_setup",
                 Write("helpers.py", TEXT_OF),
                 Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}\nfrom helpers import text_of\n"),
@@ -448,6 +462,14 @@ KINDS = (
         raised={r"No module named '(?P<name>[\w.]{1,200})'": _no_module},
         fixed_by=(lines.written, node_names.without_unused, node_names.rclpy, rename.imported),
         examples=(
+            example(
+                "node_replaced_by_robot",
+                Replace(NODE, "from rclpy.node", "from rclpy.robot"),
+                Replace(NODE, "'my_first_node'", "'my_first_robot'"),
+                Replace(NODE, "node.destroy_node()", "node.destroy_robot()"),
+                fails="run.starts",
+                also={},
+            ),
             example(
                 "import_of_class_in_one",
                 Replace(NODE, "from rclpy.node import Node", "import rclpy.node.Node"),
@@ -571,6 +593,13 @@ KINDS = (
                 Replace(NODE, "self.counter_ += 1", "self.counter_ += 1\n        time.sleep(0.1)"),
                 fails="run.output",
                 blocks=("run.interrupt",),
+            ),
+            example(
+                "function_of_other_file_not_imported",
+                Write(f"{INNER}/helpers.py", TEXT_OF),
+                Replace(NODE, "str(self.counter_)", "text_of(self.counter_)"),
+                fails="run.output",
+                blocks=DEAD,
             ),
             example(
                 "import_node_missing",

@@ -642,6 +642,22 @@ KINDS = (
                 blocks=DEAD,
             ),
             example(
+                "counter_initialised_like_a_member",
+                Replace(NODE, "self.counter_ = 0", "self.counter_(0)"),
+                fails="run.starts",
+            ),
+            example(
+                "counter_set_by_uncalled_method",
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def setup(self):\n        self.counter_ = 0\n\n    def timer_callback",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
                 "publisher_of_another_example",
                 Replace(
                     NODE,
@@ -730,6 +746,11 @@ KINDS = (
             example(
                 "base_in_small_letters",
                 Replace(NODE, "class MyFirstNode(Node)", "class MyFirstNode(node)"),
+                fails="run.starts",
+            ),
+            example(
+                "returns_void",
+                Replace(NODE, "def timer_callback(self):", "def timer_callback(self) -> void:"),
                 fails="run.starts",
             ),
             example(
