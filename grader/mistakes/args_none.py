@@ -48,7 +48,7 @@ def _read(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if isinstance(statement, ast.If) and code in (f"len({name}) > 0", f"len({name}) >= 1"):
         params = {"name": code, "written": name}
         found = raised.finding("args_is_none", params=params)
-        return replace(found, variant="length", words={**found.words, **words, "short": name})
+        return replace(found, variant="length", words={**words, **found.words, "short": name})
     return replace(found, words={**words, "short": name})
 
 

@@ -18,6 +18,7 @@ from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, last_part
+from grader.package.source.node import read_module
 from grader.package.source.place import function_at
 from grader.package.source.scopes import class_of, scope_of
 
@@ -58,7 +59,7 @@ def _owner(module: Module, part: ast.Attribute) -> ast.ClassDef | None:
 
 def _with_one_underscore(case: Case) -> Files | None:
     """Write one underscore instead of two, wherever the file names the attribute."""
-    module, params = case.module, case.finding.params
+    module, params = read_module(case.files.data, case.finding.file), case.finding.params
     name, new = (str(params.get(key, "")) for key in ("name", "written"))
     if module is None or not new or _named(module, new):
         return None

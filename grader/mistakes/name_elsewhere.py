@@ -18,6 +18,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, own_name
+from grader.package.source.node import read_module
 from grader.package.source.scopes import (
     Bound,
     Scope,
@@ -196,7 +197,7 @@ def _passed(raised: Raised, owner: Function, here: Scope | None) -> tuple[str, s
 
 def _qualified(case: Case) -> Files | None:
     """Write the name with self or with its class, wherever functions read it."""
-    module, params = case.module, case.finding.params
+    module, params = read_module(case.files.data, case.finding.file), case.finding.params
     name, new = (str(params.get(key, "")) for key in ("name", "written"))
     if module is None or not name or not new.endswith(f".{name}"):
         return None
@@ -208,7 +209,7 @@ def _qualified(case: Case) -> Files | None:
 
 def _kept(case: Case) -> Files | None:
     """Make an attribute of the variable of __init__ that another method reads."""
-    module, params = case.module, case.finding.params
+    module, params = read_module(case.files.data, case.finding.file), case.finding.params
     name, new, owner = (str(params.get(key, "")) for key in ("name", "written", "function"))
     if module is None or not name or not new.startswith("self.") or owner != "__init__":
         return None
