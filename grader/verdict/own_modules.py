@@ -224,6 +224,13 @@ def _defined_in(module: Module) -> set[str]:
     return known | {s.name for s in tops if isinstance(s, Function | ast.ClassDef)}
 
 
+def _offers(module: Module, name: str) -> bool:
+    """Whether a file that is no program of its own defines a function, a class or a constant."""
+    made = {*module.functions, *(c.name for c in module.tree.body if isinstance(c, ast.ClassDef))}
+    constant = name.isupper() and name in _defined_in(module)
+    return "main" not in module.functions and (name in made or constant)
+
+
 def _of_other_file(error: str, where: Where, evidence: Evidence) -> RecognisedMistake | None:
     """Return that the file uses a name which only another file of the package defines."""
     match, package = re.search(NAME_ERROR, error), evidence.assignment.folder
@@ -236,7 +243,7 @@ def _of_other_file(error: str, where: Where, evidence: Evidence) -> RecognisedMi
     for file in names_in(evidence, package):
         path = f"{package}/{file}"
         module = read_module(partial(data_of, evidence), path) if file.endswith(".py") else None
-        if module is not None and path != where.file and name in _defined_in(module):
+        if module is not None and path != where.file and _offers(module, name):
             found.append(module)
     here = module_name(where.file)
     if len(found) != 1 or here in {
