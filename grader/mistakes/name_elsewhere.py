@@ -28,6 +28,7 @@ from grader.package.source.scopes import (
     scope_of,
     seen_from,
     use_of,
+    visible_names,
 )
 
 OF_NODE = (
@@ -98,6 +99,9 @@ def _local(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if hidden is None:
         return None
     here, found = hidden
+    other_case = {n for n in visible_names(module, raised.line, name) if n.lower() == name.lower()}
+    if other_case and here is None:
+        return None  # (class A(node): the base Node is meant)
     if class_of(module, here) is not None and name in {"node", *raised.source.node_variables}:
         return None  # (there, self is the node)
     owners = {bound.scope for bound in found}
