@@ -14,10 +14,12 @@ from grader.mistakes import links
 from grader.mistakes.alike import is_typo, meant_by
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import lines, node_names, node_timer, rename
+from grader.mistakes.fixes.case import Case
 from grader.mistakes.imports import RCLPY
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import OWN_ATTRIBUTE, Raised, RecognisedMistake, of_self
 from grader.mistakes.scope import NODE_METHODS
+from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import starts_of
 from grader.package.source.module import Module
@@ -311,6 +313,19 @@ def _of_rclpy(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     return None
 
 
+def _through_helper(case: Case) -> Files | None:
+    """Read the attribute through the helper object in all lines of the node's class."""
+    node, params = case.node, case.finding.params
+    name, new = (str(params.get(key, "")) for key in ("name", "written"))
+    if node is None or not new.startswith("self.") or new.count(".") != 2 or "(" in new:
+        return None
+    module = node.module
+    uses = [n for n in node.own_nodes if isinstance(n, ast.Attribute) and dotted(n) == name]
+    if any(not module.has(use) or module.text.code(use) != name for use in uses):
+        return None
+    return case.changed(module, *(module.text.swap(use, new) for use in uses))
+
+
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -413,7 +428,7 @@ KINDS = (
             "no_method": msg("self.{name}() calls a method, and the class has no method {name}."),
         },
         raised={OWN_ATTRIBUTE: _not_set},
-        fixed_by=(lines.written, node_names.close_attribute, node_names.counter),
+        fixed_by=(_through_helper, lines.written, node_names.close_attribute, node_names.counter),
         examples=(
             example(
                 "period_attribute_not_set",
