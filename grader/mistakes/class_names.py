@@ -8,26 +8,63 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.constructor import PRIVATE
-from grader.mistakes.example import NODE, example
+from grader.mistakes.constructor import PRIVATE, is_of_node
+from grader.mistakes.example import DEAD, NODE, example
+from grader.mistakes.fixes.case import Case
+from grader.mistakes.fixes.rename import splices_of
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import OWN_ATTRIBUTE, Raised, RecognisedMistake
+from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
-from grader.package.source.module import Function
+from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, last_part
+from grader.package.source.node import read_module
 from grader.package.source.place import function_at
+from grader.package.source.scopes import class_of, scope_of
 
 
 def _private(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A name with two leading underscores is used outside of the class that sets it."""
-    name = match["name"]
+    name, module = match["name"], raised.module
     private = name.startswith("__") and not name.endswith("__")
-    function = function_at(raised.module, raised.line)
-    if not private or name not in raised.source.attributes:
+    if not private:
         return None
-    if function in raised.source.methods.values():
+    here = class_of(module, function_at(module, raised.line))
+    owners = {_owner(module, part) for part in _set(module, name)} - {None}
+    if not owners or (here is not None and here[0] in owners):
         return None
-    return raised.finding("private_name", name=name, written=name[1:])
+    rows = sorted({part.lineno for part in _named(module, name)})
+    params = {"name": name, "written": name[1:], "lines": ", ".join(map(str, rows))}
+    found = raised.finding("private_name", params=params)
+    if here is None or len(owners) != 1:
+        return found
+    owner = next(owner.name for owner in owners if owner is not None)
+    words = {**found.words, "type": owner, "class": here[0].name}
+    return replace(found, words=words, variant="other")
+
+
+def _named(module: Module, name: str) -> list[ast.Attribute]:
+    """Return where a file names an attribute, of whatever object."""
+    return [n for n in module.nodes if isinstance(n, ast.Attribute) and n.attr == name]
+
+
+def _set(module: Module, name: str) -> list[ast.Attribute]:
+    return [n for n in _named(module, name) if isinstance(n.ctx, ast.Store)]
+
+
+def _owner(module: Module, part: ast.Attribute) -> ast.ClassDef | None:
+    found = class_of(module, scope_of(module, part))
+    return found[0] if found is not None else None
+
+
+def _with_one_underscore(case: Case) -> Files | None:
+    """Write one underscore instead of two, wherever the file names the attribute."""
+    module, params = read_module(case.files.data, case.finding.file), case.finding.params
+    name, new = (str(params.get(key, "")) for key in ("name", "written"))
+    if module is None or not new or _named(module, new):
+        return None
+    splices = splices_of(module, _named(module, name), new)
+    return case.changed(module, *splices) if splices else None
 
 
 def _base_stops(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -35,7 +72,7 @@ def _base_stops(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
     init, own = raised.source.methods.get("__init__"), raised.source.node_class
     if match["type"] not in raised.source.known_classes or init is None or own is None:
         return None
-    if raised.source.super_init is None:
+    if raised.source.super_init is None or not is_of_node(raised, match):
         return None
     classes = {n.name: n for n in raised.source.own_nodes if isinstance(n, ast.ClassDef)}
     for base in own.bases:
@@ -67,8 +104,16 @@ KINDS = (
         "class",
         msg("A private name is used outside of its class"),
         msg("A name that begins with two underscores is known only inside of the class."),
-        msg("Write {written} instead of {name} in all lines, or remove this line."),
+        msg("Write {written} instead of {name} in line {lines}."),
+        whys={
+            "other": msg(
+                "A name that begins with two underscores belongs to the class whose lines use it: "
+                "{name} in the class {class} is another attribute than {name} in the class {type}, "
+                "and only {type} sets it."
+            )
+        },
         raised={OWN_ATTRIBUTE: _private},
+        fixed_by=(_with_one_underscore,),
         examples=(
             example(
                 "private_counter_read_by_main",
@@ -81,6 +126,22 @@ KINDS = (
                     "        print(node.__counter)\n        node.destroy_node()",
                 ),
                 fails="run.interrupt",
+            ),
+            example(
+                "private_counter_of_base",
+                Replace(
+                    NODE,
+                    "class MyFirstNode(Node):",
+                    "class CountingNode(Node):\n\n    def __init__(self, name):\n"
+                    "        super().__init__(name)\n        self.__counter = 0\n\n"
+                    "    def step(self):\n        self.__counter += 1\n\n\n"
+                    "class MyFirstNode(CountingNode):",
+                ),
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(NODE, "str(self.counter_)", "str(self.__counter)"),
+                Replace(NODE, "self.counter_ += 1", "self.step()"),
+                fails="run.output",
+                blocks=DEAD,
             ),
         ),
     ),

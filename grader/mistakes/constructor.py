@@ -30,10 +30,10 @@ from grader.package.source.counter import targets_of
 from grader.package.source.imported import full_name
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
-from grader.package.source.place import function_at
+from grader.package.source.place import function_at, statement_at
 
 NODES = ("rclpy.node.Node", "rclpy.Node")
-PRIVATE = r"AttributeError: '(?P<type>\w{1,120})' object has no attribute '_\w{1,120}'"
+PRIVATE = r"AttributeError: '(?P<type>\w{1,120})' object has no attribute '(?P<name>_\w{1,120})'"
 NO_NODE_NAME = r"(?<!\w)Node\.__init__\(\) missing 1 required positional argument: 'node_name'"
 
 INIT_OF_NODE = msg(
@@ -175,8 +175,18 @@ def lines_of(node: ast.expr) -> range:
     return range(node.lineno, (node.end_lineno or node.lineno) + 1)
 
 
+def is_of_node(raised: Raised, match: re.Match[str]) -> bool:
+    """Whether a missing attribute can be one that Node sets: the student's line does not read it."""
+    statement = statement_at(raised.module, raised.line)
+    parts = raised.source.all_nodes if statement is None else ast.walk(statement)
+    read = [n for n in parts if isinstance(n, ast.Attribute) and isinstance(n.ctx, ast.Load)]
+    return match["name"] not in {part.attr for part in read}
+
+
 def _super_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if match["type"] not in raised.source.known_classes or raised.source.super_init is not None:
+        return None
+    if not is_of_node(raised, match):
         return None
     init = raised.source.methods.get("__init__")
     inside = init is not None and raised.line in range(init.lineno, (init.end_lineno or 0) + 1)
@@ -184,7 +194,7 @@ def _super_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
 
 
 def _super_late(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    if match["type"] not in raised.source.known_classes:
+    if match["type"] not in raised.source.known_classes or not is_of_node(raised, match):
         return None
     found = raised.finding("super_late", at=raised.source.super_init)
     init, call = raised.source.methods.get("__init__"), raised.source.super_init

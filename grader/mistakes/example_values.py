@@ -144,7 +144,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "name": "self.get_logger().log(LoggingSeverity.INFO, text)",
         "written": "self.get_logger().log(text, LoggingSeverity.INFO)",
     },
-    "node.private_name": {"name": "__counter", "written": "_counter"},
+    "node.private_name": {"name": "__counter", "written": "_counter", "lines": "9, 14"},
     "node.base_stops": {"name": "Greets", "written": "super().__init__(name)"},
     "node.renamed": {
         "name": "rclpy.init(args=['--ros-args', '-r', '__node:=other'])",
@@ -605,6 +605,23 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "name": "helper",
         "close": "helpers",
     },
+    "node.name_in_class": {
+        "name": "PERIOD",
+        "written": "self.PERIOD",
+        "lines": "12",
+        "line": 7,
+        "type": "MyNode",
+    },
+    "node.name_local": {"name": "prefix", "line": 9, "function": "main"},
+    "node.variable_not_set": {"name": "period", "lines": "10", "function": "main"},
+    "node.timer_method": {"name": "self.timer.stop", "written": "self.timer.cancel"},
+    "node.spin_of_others": {
+        "name": "rclpy.spin_some(node)",
+        "written": "rclpy.spin(node)",
+        "call": "spin_some",
+    },
+    "node.logger_of_node": {"name": "self.info", "written": "self.get_logger().info"},
+    "node.args_is_none": {"name": "args", "short": "args", "line": 17},
     "node.own_module_alone": {
         "path": "my_package/helpers.py",
         "there": "helpers.py",

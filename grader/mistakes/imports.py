@@ -10,11 +10,13 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
-from grader.mistakes.example import INNER, NODE, example
+from grader.mistakes.alike import meant_by
+from grader.mistakes.example import DEAD, INNER, NODE, example
 from grader.mistakes.fixes import lines, node_imports, node_life, node_names, node_objects, rename
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect, always
 from grader.package.edit.tree import Replace, Write
+from grader.package.source.place import statement_at
 from grader.report.model import Where
 
 MODULES = (
@@ -39,6 +41,36 @@ IMPORTS = {
     },
     **{name: f"import {name}" for name in ("time", "math", "random", "sys", "threading")},
 }
+HOMES = {
+    "Node": "rclpy.node",
+    **dict.fromkeys(
+        (
+            "ExternalShutdownException",
+            "MultiThreadedExecutor",
+            "SingleThreadedExecutor",
+            "Executor",
+        ),
+        "rclpy.executors",
+    ),
+    **dict.fromkeys(
+        ("QoSProfile", "ReliabilityPolicy", "DurabilityPolicy", "HistoryPolicy"), "rclpy.qos"
+    ),
+    **dict.fromkeys(
+        ("MutuallyExclusiveCallbackGroup", "ReentrantCallbackGroup"), "rclpy.callback_groups"
+    ),
+    **dict.fromkeys(("ActionClient", "ActionServer"), "rclpy.action"),
+    **{
+        name: f"rclpy.{name.lower()}"
+        for name in ("Duration", "Time", "Clock", "Parameter", "Timer")
+    },
+    **{"Rate": "rclpy.timer", "Future": "rclpy.task", "LoggingSeverity": "rclpy.logging"},
+}
+"""The modules of rclpy in which its names are."""
+NAMES_OF_ROS = (
+    *("create_timer", "create_node", "create_publisher", "create_subscription", "create_service"),
+    *("create_client", "create_rate", "destroy_node", "destroy_timer", "get_logger", "get_clock"),
+    *("get_name", "add_node", "remove_node", "declare_parameter", "get_parameter"),
+)
 NODE_IMPORT = "from rclpy.node import Node\n"
 TEXT_OF = "def text_of(number):\n    return str(number)\n"
 HELLO_CLASS = """\
@@ -74,6 +106,11 @@ OWN_NAME = msg(
     "This line imports {name} from {path}, a file of your own package. That file does not define "
     "{name}; case matters."
 )
+OTHER_FILE = msg(
+    "{path}, another file of your package, defines {name}. A file knows a name of another file only "
+    "after it has imported it."
+)
+OTHER_HOME = msg("rclpy has this name, but in another of its modules.")
 CLOSE = msg("Write {close} instead of {name}.")
 
 
@@ -87,12 +124,9 @@ def _no_ros(suspect: Suspect) -> RecognisedMistake | None:
 def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     name = match["name"]
     head, dot, tail = name.partition(".")
-    module, _, last = name.rpartition(".")
-    plain = raised.module.line(raised.line).startswith("import ")
-    if plain and module in MODULES and last[:1].isupper():
-        new = IMPORTS.get(last, f"from {module} import {last}")
-        found = raised.finding("import_misspelt", name=f"import {name}", written=new)
-        return replace(found, variant="class")
+    part = _part_of_module(raised, name) or _known_by_its_names(raised, name)
+    if part is not None:
+        return part
     unused = node_names.unused_import(raised.module, raised.line)
     close = nearest(name, (*MODULES, *sys.stdlib_module_names), cutoff=0.75)
     if head in OTHER_PACKAGES:
@@ -103,10 +137,78 @@ def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     return replace(found, variant="unused") if unused and not close else found
 
 
+def _part_of_module(raised: Raised, name: str) -> RecognisedMistake | None:
+    """What an import names behind a module of ROS or of Python is no module, but a name in it."""
+    module, _, last = name.rpartition(".")
+    known = module in MODULES and last[:1].isupper()
+    if not known and (
+        module not in sys.stdlib_module_names or "is not a package" not in raised.error
+    ):
+        return None
+    statement = statement_at(raised.module, raised.line)
+    whole = "is not a package" in raised.error
+    if isinstance(statement, ast.ImportFrom) and statement.module == name and whole:
+        return raised.finding("import_misspelt", name=name, close=module)
+    if not isinstance(statement, ast.Import):
+        return None
+    if node_names.unused_import(raised.module, raised.line) and module not in MODULES:
+        return None
+    given = next((alias for alias in statement.names if alias.name == name), None)
+    used = any(isinstance(n, ast.Name) and n.id == _head(name) for n in raised.module.nodes)
+    whole = used and given is not None and not given.asname and module != "rclpy"
+    new = f"import {module}" if whole else IMPORTS.get(last, f"from {module} import {last}")
+    if not whole and given is not None and given.asname:
+        new = f"from {module} import {last} as {given.asname}"
+    found = raised.finding("import_misspelt", name=f"import {name}", written=new)
+    return replace(found, variant="class")
+
+
+def _head(name: str) -> str:
+    """Return what is before the first dot."""
+    return name.partition(".")[0]
+
+
+def _known_by_its_names(raised: Raised, name: str) -> RecognisedMistake | None:
+    """The module of rclpy is unknown, but not the names that the line imports from it."""
+    statement = statement_at(raised.module, raised.line)
+    if not isinstance(statement, ast.ImportFrom) or statement.module != name:
+        return None
+    homes = {HOMES.get(alias.name, "") for alias in statement.names}
+    home = min(homes)
+    if len(homes) != 1 or not home or _head(name) not in ("rclpy", *OTHER_CLIENTS):
+        return None
+    found = raised.finding("import_misspelt", name=name, close=home)
+    right, word = home.rpartition(".")[2], name.rpartition(".")[2]
+    others = _replaced(raised, right, word)
+    if _head(name) != "rclpy" or not others:
+        return found
+    words = {**found.words, "word": right, "others": ", ".join(others)}
+    return replace(found, variant="replaced", words=words)
+
+
+def _replaced(raised: Raised, right: str, word: str) -> list[str]:
+    """Return other names of ROS in which a word stands for another one, with their lines."""
+    known = {*NAMES_OF_ROS, raised.assignment.node_name}
+    found = []
+    for part in raised.source.all_nodes:
+        name = part.attr if isinstance(part, ast.Attribute) else getattr(part, "value", None)
+        if isinstance(name, str) and name not in known and name.replace(word, right) in known:
+            found.append((getattr(part, "lineno", 0), f"{name.replace(word, right)}"))
+    return [f"{new} ({line})" for line, new in sorted(found)]
+
+
 def _no_name_in_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     name, module = match["name"], match["module"]
+    home = HOMES.get(name, "") if _head(module) == "rclpy" else ""
+    statement = statement_at(raised.module, raised.line)
+    if home and home != module and isinstance(statement, ast.ImportFrom):
+        code, new = raised.module.text.code(statement), f"from {home} import {name}"
+        alone = len(statement.names) == 1 and not statement.names[0].asname
+        params = {"name": code, "written": new} if alone else {"name": name, "statement": new}
+        found = raised.finding("import_name", params={**params, "module": module})
+        return replace(found, variant="home" if alone else "home_too")
     known = (*RCLPY, "Node") if module.startswith("rclpy") else ("String", "Twist")
-    close = nearest(name, known, cutoff=0.75)
+    close = meant_by(name, known, cutoff=0.75)
     return raised.finding("import_name", name=name, close=close, module=module)
 
 
@@ -215,7 +317,15 @@ KINDS = (
             "class": msg(
                 "The folder {package} and its files are different modules: a class or a function is "
                 "in the file that defines it."
-            )
+            ),
+            "whole": msg(
+                "After this import, the file knows the module only by its whole name, {short}. A "
+                "line uses it as {close}."
+            ),
+            "part": msg(
+                "Only folders and files can stand before and after the dots of such an import. "
+                "{path} is a file, and {short} is a name that it defines, not a file in it."
+            ),
         },
         fixes={"elsewhere": msg("Move {there} to {path}, and write {written} instead of {name}.")},
         fixed_by=(node_imports.through_package,),
@@ -253,6 +363,20 @@ KINDS = (
                 Write(f"{INNER}/helpers.py", TEXT_OF),
                 Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}\nfrom {INNER} import text_of\n"),
                 fails="run.starts",
+            ),
+            example(
+                "function_imported_like_a_file",
+                Write(f"{INNER}/helpers.py", TEXT_OF),
+                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}import {INNER}.helpers.text_of\n"),
+                fails="run.starts",
+            ),
+            example(
+                "file_used_by_its_last_name",
+                Write(f"{INNER}/helpers.py", TEXT_OF),
+                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}import {INNER}.helpers\n"),
+                Replace(NODE, "str(self.counter_)", "helpers.text_of(self.counter_)"),
+                fails="run.output",
+                blocks=DEAD,
             ),
             example(
                 "own_file_beside_setup",
@@ -326,6 +450,11 @@ KINDS = (
         links.PYTHON_ERRORS,
         close=CLOSE,
         fixes={
+            "replaced": msg(
+                "Write {close} instead of {name}. The file has the same change in other names of ROS, "
+                "as if {word} had been replaced by another word everywhere. Their right names, with "
+                "the lines: {others}."
+            ),
             "unused": msg("Delete this line: {name} is not installed here, and no line uses it."),
             "class": msg("Write {written}: after a plain import, only modules can be named."),
         },
@@ -333,6 +462,14 @@ KINDS = (
         raised={r"No module named '(?P<name>[\w.]{1,200})'": _no_module},
         fixed_by=(lines.written, node_names.without_unused, node_names.rclpy, rename.imported),
         examples=(
+            example(
+                "node_replaced_by_robot",
+                Replace(NODE, "from rclpy.node", "from rclpy.robot"),
+                Replace(NODE, "'my_first_node'", "'my_first_robot'"),
+                Replace(NODE, "node.destroy_node()", "node.destroy_robot()"),
+                fails="run.starts",
+                also={},
+            ),
             example(
                 "import_of_class_in_one",
                 Replace(NODE, "from rclpy.node import Node", "import rclpy.node.Node"),
@@ -382,8 +519,17 @@ KINDS = (
         msg("Compare the name with the module's documentation."),
         links.RCLPY,
         close=CLOSE,
-        whys={"own": OWN_NAME, "own_close": OWN_NAME},
+        whys={
+            "own": OWN_NAME,
+            "own_close": OWN_NAME,
+            "home": OTHER_HOME,
+            "home_too": OTHER_HOME,
+        },
         fixes={
+            "home": msg("Write {written} instead of {name}."),
+            "home_too": msg(
+                "Take {name} out of this line, and add the line {statement} at the top of the file."
+            ),
             "own": msg("Define {name} in {path}, or import another name from it."),
             "own_close": msg(
                 "Write {close} instead of {name}, here and wherever this file uses it: {path} defines {close}."
@@ -393,8 +539,17 @@ KINDS = (
         raised={
             r"cannot import name '(?P<name>\w{1,120})' from '(?P<module>[\w.]{1,200})'": _no_name_in_module
         },
-        fixed_by=(rename.imported, node_life.node_import),
+        fixed_by=(lines.written, rename.imported, node_life.node_import),
         examples=(
+            example(
+                "executor_from_rclpy",
+                Replace(
+                    NODE,
+                    NODE_IMPORT,
+                    f"from rclpy import SingleThreadedExecutor\n{NODE_IMPORT}",
+                ),
+                fails="run.starts",
+            ),
             example(
                 "import_in_lower_case",
                 Replace(NODE, "from rclpy.node import Node", "from rclpy.node import node"),
@@ -414,14 +569,23 @@ KINDS = (
         msg("A name is used without being imported"),
         msg("Python knows only names that the file imports or defines."),
         msg("Add the import at the top of the file: {statement}"),
+        whys={
+            "own": OTHER_FILE,
+            "own_module": OTHER_FILE,
+            "file": msg(
+                "{path} is another file of your package. A file knows it only after it has imported it."
+            ),
+        },
         fixes={
-            "module": msg("Write {statement} on this line: it imports the module, not the class.")
+            "module": msg("Write {statement} on this line: it imports the module, not the class."),
+            "own_module": msg("Write {written} instead of {name}: the file imports the module."),
         },
         raised={NAME_ERROR: _not_imported},
         fixed_by=(
             node_objects.class_import,
             node_life.node_import,
             node_names.missing_import,
+            lines.written,
         ),
         examples=(
             example(
@@ -429,6 +593,13 @@ KINDS = (
                 Replace(NODE, "self.counter_ += 1", "self.counter_ += 1\n        time.sleep(0.1)"),
                 fails="run.output",
                 blocks=("run.interrupt",),
+            ),
+            example(
+                "function_of_other_file_not_imported",
+                Write(f"{INNER}/helpers.py", TEXT_OF),
+                Replace(NODE, "str(self.counter_)", "text_of(self.counter_)"),
+                fails="run.output",
+                blocks=DEAD,
             ),
             example(
                 "import_node_missing",

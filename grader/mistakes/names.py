@@ -1,4 +1,4 @@
-"""Mistakes of Python that any line can have: names, attributes, calls.
+"""Mistakes of Python that any line can have: names and calls.
 
 These come last: their patterns also match errors that have a more precise cause.
 """
@@ -13,121 +13,43 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
+from grader.mistakes.alike import meant_by
 from grader.mistakes.constructor import lines_of
 from grader.mistakes.example import DEAD, NODE, example
-from grader.mistakes.fixes import (
-    lines,
-    node_brackets,
-    node_constructor,
-    node_life,
-    node_names,
-    node_timer,
-    rename,
-)
-from grader.mistakes.imports import IMPORTS, RCLPY
+from grader.mistakes.fixes import lines, node_brackets, node_constructor, node_life, rename
+from grader.mistakes.imports import IMPORTS
 from grader.mistakes.kind import Family
 from grader.mistakes.order import spun_names
-from grader.mistakes.recognised import NAME_ERROR, OWN_ATTRIBUTE, Raised, RecognisedMistake, of_self
+from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
 from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import starts_of, targets_of
+from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
-from grader.package.source.node import LOG_METHODS
 from grader.package.source.place import statement_at
-
-ATTRIBUTE = (
-    r"AttributeError: (?:module |type object )?'(?P<type>[\w.]{1,200})'(?: object)? has no "
-    r"attribute '(?P<name>\w{1,120})'"
-)
+from grader.package.source.scopes import bindings, visible_names
 
 MISSPELT = 0.85  # how like two names are of which one is the other with a typing mistake
+
+
+TYPES = {
+    "void": "None",
+    **dict.fromkeys(("boolean", "Boolean"), "bool"),
+    **dict.fromkeys(("string", "char"), "str"),
+    **dict.fromkeys(("integer", "Integer", "long", "short", "unsigned"), "int"),
+    **dict.fromkeys(("double", "Double"), "float"),
+}
+"""Types of other languages, and those of Python."""
+
 
 PROPERTY = msg(
     "{method} is a property: it is read without (), so Python passes only self. A property cannot "
     "have another parameter."
 )
+
+
 OF_ROS = ("spin", "spin_once", *NODE_METHODS)
 """Calls of ROS: an error that comes from inside of them is not about their own brackets."""
-
-
-def _close_attribute(raised: Raised, name: str) -> str:
-    return nearest(name, raised.source.attributes, cutoff=0.75)
-
-
-def _close_method(raised: Raised, match: re.Match[str]) -> str:
-    """Return the method that is meant: of the node, of rclpy or of the logger."""
-    name = match["name"]
-    if of_self(raised, match):
-        if _close_attribute(raised, name):
-            return ""
-        return nearest(name, {*NODE_METHODS, *raised.source.methods}, cutoff=0.75)
-    if match["type"] == "rclpy":
-        return nearest(name, RCLPY, cutoff=0.7)
-    if not _is_of_node(raised, match["type"]):
-        return ""
-    return nearest(name, (*NODE_METHODS, *LOG_METHODS), cutoff=0.7)
-
-
-def _is_of_node(raised: Raised, kind: str) -> bool:
-    """Whether an object of this type can have the methods of a node or of a logger."""
-    logger = kind.endswith("Logger")
-    return logger or kind in ("Node", "super") or kind in raised.source.known_classes
-
-
-def _is_written(raised: Raised, name: str) -> bool:
-    """Whether a file of the student has a name: one that only rclpy writes is not misspelt."""
-    return any(name in module.text.text for module in raised.source.modules)
-
-
-def _method_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    if not _is_written(raised, match["name"]):
-        return None
-    close = _close_method(raised, match)
-    return raised.finding("method_misspelt", name=match["name"], close=close) if close else None
-
-
-def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    if not of_self(raised, match) or match["name"] in raised.module.functions:
-        return None
-    name, close = match["name"], _close_attribute(raised, match["name"])
-    for timer in raised.source.timers:
-        if dotted(timer.period or timer.call) == f"self.{name}" and not close:
-            period = repr(raised.assignment.output.period)
-            found = raised.finding("attribute_not_set", name=f"self.{name}", written=period)
-            return replace(found, variant="period", words={**found.words, "name": name})
-    for node in raised.source.own_nodes:
-        if (
-            isinstance(node, ast.AnnAssign)
-            and dotted(node.target) == f"self.{name}"
-            and not node.value
-        ):
-            value = raised.module.text.code(node)
-            found = raised.finding(
-                "attribute_not_set", at=node, name=value, written=_assigned(raised, node)
-            )
-            return replace(found, variant="annotated", words={**found.words, "attribute": name})
-    found = raised.finding("attribute_not_set", name=name, close=close)
-    if not close and _is_object(raised, name):
-        return replace(found, variant="object")
-    start = node_names.start_of_other_name(raised.source, close)
-    if start is None:
-        return found
-    found = raised.finding("attribute_not_set", at=start, name=close, close=name)
-    return replace(found, variant="start")
-
-
-def _assigned(raised: Raised, node: ast.AnnAssign) -> str:
-    value = node.annotation.value if isinstance(node.annotation, ast.Constant) else None
-    start = value if isinstance(value, int | float) else raised.assignment.output.start
-    return f"{dotted(node.target)} = {start}"
-
-
-def _is_object(raised: Raised, name: str) -> bool:
-    """Whether the code uses something of the attribute: a method or another attribute."""
-    parents = raised.module.parents
-    uses = [n for n in raised.module.nodes if dotted(n) == f"self.{name}"]
-    return any(isinstance(parents.get(use), ast.Attribute) for use in uses)
 
 
 def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
@@ -135,20 +57,43 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     statement = statement_at(raised.module, raised.line)
     if isinstance(statement, ast.Expr) and dotted(statement.value) == name:
         return replace(raised.finding("name_unknown", name=name), variant="alone")
-    if any(dotted(timer.period or timer.call) == name for timer in raised.source.timers):
+    if name in TYPES and (types := _as_type(raised, name)) is not None:
+        return types
+    timers = [] if bindings(raised.module, name) else raised.source.timers
+    if any(dotted(timer.period or timer.call) == name for timer in timers):
         period = repr(raised.assignment.output.period)
         found = raised.finding("name_unknown", name=name, written=period)
         return replace(found, variant="period")
     if (own := _class_for(raised, name)) is not None:
         return _instead(raised.finding("name_unknown", name=name, close=own))
-    close = nearest(name, _known(raised, name) - {name, "None", "True", "False"}, 0.7)
+    seen = {*visible_names(raised.module, raised.line, name), *IMPORTS}
+    known = (_known(raised, name) & seen) - {name, "None", "True", "False"}
+    if bindings(raised.module, name):
+        known = {other for other in known if other.lower() == name.lower()}
+    close = meant_by(name, known, 0.7)
     if isinstance(statement, ast.ClassDef) and close:
         return _instead(raised.finding("name_unknown", name=name, close=close, written=close))
     variables = raised.source.node_variables
-    if name in spun_names(raised.source) and len(variables) == 1 and name not in variables:
+    if name in spun_names(raised.source) and len(variables) == 1 and variables < seen - {name}:
         return _instead(raised.finding("name_unknown", name=name, close=min(variables)))
     found = raised.finding("name_unknown", name=name, close=close)
     return _instead(found) if close and nearest(name, [close], cutoff=MISSPELT) else found
+
+
+def _as_type(raised: Raised, name: str) -> RecognisedMistake | None:
+    """A def or a variable has a type of another language: all uses of the name are types."""
+    module = raised.module
+    uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
+    around = [(module.parents.get(use), use) for use in uses]
+    types = [
+        getattr(a, "annotation", None) is use or getattr(a, "returns", None) is use
+        for a, use in around
+    ]
+    if not uses or not all(types):
+        return None
+    rows = ", ".join(str(row) for row in sorted({use.lineno for use in uses}))
+    found = raised.finding("name_unknown", name=name, close=TYPES[name])
+    return replace(found, variant="type", words={**found.words, "lines": rows})
 
 
 def _instead(found: RecognisedMistake) -> RecognisedMistake:
@@ -196,59 +141,6 @@ def _known(raised: Raised, name: str) -> set[str]:
 def _is_called(around: ast.AST | None, use: ast.Name) -> bool:
     called = isinstance(around, ast.Call) and around.func is use
     return called or isinstance(around, ast.ClassDef | ast.ExceptHandler)
-
-
-def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    if raised.inside and match["name"] not in raised.module.line(raised.line):
-        return None  # (no name of the student's)
-    known = _of_rclpy(raised, match)
-    if known is not None:
-        return known
-    if (match["type"], match["name"]) == ("rclpy", "get_logger"):
-        call = re.search(
-            rf"rclpy\.{match['name']}\([^()]{{0,80}}\)", raised.module.line(raised.line)
-        )
-        if call is not None:
-            found = raised.finding("attribute_unknown", name=call[0], written="self.get_logger()")
-            return replace(found, variant="written")
-    if match["type"] in ("NoneType", "rclpy"):
-        found = raised.finding("attribute_unknown", name=match["name"])
-        return replace(found, variant="none" if match["type"] == "NoneType" else "module")
-    own = f"self.{match['name']}"
-    if match["name"] in raised.module.functions and of_self(raised, match):
-        found = raised.finding("attribute_unknown", name=own, written=match["name"])
-        return replace(found, variant="function")
-    if match["type"] == "Parameter":
-        return _of_parameter(raised, match["name"])
-    if match["type"] in ("int", "float") and (plain := _number(raised, match["name"])):
-        found = raised.finding("attribute_unknown", name=f"{plain}.{match['name']}", written=plain)
-        return replace(found, variant="number")
-    if match["type"] in raised.source.class_names and match["name"] in raised.source.attributes:
-        code = f"{match['type']}.{match['name']}"
-        found = raised.finding("attribute_unknown", name=code, written=own)
-        return replace(found, variant="written")
-    suggested = re.search(r"Did you mean: '(\w{1,120})'", raised.error)
-    close = suggested[1] if suggested and _is_written(raised, match["name"]) else ""
-    return raised.finding("attribute_unknown", name=match["name"], close=close)
-
-
-def _of_parameter(raised: Raised, name: str) -> RecognisedMistake:
-    """What get_parameter returns has .value, and get_parameter_value() for the value's type."""
-    typed = name.endswith("_value") and name != "get_value"
-    written = f".get_parameter_value().{name}" if typed else ".value"
-    found = raised.finding("attribute_unknown", name=f".{name}", written=written)
-    if name.lower().startswith("get_param"):
-        return raised.finding("attribute_unknown", name=name)
-    return replace(found, variant="parameter")
-
-
-def _number(raised: Raised, attribute: str) -> str:
-    """Return what the line reads an attribute of, if it is an attribute of self that counts."""
-    statement = statement_at(raised.module, raised.line)
-    parts = [n for n in ast.walk(statement) if isinstance(n, ast.Attribute)] if statement else []
-    found = {dotted(part.value) for part in parts if part.attr == attribute}
-    name = found.pop() if len(found) == 1 else ""
-    return name if name in starts_of(raised.source) else ""
 
 
 def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
@@ -332,27 +224,6 @@ def _super_of_other(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
     return raised.finding("super_of_other_name", at=call, params={**params, "written": written})
 
 
-def _of_rclpy(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """A function of rclpy is called on the node, or __init__ on super() by half its name."""
-    name = match["name"]
-    if match["type"] == "super" and "init" in name:
-        code = re.search(r"super\(\)\.(\w{1,60})", raised.module.line(raised.line))
-        found = raised.finding(
-            "attribute_unknown", name=code[1] if code else name, written="__init__"
-        )
-        return replace(found, variant="written")
-    if match["type"] not in raised.source.known_classes or name not in ("spin", "spin_once"):
-        return None
-    for call, called in raised.source.calls:
-        before, _, method = called.rpartition(".")
-        if method == name and before and before != "rclpy":
-            written = f"{called}()"
-            new = f"rclpy.{name}({before})"
-            found = raised.finding("attribute_unknown", at=call, name=written, written=new)
-            return replace(found, variant="written")
-    return None
-
-
 def _value_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A value is called on that line, or by ROS, to which a timer gave it as a callback."""
     statement = statement_at(raised.module, raised.line)
@@ -380,112 +251,6 @@ def _constant_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake 
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
-        "method_misspelt",
-        "class",
-        msg("A method or attribute of the node is misspelt"),
-        msg("Python finds a method or an attribute only by its exact name."),
-        msg("Write {close} instead of {name}."),
-        links.RCLPY,
-        raised={ATTRIBUTE: _method_misspelt},
-        fixed_by=(node_timer.misspelt, rename.attribute),
-        examples=(
-            example(
-                "create_timer_misspelt",
-                Replace(NODE, "create_timer", "create_timmer"),
-                fails="run.starts",
-            ),
-            example(
-                "logger_misspelt",
-                Replace(NODE, "self.get_logger().info", "self.get_loger().info"),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-            example(
-                "error_at_stop",
-                Replace(NODE, "        node.destroy_node()\n", "        node.destroy()\n"),
-                fails="run.interrupt",
-            ),
-        ),
-    ),
-    _node(
-        "attribute_not_set",
-        "counter",
-        msg("An attribute is read that __init__ did not set"),
-        msg("self.{name} does not exist until a line assigns to it."),
-        msg("Give it a value in __init__: self.{name} = {start}"),
-        links.PYTHON_CLASSES,
-        close=msg("Write self.{close} instead of self.{name}."),
-        fixes={
-            "start": msg(
-                "Write self.{close} on that line: the other lines use this name, not self.{name}."
-            ),
-            "annotated": msg("Write {written} instead of {name}."),
-            "period": msg(
-                "Write the period in seconds instead of self.{name}: {written}. Or write self.{name} "
-                "= {written} above this line."
-            ),
-            "object": msg(
-                "Delete this line if it belongs to another example. If the node needs it, create "
-                "self.{name} in __init__ first."
-            ),
-        },
-        whys={
-            "annotated": msg(
-                "A colon after a name only states a type. A value is assigned with =, so "
-                "self.{attribute} does not exist yet."
-            )
-        },
-        raised={OWN_ATTRIBUTE: _not_set},
-        fixed_by=(lines.written, node_names.close_attribute, node_names.counter),
-        examples=(
-            example(
-                "period_attribute_not_set",
-                Replace(NODE, "create_timer(1.0", "create_timer(self.timer_period"),
-                fails="run.starts",
-            ),
-            example(
-                "counter_with_colon",
-                Replace(NODE, "self.counter_ = 0", "self.counter_: 0"),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-            example(
-                "publisher_of_another_example",
-                Replace(
-                    NODE,
-                    "self.counter_ += 1",
-                    "self.publisher_.publish(msg)\n        self.counter_ += 1",
-                ),
-                fails="run.output",
-                blocks=("run.interrupt",),
-            ),
-            example(
-                "counter_not_set",
-                Replace(NODE, "        self.counter_ = 0\n", ""),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-            example(
-                "counter_without_self",
-                Replace(NODE, "self.counter_ = 0", "counter_ = 0"),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-            example(
-                "counter_of_other_name",
-                Replace(NODE, "self.counter_ = 0", "self.counter = 0"),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-            example(
-                "counter_misspelt_in_step",
-                Replace(NODE, "self.counter_ += 1", "self.counter_ = self.counter + 1"),
-                fails="run.output",
-                blocks=("run.interrupt",),
-            ),
-        ),
-    ),
-    _node(
         "super_of_other_name",
         "start",
         msg("super() names a class that does not exist"),
@@ -508,8 +273,15 @@ KINDS = (
         "name_unknown",
         "callback",
         msg("A name is used that is not defined"),
-        msg("Python knows only names that the file imports or defines; case matters."),
-        msg("Write the name exactly as it is defined, or define it first."),
+        msg(
+            "Python knows a name only after a line has imported or defined it, and what a function "
+            "defines is known only inside of this function. Case matters."
+        ),
+        msg(
+            "Look where {name} is defined. If no line does, write the right name, or import or "
+            "define {name} first. If a line does, it must run before this line, and outside of "
+            "other functions."
+        ),
         links.PYTHON_ERRORS,
         close=msg("Write {close} instead of {name}, or define {name} first."),
         fixes={
@@ -519,6 +291,10 @@ KINDS = (
             ),
             "period": msg("Write the period in seconds instead of {name}: {written}"),
             "instead": msg("Write {close} instead of {name}."),
+            "type": msg("Write {close} instead of {name} in line {lines}."),
+        },
+        whys={
+            "type": msg("{name} is a type of other programming languages. Python has no {name}."),
         },
         seen=r"NameError: name '(?P<name>\w{1,120})' is not defined",
         raised={NAME_ERROR: _undefined},
@@ -527,6 +303,11 @@ KINDS = (
             example(
                 "base_in_small_letters",
                 Replace(NODE, "class MyFirstNode(Node)", "class MyFirstNode(node)"),
+                fails="run.starts",
+            ),
+            example(
+                "returns_void",
+                Replace(NODE, "def timer_callback(self):", "def timer_callback(self) -> void:"),
                 fails="run.starts",
             ),
             example(
@@ -708,70 +489,6 @@ KINDS = (
                 Replace(NODE, ".info('Hello time: ' + str(self.counter_))", ".info()"),
                 fails="run.output",
                 blocks=DEAD,
-            ),
-        ),
-    ),
-    _node(
-        "attribute_unknown",
-        "callback",
-        msg("An object has no attribute with that name"),
-        msg("Python finds a method or an attribute only by its exact name."),
-        msg("Compare the name on that line with the documentation or with your own class."),
-        links.RCLPY,
-        close=msg("Write {close} instead of {name}."),
-        whys={
-            "function": msg(
-                "{written} is a function of the file, and no method of the class. It is called "
-                "without self."
-            ),
-            "parameter": msg(
-                "get_parameter returns an object of the type Parameter. Its value is in .value, or in "
-                "get_parameter_value()."
-            ),
-            "number": msg("{written} is a number, and a number has no such attribute."),
-            "none": msg(
-                "A value on that line is None: nothing was assigned to it, or a function returned "
-                "nothing."
-            ),
-            "module": msg("The module rclpy has nothing with the name {name}."),
-        },
-        fixes={
-            "written": msg("Write {written} instead of {name}."),
-            "function": msg("Write {written} instead of {name}."),
-            "parameter": msg("Write {written} instead of {name} behind get_parameter(…)."),
-            "number": msg("Write {written} instead of {name}."),
-            "none": msg("Find the line that should give it its value, and see what that does."),
-            "module": msg(
-                "Compare the name with the documentation of rclpy. Many of a node's functions are "
-                "methods of the node: self.name(…) in the class."
-            ),
-        },
-        seen=r"AttributeError: (?:'\w{1,120}' object|type object '\w{1,120}'|module "
-        r"'[\w.]{1,200}') has no attribute '(?P<name>\w{1,120})'",
-        raised={ATTRIBUTE: _unknown},
-        fixed_by=(lines.written,),
-        examples=(
-            example(
-                "logger_of_rclpy",
-                Replace(NODE, "self.get_logger()", "rclpy.get_logger('my_first_node')"),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-            example(
-                "class_for_self",
-                Replace(NODE, "self.counter_ += 1", "MyFirstNode.counter_ += 1"),
-                fails="run.output",
-                blocks=("run.interrupt",),
-            ),
-            example(
-                "node_spins_itself",
-                Replace(NODE, "rclpy.spin(node)", "node.spin()"),
-                fails="run.starts",
-            ),
-            example(
-                "init_of_super_half",
-                Replace(NODE, "super().__init__(", "super().__init("),
-                fails="run.starts",
             ),
         ),
     ),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
@@ -12,6 +13,7 @@ SYMPTOMS = frozenset(symptom for kind in CATALOGUE.values() for symptom in kind.
 
 def behind_error(raised: Raised) -> RecognisedMistake | None:
     """Return the mistake behind an exception, or None if it is unknown."""
+    raised = replace(raised, error=_as_written(raised))
     for kind in CATALOGUE.values():
         for pattern, look in kind.raised.items():
             match = re.search(pattern, raised.error)
@@ -19,6 +21,13 @@ def behind_error(raised: Raised) -> RecognisedMistake | None:
             if found is not None:
                 return found
     return None
+
+
+def _as_written(raised: Raised) -> str:
+    """Return the error with names as the source has them: Python calls __x of the class A _A__x."""
+    names = "|".join(re.escape(n.lstrip("_")) for n in raised.source.known_classes if n.strip("_"))
+    mangled = rf"(?<=has no attribute ')_(?:{names})(?=__\w)"
+    return re.sub(mangled, "", raised.error) if names else raised.error
 
 
 def behind_symptom(symptom: str, suspect: Suspect) -> RecognisedMistake | None:

@@ -16,6 +16,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, own_name
 from grader.package.source.place import function_at, method_above, statement_at
+from grader.package.source.scopes import has_self, visible_names
 
 NODE_METHODS = (
     *("create_timer", "get_logger", "get_clock", "get_name", "create_publisher", "destroy_node"),
@@ -154,9 +155,12 @@ def _self_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
         return None  # (the timer's own record shows how create_timer is written)
     function = function_at(raised.module, raised.line)
     if function is not None and _is_method(raised, function):
-        return raised.finding("self_missing", name=name)
+        own = function in [s for c in source.family for s in c.body] or source.node_class is None
+        return raised.finding("self_missing", name=name) if own and has_self(function) else None
     variables = sorted(source.node_variables)
     if function is None or len(variables) != 1 or name in source.attributes:
+        return None
+    if variables[0] not in visible_names(raised.module, raised.line, name):
         return None
     found = raised.finding("self_missing", name=name, variable=variables[0])
     return replace(found, variant="variable")

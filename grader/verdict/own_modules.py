@@ -12,11 +12,14 @@ from typing import TYPE_CHECKING
 from grader.base.nearest import nearest
 from grader.base.shown import shown
 from grader.mistakes.imports import MODULES, OTHER_PACKAGES
-from grader.mistakes.recognised import RecognisedMistake
+from grader.mistakes.recognised import NAME_ERROR, RecognisedMistake
 from grader.package.source.counter import targets_of
-from grader.package.source.module import Function
+from grader.package.source.module import Function, Module
+from grader.package.source.names import module_name
 from grader.package.source.node import read_module
+from grader.package.source.own_imports import own_imports
 from grader.package.source.place import statement_at
+from grader.package.source.scopes import bindings
 from grader.report.model import Where
 from grader.verdict.checks.parsed import data_of, names_in
 
@@ -41,7 +44,9 @@ def own_module(error: str, where: Where | None, evidence: Evidence) -> Recognise
     if where is None or not where.file.startswith(f"{package}/"):
         return None
     return (
-        _without_package(error, where, evidence)
+        _of_other_file(error, where, evidence)
+        or _part_of_file(error, where, evidence)
+        or _without_package(error, where, evidence)
         or _of_package(error, where, evidence)
         or _not_handed_in(error, where, evidence)
         or _not_in_file(error, where, evidence)
@@ -177,6 +182,126 @@ def _imported(written: _Import, module: str, where: Where, *, variant: str) -> R
     )
 
 
+def _part_of_file(error: str, where: Where, evidence: Evidence) -> RecognisedMistake | None:
+    """Return that an import names what a file defines as if it were a file of its own."""
+    match = NO_MODULE.search(error)
+    parent, _, name = match["name"].rpartition(".") if match is not None else ("", "", "")
+    path = f"{parent.replace('.', '/')}.py"
+    raising = read_module(partial(data_of, evidence), where.file)
+    module = read_module(partial(data_of, evidence), path) if parent else None
+    statement = statement_at(raising, where.line) if raising is not None else None
+    if raising is None or module is None or f"'{parent}' is not a package" not in error:
+        return None
+    known, new = _defined_in(module), ""
+    if isinstance(statement, ast.ImportFrom):
+        above = (statement.module or "").rpartition(".")[0]
+        if {alias.name for alias in statement.names} <= known:
+            names = ", ".join(map(ast.unparse, statement.names))
+            new = f"from {'.' * statement.level}{above} import {names}"
+    elif isinstance(statement, ast.Import) and len(statement.names) == 1 and name in known:
+        bound = statement.names[0].asname
+        whole = any(
+            isinstance(n, ast.Name) and n.id == parent.partition(".")[0] for n in raising.nodes
+        )
+        new = f"from {parent} import {name}{f' as {bound}' if bound else ''}"
+        new = f"import {parent}" if whole and not bound else new
+    if statement is None or not new:
+        return None
+    code = raising.text.code(statement)
+    return RecognisedMistake(
+        kind="node.own_module_alone",
+        params={"name": code, "written": new},
+        words={"name": shown(code), "written": shown(new), "path": path, "short": name},
+        variant="part",
+        where=where,
+    )
+
+
+def _defined_in(module: Module) -> set[str]:
+    """Return the names that the lines at the margin of a file define."""
+    tops = module.tree.body
+    known = {target for s in tops for target in targets_of(s) if "." not in target}
+    return known | {s.name for s in tops if isinstance(s, Function | ast.ClassDef)}
+
+
+def _offers(module: Module, name: str) -> bool:
+    """Whether a file that is no program of its own defines a function, a class or a constant."""
+    made = {*module.functions, *(c.name for c in module.tree.body if isinstance(c, ast.ClassDef))}
+    constant = name.isupper() and name in _defined_in(module)
+    return "main" not in module.functions and (name in made or constant)
+
+
+def _of_other_file(error: str, where: Where, evidence: Evidence) -> RecognisedMistake | None:
+    """Return that the file uses a name which only another file of the package defines."""
+    match, package = re.search(NAME_ERROR, error), evidence.assignment.folder
+    raising = read_module(partial(data_of, evidence), where.file)
+    if match is None or raising is None or bindings(raising, match["name"]):
+        return None
+    name, found = match["name"], []
+    if evidence.submission.file(f"{package}/{name}.py") is not None:
+        return _file_as_name(name, raising, where, evidence)
+    for file in names_in(evidence, package):
+        path = f"{package}/{file}"
+        module = read_module(partial(data_of, evidence), path) if file.endswith(".py") else None
+        if module is not None and path != where.file and _offers(module, name):
+            found.append(module)
+    here = module_name(where.file)
+    if len(found) != 1 or here in {
+        part for n in found[0].imports for part in (n, f"{package}.{n}")
+    }:
+        return None
+    if any(i.parts == tuple(here.split(".")) for i in own_imports(found[0])):
+        return None  # (the two files would import each other)
+    words = {"name": name, "path": found[0].path}
+    for known in own_imports(raising):
+        if not known.name and found[0].path in known.paths:
+            return RecognisedMistake(
+                kind="node.import_missing",
+                params={"name": name, "written": f"{known.bound}.{name}"},
+                words={**words, "written": f"{known.bound}.{name}", "statement": ""},
+                variant="own_module",
+                where=where,
+            )
+    statement = f"from {module_name(found[0].path)} import {name}"
+    return RecognisedMistake(
+        kind="node.import_missing",
+        params={"name": name, "statement": statement},
+        words={**words, "statement": statement},
+        variant="own",
+        where=where,
+    )
+
+
+def _file_as_name(
+    name: str, raising: Module, where: Where, evidence: Evidence
+) -> RecognisedMistake | None:
+    """Return that a file of the package is named, which no import binds by its own name."""
+    package = evidence.assignment.folder
+    new, head = f"from {package} import {name}", package.partition(".")[0]
+    if name in sys.stdlib_module_names or f"{package}/{name}.py" == where.file:
+        return None
+    for statement in raising.tree.body:
+        if not isinstance(statement, ast.Import) or len(statement.names) != 1:
+            continue
+        whole = any(isinstance(n, ast.Name) and n.id == head for n in raising.nodes)
+        if statement.names[0].name == f"{package}.{name}" and not whole:
+            code = raising.text.code(statement)
+            return RecognisedMistake(
+                kind="node.own_module_alone",
+                params={"name": code, "written": new},
+                words={"short": f"{package}.{name}", "close": name},
+                variant="whole",
+                where=Where(file=where.file, line=statement.lineno),
+            )
+    return RecognisedMistake(
+        kind="node.import_missing",
+        params={"name": name, "statement": new},
+        words={"name": name, "path": f"{package}/{name}.py", "statement": new},
+        variant="file",
+        where=where,
+    )
+
+
 def _not_handed_in(error: str, where: Where, evidence: Evidence) -> RecognisedMistake | None:
     """Return that the code imports a module of its own package that the package does not have."""
     package = evidence.assignment.folder
@@ -187,6 +312,8 @@ def _not_handed_in(error: str, where: Where, evidence: Evidence) -> RecognisedMi
     submission = evidence.submission
     if any(submission.file(found) for found in (path, f"{path}.py")):
         return None
+    if submission.file(f"{path.rpartition('/')[0]}.py") is not None:
+        return None  # (what is above it is a file, and no folder)
     folder, _, name = path.rpartition("/")
     modules = [n.removesuffix(".py") for n in names_in(evidence, folder) if n.endswith(".py")]
     close = nearest(name, modules, cutoff=0.75)
@@ -210,10 +337,7 @@ def _not_in_file(error: str, where: Where, evidence: Evidence) -> RecognisedMist
     module = read_module(partial(data_of, evidence), path)
     if module is None:
         return None
-    tops = module.tree.body
-    known = {target for s in tops for target in targets_of(s) if "." not in target}
-    known |= {s.name for s in tops if isinstance(s, Function | ast.ClassDef)}
-    close = nearest(name, known, cutoff=0.6)
+    close = nearest(name, _defined_in(module), cutoff=0.6)
     return RecognisedMistake(
         kind="node.import_name",
         params={"name": name, "close": close} if close else {"name": name},

@@ -227,7 +227,7 @@ def test_an_exception_is_classified_and_the_right_name_suggested(
         ("NameError: name 'Hallo' is not defined",
          "Write Hello instead of Hallo, or define Hallo first."),
         ("NameError: name 'Helllo' is not defined", "Write Hello instead of Helllo."),
-        ("NameError: name 'qqqqq' is not defined", "Write the name exactly as it is defined"),
+        ("NameError: name 'qqqqq' is not defined", "Look where qqqqq is defined. If no line does"),
     ],
 )  # fmt: skip
 def test_the_fix_of_a_misspelt_name_has_the_nearest_known_name(error: str, fix: str) -> None:

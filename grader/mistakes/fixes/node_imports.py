@@ -17,8 +17,10 @@ def through_package(case: Case) -> Files | None:
     statement = statement_at(module, case.finding.line) if module is not None else None
     if module is None or statement is None or not new or module.text.code(statement) != name:
         return None
-    if isinstance(statement, ast.Import) and any(
-        "." in given.name and not given.asname for given in statement.names
-    ):
-        return None  # (the code uses the whole name)
+    if isinstance(statement, ast.Import) and not new.startswith("import "):
+        whole = {
+            g.name.partition(".")[0] for g in statement.names if "." in g.name and not g.asname
+        }
+        if any(isinstance(n, ast.Name) and n.id in whole for n in module.nodes):
+            return None  # (the code uses the whole name)
     return case.changed(module, module.text.swap(statement, new))

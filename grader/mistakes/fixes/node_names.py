@@ -108,7 +108,7 @@ def counter(case: Case) -> Files | None:
         return None
     logged = {n.removeprefix("self.") for n in names_given(call) if n.startswith("self.")}
     logged = {name.partition(".")[0] for name in logged} - {"get_logger"}
-    if len(logged) != 1 or _is_set(node, min(logged)):
+    if len(logged) != 1 or _is_set(node, min(logged)) or not counts(node, min(logged)):
         return None
     name, text = min(logged), node.module.text
     for statement in init.body:
@@ -126,6 +126,23 @@ def counter(case: Case) -> Files | None:
     row = f"{indent}self.{name} = {case.assignment.output.start}"
     below = (lines[0].end_lineno or lines[0].lineno) + 1
     return case.changed(node.module, text.before(below, row))
+
+
+def counts(node: NodeSource, name: str) -> bool:
+    """Whether a line of the node's class adds to an attribute: it is a number that needs a start."""
+    own = f"self.{name}"
+    for part in node.own_nodes:
+        if isinstance(part, ast.AugAssign) and dotted(part.target) == own:
+            return isinstance(part.op, ast.Add | ast.Sub) and not _is_text(part.value)
+        if isinstance(part, ast.Assign) and own in targets_of(part):
+            value = part.value
+            if isinstance(value, ast.BinOp) and dotted(value.left) == own:
+                return not _is_text(value.right)
+    return False
+
+
+def _is_text(value: ast.expr) -> bool:
+    return isinstance(value, ast.JoinedStr) or isinstance(getattr(value, "value", None), str)
 
 
 def start_of_other_name(node: NodeSource, close: str) -> ast.Attribute | None:

@@ -1,0 +1,39 @@
+"""Whether two names are one name with a typing mistake, and not two names with other meanings."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from difflib import SequenceMatcher
+
+from grader.base.nearest import nearest
+
+SAME = 0.7  # how like two words are of which one is the other with a typing mistake
+SHORTEST = 3  # letters of a word that can be the beginning of another
+WORDS = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
+
+
+def is_typo(name: str, other: str) -> bool:
+    """Whether each word of a name is nearly the word of the other at the same place.
+
+    get_loger is get_logger; get_time is not get_name, though three of four letters are the same.
+    """
+    if name.replace("_", "").lower() == other.replace("_", "").lower():
+        return True
+    words, others = ([w.lower() for w in WORDS.findall(text)] for text in (name, other))
+    if len(words) != len(others):
+        first, joined = "".join(words), "".join(others)
+        starts = others[: len(words)] == words or words[: len(others)] == others
+        return starts or SequenceMatcher(None, first, joined).ratio() > 0.9
+    return all(_is_word(word, known) for word, known in zip(words, others, strict=True))
+
+
+def _is_word(word: str, known: str) -> bool:
+    short, long = sorted((word, known), key=len)
+    begins = len(short) >= SHORTEST and long.startswith(short)
+    return begins or SequenceMatcher(None, word, known).ratio() >= SAME
+
+
+def meant_by(name: str, known: Iterable[str], cutoff: float) -> str:
+    """Return the known name of which a name is a misspelling; "" if there is none."""
+    return nearest(name, [other for other in known if is_typo(name, other)], cutoff=cutoff)

@@ -1,0 +1,577 @@
+"""Mistakes in what is read behind a dot: attributes and methods that an object does not have.
+
+These come late: their patterns also match errors that have a more precise cause.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.alike import is_typo, meant_by
+from grader.mistakes.example import DEAD, NODE, example
+from grader.mistakes.fixes import lines, node_names, node_timer, rename
+from grader.mistakes.fixes.case import Case
+from grader.mistakes.imports import RCLPY
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import OWN_ATTRIBUTE, Raised, RecognisedMistake, of_self
+from grader.mistakes.scope import NODE_METHODS
+from grader.package.edit.files import Files
+from grader.package.edit.tree import Replace
+from grader.package.source.counter import starts_of
+from grader.package.source.module import Module
+from grader.package.source.names import dotted, last_part, own_name
+from grader.package.source.node import LOG_METHODS
+from grader.package.source.place import function_at, statement_at
+from grader.package.source.scopes import class_of, scope_of
+
+ATTRIBUTE = (
+    r"AttributeError: (?:module |type object )?'(?P<type>[\w.]{1,200})'(?: object)? has no "
+    r"attribute '(?P<name>\w{1,120})'"
+)
+
+
+SET_ELSEWHERE = msg(
+    "self.{name} does not exist until a line assigns to it. Line {lines} does so, but had not run "
+    "for this object when Python came to this line."
+)
+
+
+SET_IN_METHOD = msg(
+    "self.{name} does not exist until a line assigns to it. Line {lines} does so, in the method "
+    "{method}, which had not run for this object when Python came to this line."
+)
+
+
+def _close_attribute(raised: Raised, name: str) -> str:
+    return meant_by(name, raised.source.attributes, cutoff=0.75)
+
+
+def _close_method(raised: Raised, match: re.Match[str]) -> str:
+    """Return the method that is meant: of the node, of rclpy or of the logger."""
+    name = match["name"]
+    if of_self(raised, match):
+        if _close_attribute(raised, name) and not _is_only_called(raised, name):
+            return ""
+        return meant_by(name, {*NODE_METHODS, *raised.source.methods}, cutoff=0.75)
+    if match["type"] == "rclpy":
+        return meant_by(name, RCLPY, cutoff=0.7)
+    if not _is_of_node(raised, match["type"]):
+        return ""
+    return meant_by(name, (*NODE_METHODS, *LOG_METHODS), cutoff=0.7)
+
+
+def _is_only_called(raised: Raised, name: str) -> bool:
+    """Whether each use of an attribute of self calls it."""
+    parents = raised.module.parents
+    uses = [n for n in raised.module.nodes if dotted(n) == f"self.{name}"]
+    around = [(parents.get(use), use) for use in uses if isinstance(use, ast.Attribute)]
+    return bool(around) and all(isinstance(a, ast.Call) and a.func is use for a, use in around)
+
+
+def _is_of_node(raised: Raised, kind: str) -> bool:
+    """Whether an object of this type can have the methods of a node or of a logger."""
+    logger = kind.endswith("Logger")
+    return logger or kind in ("Node", "super") or kind in raised.source.known_classes
+
+
+def _is_written(raised: Raised, name: str) -> bool:
+    """Whether a file of the student has a name: one that only rclpy writes is not misspelt."""
+    return any(name in module.text.text for module in raised.source.modules)
+
+
+def _method_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    if not _is_written(raised, match["name"]):
+        return None
+    close = _close_method(raised, match)
+    return raised.finding("method_misspelt", name=match["name"], close=close) if close else None
+
+
+def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    if not of_self(raised, match) or match["name"] in raised.module.functions:
+        return None
+    name, close = match["name"], _close_attribute(raised, match["name"])
+    elsewhere = _set_elsewhere(raised, name)
+    if elsewhere is not None:
+        return elsewhere
+    for timer in raised.source.timers:
+        if dotted(timer.period or timer.call) == f"self.{name}" and not close:
+            period = repr(raised.assignment.output.period)
+            found = raised.finding("attribute_not_set", name=f"self.{name}", written=period)
+            return replace(found, variant="period", words={**found.words, "name": name})
+    for node in raised.source.own_nodes:
+        if (
+            isinstance(node, ast.AnnAssign)
+            and dotted(node.target) == f"self.{name}"
+            and not node.value
+        ):
+            value = raised.module.text.code(node)
+            found = raised.finding(
+                "attribute_not_set", at=node, name=value, written=_assigned(raised, node)
+            )
+            return replace(found, variant="annotated", words={**found.words, "attribute": name})
+    called = _called(raised, name)
+    if called is not None:
+        return called
+    return _without_value(raised, name, close)
+
+
+def _without_value(raised: Raised, name: str, close: str) -> RecognisedMistake:
+    """No line sets the attribute: a similar one is meant, or it needs a first value."""
+    found = raised.finding("attribute_not_set", name=name, close=close)
+    if not close and _is_object(raised, name):
+        return replace(found, variant="object")
+    owner = _of_helper(raised, name)
+    if owner and not close:
+        params = {"name": f"self.{name}", "written": f"self.{owner[0]}.{name}"}
+        found = raised.finding("attribute_not_set", params=params)
+        words = {**found.words, "attribute": owner[0], "type": owner[1]}
+        return replace(found, variant="helper", words=words)
+    start = node_names.start_of_other_name(raised.source, close)
+    if start is not None:
+        found = raised.finding("attribute_not_set", at=start, name=close, close=name)
+        return replace(found, variant="start")
+    if close or node_names.counts(raised.source, name):
+        return found
+    return replace(found, variant="value")
+
+
+def _of_helper(raised: Raised, name: str) -> tuple[str, str] | None:
+    """Return the attribute with the only object of a helper class that sets the name, and the class."""
+    module, source = raised.module, raised.source
+    helpers = {
+        c.name
+        for c in module.classes
+        if c not in source.family and any(_sets(module, n, f"self.{name}") for n in ast.walk(c))
+    }
+    made = [
+        (own_name(n.targets[0]), dotted(n.value.func))
+        for n in source.own_nodes
+        if isinstance(n, ast.Assign) and isinstance(n.value, ast.Call) and own_name(n.targets[0])
+    ]
+    found = [(attribute, kind) for attribute, kind in made if kind in helpers]
+    return found[0] if len(found) == 1 else None
+
+
+def _set_elsewhere(raised: Raised, name: str) -> RecognisedMistake | None:
+    """Lines of the same class set the attribute, but none of them ran before this one."""
+    module = raised.module
+    here = class_of(module, function_at(module, raised.line))
+    sets = [part for part in module.nodes if _sets(module, part, f"self.{name}")]
+    owners = [class_of(module, scope_of(module, part)) for part in sets]
+    own = {owner[1] for owner in owners if owner is not None and here and owner[0] is here[0]}
+    if not sets or here is None or None in owners or len(own) != len({o for o in owners if o}):
+        return None
+    rows = ", ".join(map(str, sorted({getattr(part, "lineno", 0) for part in sets})))
+    found = raised.finding("attribute_not_set", params={"name": name, "lines": rows})
+    if len(own) != 1:
+        return replace(found, variant="set_here")
+    method = own.pop()
+    words = {**found.words, "method": method.name}
+    if method.name == "__init__":
+        return replace(found, variant="set_here")
+    if method is here[1]:
+        return replace(found, variant="set_again", words=words)
+    named = {n.attr for n in raised.source.all_nodes if isinstance(n, ast.Attribute)}
+    plain = len(method.args.args) == 1 and not method.decorator_list
+    uncalled = method.name not in named and plain and here[0] is raised.source.node_class
+    return replace(found, variant="set_by_uncalled" if uncalled else "set_later", words=words)
+
+
+def _sets(module: Module, part: ast.AST, name: str) -> bool:
+    """Whether a part of the file gives a name a value that does not come from itself."""
+    if not isinstance(part, ast.Attribute) or not isinstance(part.ctx, ast.Store):
+        return False
+    around = module.parents.get(part)
+    if dotted(part) != name or isinstance(around, ast.AugAssign):
+        return False
+    value = around.value if isinstance(around, ast.Assign | ast.AnnAssign) else part
+    return value is not None and all(dotted(n) != name for n in ast.walk(value) if n is not part)
+
+
+def _called(raised: Raised, name: str) -> RecognisedMistake | None:
+    """The attribute that no line sets is called: a first value in (), or a missing method."""
+    module, statement = raised.module, statement_at(raised.module, raised.line)
+    calls = [
+        n
+        for n in (ast.walk(statement) if statement is not None else ())
+        if isinstance(n, ast.Call) and dotted(n.func) == f"self.{name}"
+    ]
+    if len(calls) != 1 or statement is None:
+        return None
+    call, code = calls[0], module.text.code(calls[0])
+    alone = isinstance(statement, ast.Expr) and statement.value is call
+    given = call.args[0] if len(call.args) == 1 and not call.keywords else None
+    if alone and isinstance(given, ast.Constant) and not _is_only_called(raised, name):
+        written = f"self.{name} = {module.text.code(given)}"
+        found = raised.finding("attribute_not_set", params={"name": code, "written": written})
+        return replace(found, variant="initialiser", words={**found.words, "attribute": name})
+    return replace(raised.finding("attribute_not_set", name=name), variant="no_method")
+
+
+def _assigned(raised: Raised, node: ast.AnnAssign) -> str:
+    value = node.annotation.value if isinstance(node.annotation, ast.Constant) else None
+    start = value if isinstance(value, int | float) else raised.assignment.output.start
+    return f"{dotted(node.target)} = {start}"
+
+
+def _is_object(raised: Raised, name: str) -> bool:
+    """Whether the code uses something of the attribute: a method or another attribute."""
+    parents = raised.module.parents
+    uses = [n for n in raised.module.nodes if dotted(n) == f"self.{name}"]
+    return any(isinstance(parents.get(use), ast.Attribute) for use in uses)
+
+
+def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    if raised.inside and match["name"] not in raised.module.line(raised.line):
+        return None  # (no name of the student's)
+    known = _of_rclpy(raised, match)
+    if known is not None:
+        return known
+    if (match["type"], match["name"]) == ("rclpy", "get_logger"):
+        call = re.search(
+            rf"rclpy\.{match['name']}\([^()]{{0,80}}\)", raised.module.line(raised.line)
+        )
+        if call is not None:
+            found = raised.finding("attribute_unknown", name=call[0], written="self.get_logger()")
+            return replace(found, variant="written")
+    if match["type"] in ("NoneType", "rclpy"):
+        found = raised.finding("attribute_unknown", name=match["name"])
+        return replace(found, variant="none" if match["type"] == "NoneType" else "module")
+    own = f"self.{match['name']}"
+    if match["name"] in raised.module.functions and of_self(raised, match):
+        found = raised.finding("attribute_unknown", name=own, written=match["name"])
+        return replace(found, variant="function")
+    if match["type"] == "Parameter":
+        return _of_parameter(raised, match["name"])
+    if match["type"] in ("int", "float") and (plain := _number(raised, match["name"])):
+        found = raised.finding("attribute_unknown", name=f"{plain}.{match['name']}", written=plain)
+        return replace(found, variant="number")
+    if match["type"] in raised.source.class_names and match["name"] in raised.source.attributes:
+        code = f"{match['type']}.{match['name']}"
+        found = raised.finding("attribute_unknown", name=code, written=own)
+        return replace(found, variant="written")
+    return _similar(raised, match)
+
+
+def _similar(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    """Python's own suggestion, if it is the same name with a typing mistake."""
+    name, kind = match["name"], last_part(match["type"])
+    suggested = re.search(r"Did you mean: '(\w{1,120})'", raised.error)
+    other = suggested[1] if suggested and _is_written(raised, name) else ""
+    if other and is_typo(name, other):
+        return raised.finding("attribute_unknown", name=name, close=other)
+    found = raised.finding("attribute_unknown", name=name)
+    found = replace(found, words={**found.words, "type": kind})
+    own = [c for m in raised.source.modules for c in m.classes if c.name == kind]
+    if len(own) == 1 and own[0] not in raised.source.family:
+        words = {**found.words, "line": str(own[0].lineno)}
+        return replace(found, variant="own_class", words=words)
+    if other:
+        return replace(found, variant="similar", words={**found.words, "other": other})
+    return found
+
+
+def _of_parameter(raised: Raised, name: str) -> RecognisedMistake:
+    """What get_parameter returns has .value, and get_parameter_value() for the value's type."""
+    typed = name.endswith("_value") and name != "get_value"
+    written = f".get_parameter_value().{name}" if typed else ".value"
+    found = raised.finding("attribute_unknown", name=f".{name}", written=written)
+    if name.lower().startswith("get_param"):
+        return raised.finding("attribute_unknown", name=name)
+    return replace(found, variant="parameter")
+
+
+def _number(raised: Raised, attribute: str) -> str:
+    """Return what the line reads an attribute of, if it is an attribute of self that counts."""
+    statement = statement_at(raised.module, raised.line)
+    parts = [n for n in ast.walk(statement) if isinstance(n, ast.Attribute)] if statement else []
+    found = {dotted(part.value) for part in parts if part.attr == attribute}
+    name = found.pop() if len(found) == 1 else ""
+    return name if name in starts_of(raised.source) else ""
+
+
+def _of_rclpy(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A function of rclpy is called on the node, or __init__ on super() by half its name."""
+    name = match["name"]
+    if match["type"] == "super" and "init" in name:
+        code = re.search(r"super\(\)\.(\w{1,60})", raised.module.line(raised.line))
+        found = raised.finding(
+            "attribute_unknown", name=code[1] if code else name, written="__init__"
+        )
+        return replace(found, variant="written")
+    if match["type"] not in raised.source.known_classes or name not in ("spin", "spin_once"):
+        return None
+    for call, called in raised.source.calls:
+        before, _, method = called.rpartition(".")
+        if method == name and before and before != "rclpy":
+            written = f"{called}()"
+            new = f"rclpy.{name}({before})"
+            found = raised.finding("attribute_unknown", at=call, name=written, written=new)
+            return replace(found, variant="written")
+    return None
+
+
+def _through_helper(case: Case) -> Files | None:
+    """Read the attribute through the helper object in all lines of the node's class."""
+    node, params = case.node, case.finding.params
+    name, new = (str(params.get(key, "")) for key in ("name", "written"))
+    if node is None or not new.startswith("self.") or new.count(".") != 2 or "(" in new:
+        return None
+    module = node.module
+    uses = [n for n in node.own_nodes if isinstance(n, ast.Attribute) and dotted(n) == name]
+    if any(not module.has(use) or module.text.code(use) != name for use in uses):
+        return None
+    return case.changed(module, *(module.text.swap(use, new) for use in uses))
+
+
+_node = Family("node", links.FIRST_NODE)
+KINDS = (
+    _node(
+        "method_misspelt",
+        "class",
+        msg("A method or attribute of the node is misspelt"),
+        msg("Python finds a method or an attribute only by its exact name."),
+        msg("Write {close} instead of {name}."),
+        links.RCLPY,
+        raised={ATTRIBUTE: _method_misspelt},
+        fixed_by=(node_timer.misspelt, rename.attribute),
+        examples=(
+            example(
+                "create_timer_misspelt",
+                Replace(NODE, "create_timer", "create_timmer"),
+                fails="run.starts",
+            ),
+            example(
+                "logger_misspelt",
+                Replace(NODE, "self.get_logger().info", "self.get_loger().info"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "error_at_stop",
+                Replace(NODE, "        node.destroy_node()\n", "        node.destroy()\n"),
+                fails="run.interrupt",
+            ),
+        ),
+    ),
+    _node(
+        "attribute_not_set",
+        "counter",
+        msg("An attribute is read that __init__ did not set"),
+        msg("self.{name} does not exist until a line assigns to it."),
+        msg("Give it a value in __init__: self.{name} = {start}"),
+        links.PYTHON_CLASSES,
+        close=msg("Write self.{close} instead of self.{name}."),
+        fixes={
+            "start": msg(
+                "Write self.{close} on that line: the other lines use this name, not self.{name}."
+            ),
+            "annotated": msg("Write {written} instead of {name}."),
+            "period": msg(
+                "Write the period in seconds instead of self.{name}: {written}. Or write self.{name} "
+                "= {written} above this line."
+            ),
+            "value": msg(
+                "Give it a value in __init__, above the line that creates the timer: self.{name} = "
+                "and the value that it has at the beginning."
+            ),
+            "set_here": msg(
+                "See why Python did not run line {lines} before this line: it may be further down, "
+                "in a branch or a loop that was not entered, or in a function that was not called. "
+                "Move it to where it always runs first, as a rule to the beginning of __init__."
+            ),
+            "set_again": msg(
+                "Set self.{name} in __init__ too, above the line that creates the timer: "
+                "self.{name} = and the value that it has at the beginning."
+            ),
+            "set_later": msg(
+                "Set self.{name} in __init__ too, before this line can run, or call {method} "
+                "before this line can run."
+            ),
+            "set_by_uncalled": msg(
+                "Write self.{method}() in __init__, before the line that creates the timer, or move "
+                "line {lines} to __init__."
+            ),
+            "initialiser": msg("Write {written} instead of {name}."),
+            "helper": msg("Write {written} instead of {name}, here and in the other lines."),
+            "no_method": msg(
+                "Write def {name}(self): with its lines in the class, write the name of the method "
+                "that you mean, or delete the call if it is not needed."
+            ),
+            "object": msg(
+                "Delete this line if it belongs to another example. If the node needs it, create "
+                "self.{name} in __init__ first."
+            ),
+        },
+        whys={
+            "annotated": msg(
+                "A colon after a name only states a type. A value is assigned with =, so "
+                "self.{attribute} does not exist yet."
+            ),
+            "set_here": SET_ELSEWHERE,
+            "set_again": SET_ELSEWHERE,
+            "set_later": SET_IN_METHOD,
+            "set_by_uncalled": msg(
+                "self.{name} does not exist until a line assigns to it. Line {lines} does so, in the "
+                "method {method}, which no line calls."
+            ),
+            "initialiser": msg(
+                "() behind a name calls it, and self.{attribute} does not exist until a line assigns "
+                "to it: with =."
+            ),
+            "helper": msg(
+                "The class {type} sets this attribute, and self.{attribute} is an object of this "
+                "class. self is another object."
+            ),
+            "no_method": msg("self.{name}() calls a method, and the class has no method {name}."),
+        },
+        raised={OWN_ATTRIBUTE: _not_set},
+        fixed_by=(_through_helper, lines.written, node_names.close_attribute, node_names.counter),
+        examples=(
+            example(
+                "period_attribute_not_set",
+                Replace(NODE, "create_timer(1.0", "create_timer(self.timer_period"),
+                fails="run.starts",
+            ),
+            example(
+                "counter_with_colon",
+                Replace(NODE, "self.counter_ = 0", "self.counter_: 0"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "counter_initialised_like_a_member",
+                Replace(NODE, "self.counter_ = 0", "self.counter_(0)"),
+                fails="run.starts",
+            ),
+            example(
+                "counter_set_by_uncalled_method",
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def setup(self):\n        self.counter_ = 0\n\n    def timer_callback",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "publisher_of_another_example",
+                Replace(
+                    NODE,
+                    "self.counter_ += 1",
+                    "self.publisher_.publish(msg)\n        self.counter_ += 1",
+                ),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+            example(
+                "counter_not_set",
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "counter_without_self",
+                Replace(NODE, "self.counter_ = 0", "counter_ = 0"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "counter_of_other_name",
+                Replace(NODE, "self.counter_ = 0", "self.counter = 0"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "counter_misspelt_in_step",
+                Replace(NODE, "self.counter_ += 1", "self.counter_ = self.counter + 1"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+        ),
+    ),
+    _node(
+        "attribute_unknown",
+        "callback",
+        msg("An object has no attribute with that name"),
+        msg(
+            "{name} is read from an object behind a dot, and the object on this line has nothing "
+            "with this name."
+        ),
+        msg(
+            "Look up what this object can do: in the documentation of its class, or in the class if "
+            "it is your own. There may be another name for {name}, or no such thing. Or another "
+            "object is meant."
+        ),
+        links.RCLPY,
+        close=msg("Write {close} instead of {name}."),
+        whys={
+            "function": msg(
+                "{written} is a function of the file, and no method of the class. It is called "
+                "without self."
+            ),
+            "parameter": msg(
+                "get_parameter returns an object of the type Parameter. Its value is in .value, or in "
+                "get_parameter_value()."
+            ),
+            "number": msg("{written} is a number, and a number has no such attribute."),
+            "none": msg(
+                "A value on that line is None: nothing was assigned to it, or a function returned "
+                "nothing."
+            ),
+            "module": msg("The module rclpy has nothing with the name {name}."),
+        },
+        fixes={
+            "written": msg("Write {written} instead of {name}."),
+            "similar": msg(
+                "Look up what a {type} can do. It has the similar name {other}: write that only if "
+                "it does what you want."
+            ),
+            "own_class": msg(
+                "Write a name that the class {type} has (line {line}), or let its __init__ set "
+                "self.{name}."
+            ),
+            "function": msg("Write {written} instead of {name}."),
+            "parameter": msg("Write {written} instead of {name} behind get_parameter(…)."),
+            "number": msg("Write {written} instead of {name}."),
+            "none": msg("Find the line that should give it its value, and see what that does."),
+            "module": msg(
+                "Compare the name with the documentation of rclpy. Many of a node's functions are "
+                "methods of the node: self.name(…) in the class."
+            ),
+        },
+        seen=r"AttributeError: (?:'\w{1,120}' object|type object '\w{1,120}'|module "
+        r"'[\w.]{1,200}') has no attribute '(?P<name>\w{1,120})'",
+        raised={ATTRIBUTE: _unknown},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "logger_of_rclpy",
+                Replace(NODE, "self.get_logger()", "rclpy.get_logger('my_first_node')"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "class_for_self",
+                Replace(NODE, "self.counter_ += 1", "MyFirstNode.counter_ += 1"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+            example(
+                "node_spins_itself",
+                Replace(NODE, "rclpy.spin(node)", "node.spin()"),
+                fails="run.starts",
+            ),
+            example(
+                "init_of_super_half",
+                Replace(NODE, "super().__init__(", "super().__init("),
+                fails="run.starts",
+            ),
+        ),
+    ),
+)
