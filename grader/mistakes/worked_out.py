@@ -134,27 +134,13 @@ KINDS = (
         behind={
             "run.wrong_start": worked_out("number_changed", "operation"),
             "run.wrong_step": worked_out("number_changed", "operation"),
-            "run.wrong_text": first_of(
-                worked_out("number_changed", "operation"),
-                worked_out("number_changed", "digit", variant="digit"),
-            ),
+            "run.wrong_text": worked_out("number_changed", "operation"),
         },
-        whys={
-            "digit": msg(
-                "chr() gives one character by its code. The digits end with 9: other characters "
-                "follow. str() writes any number."
-            )
-        },
-        fixed_by=(node_worked_out.change("operation", "digit"),),
+        fixed_by=(node_worked_out.change("operation"),),
         examples=(
             example(
                 "one_more_in_text",
                 Replace(NODE, "str(self.counter_)", "str(self.counter_ + 1)"),
-                fails="run.output",
-            ),
-            example(
-                "digit_by_its_code",
-                Replace(NODE, "str(self.counter_)", "chr(ord('0') + self.counter_)"),
                 fails="run.output",
             ),
         ),

@@ -249,7 +249,7 @@ def test_a_word_that_was_replaced_everywhere_is_shown_with_its_lines() -> None:
     assert found is not None
     assert (found.params["close"], found.variant) == ("rclpy.node", "replaced")
     destroys = line_of(text, "destroy_robot")
-    assert found.words["others"].endswith(f"destroy_node ({destroys})")
+    assert str(found.words["others"]).endswith(f"destroy_node ({destroys})")
 
 
 def test_a_name_of_another_module_of_rclpy_gets_its_import() -> None:

@@ -415,16 +415,6 @@ def _logged_twice(module: Module, wanted: Wanted, before: Sequence[str]) -> Iter
                 yield from _without(module, "logged", node)
 
 
-def _digits(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
-    """Yield a number as text in place of a character with a code that depends on it."""
-    del wanted, before
-    for node in module.nodes:
-        if isinstance(node, ast.Call) and dotted(node.func) == "chr" and len(node.args) == 1:
-            total = node.args[0]
-            for part in (total.left, total.right) if isinstance(total, ast.BinOp) else ():
-                yield _of(module, "digit", node, f"str({module.text.code(part)})")
-
-
 def _kept(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
     """Yield an assignment in place of a call whose result is dropped: `x = x.next()`."""
     del wanted, before
@@ -486,7 +476,6 @@ SORTS: dict[str, Callable[[Module, Wanted, Sequence[str]], Iterator[Change]]] = 
     "digit": _digits,
     "condition": _conditions,
     "logged": _logged_twice,
-    "digit": _digits,
     "kept": _kept,
     "next": _next_once,
     "next_line": _next_lines,
