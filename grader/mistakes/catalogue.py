@@ -8,7 +8,6 @@ from types import MappingProxyType
 from grader.mistakes import (
     actions,
     after_with,
-    args_none,
     arguments,
     attributes,
     beside,
@@ -171,7 +170,6 @@ CATALOGUE: Mapping[str, Kind] = MappingProxyType(
             brackets,
             call_signs,
             not_in_rclpy,
-            args_none,
             arguments,
             no_return,
             values,

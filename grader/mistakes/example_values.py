@@ -286,7 +286,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "wanted": "executor.spin()",
         "loop": "while",
         "name": "node.counter < 5",
-        "written": "node.create_timer(1.0, node.tick)",
+        "written": "node.create_timer(PERIOD, node.tick)",
     },
     "node.sleep_loop": {"wanted": "rclpy.spin(node)", "loop": "while"},
     "node.argument_missing": {
@@ -621,7 +621,6 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "call": "spin_some",
     },
     "node.logger_of_node": {"name": "self.info", "written": "self.get_logger().info"},
-    "node.args_is_none": {"name": "args", "short": "args", "line": 17},
     "node.own_module_alone": {
         "path": "my_package/helpers.py",
         "there": "helpers.py",
@@ -735,8 +734,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "written": "self.create_timer(timer_period_sec=1.0, callback=self.callback)",
     },
     "node.timer_arguments_many": {
-        "name": "self.create_timer(1,0, self.callback)",
-        "written": "self.create_timer(1.0, self.callback)",
+        "name": "self.create_timer(0,5, self.callback)",
+        "written": "self.create_timer(0.5, self.callback)",
     },
     "node.inside_call": {"name": "int", "attribute": "add_node"},
     "run.died_at_start": {"library": "rclpy"},

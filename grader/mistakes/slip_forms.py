@@ -54,7 +54,7 @@ FORMS = {
         "An import has one of two forms: import and a module, or from, a module, import and names. "
         "Write: {wanted}"
     ),
-    "import_form": msg(
+    "form_of_import": msg(
         "An import has one of two forms: import and a module, or from, a module, import and names. "
         "Names consist of letters, digits and _, and only dots separate the parts of a module's "
         "name. Write this line in one of these forms."

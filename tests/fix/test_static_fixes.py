@@ -25,6 +25,8 @@ NOT_FIXED = {
     *("node_hidden_by_folder", "group_twice_with_entries", "rich_text"),
     "build_type_twice",
     "main_of_the_class",
+    *("entity_of_html", "email_twice_in_a_tag", "license_in_a_comment"),
+    *("maintainer_in_a_comment_with_words", "entry_points_without_console_scripts"),
     "manifest_in_utf_16",
 }
 NOTHING_TO_MARK = {

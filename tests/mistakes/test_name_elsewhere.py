@@ -228,7 +228,7 @@ def test_the_parameter_of_main_is_none_under_ros2_run(line: str, error: str) -> 
     text = changed(("    rclpy.init(", f"    {line}\n    rclpy.init("))
     found = raised(f"TypeError: {error}", text, line_of(text, line.partition("\n")[0]))
     assert found is not None
-    assert found.kind == "node.args_is_none"
+    assert found.kind == "node.main_gets_none"
 
 
 def test_a_parameter_that_gets_a_value_before_is_not_told_as_none() -> None:
@@ -236,7 +236,7 @@ def test_a_parameter_that_gets_a_value_before_is_not_told_as_none() -> None:
     found = raised(
         "TypeError: 'NoneType' object is not subscriptable", text, line_of(text, "first =")
     )
-    assert found is None or found.kind != "node.args_is_none"
+    assert found is None or found.kind != "node.main_gets_none"
 
 
 def test_a_word_that_was_replaced_everywhere_is_shown_with_its_lines() -> None:

@@ -140,7 +140,7 @@ def _import_form(text: Broken) -> Slip | None:
     return (
         None
         if re.search(r"\S[ \t]+(?:from|import)\b.*\bimport\b", text.line)
-        else text.slip("signs", "import_form", _shown(text))
+        else text.slip("signs", "form_of_import", _shown(text))
     )
 
 
