@@ -36,7 +36,7 @@ LINES = [
     ("from a.b C\n", "import_written", 1, "from a.b import C"),
     ("import a a.b\n", "import_written", 1, "import a, a.b"),
     ("from a/b import C\n", "import_dot", 1, "from a.b import C"),
-    ("import a-b\n", "import_form", 1, "import a-b"),
+    ("import a-b\n", "form_of_import", 1, "import a-b"),
     (f"{BODY}        t(1, () -> self.g())\n", "method_value", 3, "t(1, self.g)"),
     (f"{BODY}        t(1, () => {{ self.g(); }})\n", "method_value", 3, "t(1, self.g)"),
     (f"{BODY}        t(1, std::bind(&A::g, this))\n", "method_value", 3, "t(1, self.g)"),
