@@ -8,6 +8,7 @@ from pathlib import Path
 
 from grader.batch.work import Job, Task
 from grader.sandbox.limits import Limits
+from grader.sandbox.processes import stat_fields
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.model import Package
@@ -42,13 +43,26 @@ def workers_of(parent: int) -> list[int]:
         if not entry.name.isdigit():
             continue
         try:
-            above = int((entry / "stat").read_text().rpartition(")")[2].split()[1])
-            words = (entry / "cmdline").read_bytes().split(b"\0")
+            if stat_fields(int(entry.name))[1] != parent:
+                continue
+            command = _command_line(int(entry.name))
         except OSError:
             continue
-        if above == parent and any(b"grader.batch.worker" in word for word in words):
+        if b"grader.batch.worker" in command:
             found.append(int(entry.name))
     return sorted(found)
+
+
+def _command_line(pid: int) -> bytes:
+    """Return a process' command line, also of a process that Popen started just now.
+
+    Popen returns as soon as the new program closes its inherited files. The kernel sets the command
+    line only after that, and until then it is empty. It is also empty when the process has ended.
+    """
+    path = Path(f"/proc/{pid}/cmdline")
+    while not (command := path.read_bytes()) and stat_fields(pid)[0] != "Z":
+        os.sched_yield()
+    return command
 
 
 def own_workers() -> list[int]:

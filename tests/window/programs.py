@@ -171,20 +171,29 @@ class Talk:
     ) -> dict[str, Any]:
         """Return the next message of a kind that fits; others are passed over."""
         deadline = time.monotonic() + SECONDS
+        passed: list[dict[str, Any]] = []
         while True:
-            message = self.heard.get(timeout=max(0.01, deadline - time.monotonic()))
+            message = self._next(deadline, passed)
             if message["kind"] == kind and fits(message):
                 return message
+            passed.append(message)
 
     def hear_each(self, *kinds: str) -> dict[str, dict[str, Any]]:
         """Return the next message of each kind, in whatever order they come."""
         deadline = time.monotonic() + SECONDS
         found: dict[str, dict[str, Any]] = {}
         while len(found) < len(kinds):
-            message = self.heard.get(timeout=max(0.01, deadline - time.monotonic()))
+            message = self._next(deadline, [*found.values()])
             if message["kind"] in kinds:
                 found.setdefault(message["kind"], message)
         return found
+
+    def _next(self, deadline: float, before: list[dict[str, Any]]) -> dict[str, Any]:
+        """Return the next message; fail at the deadline with those that came before."""
+        try:
+            return self.heard.get(timeout=max(0.01, deadline - time.monotonic()))
+        except queue.Empty:
+            raise AssertionError(f"the bridge said only {before[-20:]}") from None
 
 
 @contextlib.contextmanager
