@@ -6,7 +6,6 @@ this machine uses one at the same time.
 
 from __future__ import annotations
 
-import functools
 import os
 from collections import deque
 
@@ -23,9 +22,3 @@ def new_domain() -> str:
     if len(_locks) > KEPT:
         os.close(_locks.popleft())
     return str(domain)
-
-
-@functools.cache
-def own_domain() -> str:
-    """Return the ROS domain that this test process keeps to its end."""
-    return str(lock_domain()[0])

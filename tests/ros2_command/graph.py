@@ -8,7 +8,7 @@ import subprocess
 from pathlib import Path
 from typing import NamedTuple
 
-from tests.domains import own_domain
+from tests.domains import new_domain
 
 WORLD = Path(__file__).with_name("world.py")
 LONGEST = 60  # seconds
@@ -28,7 +28,7 @@ class Graph:
         self._folder = folder
         self._environment = {
             **os.environ,
-            "ROS_DOMAIN_ID": own_domain(),
+            "ROS_DOMAIN_ID": new_domain(),
             "ROS_AUTOMATIC_DISCOVERY_RANGE": range_,
             "ROS_LOG_DIR": str(folder / "log"),
             "COLUMNS": "80",

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from lab.window.link import bridge_environment
-from tests.domains import own_domain
+from tests.domains import new_domain
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -33,7 +33,7 @@ def ros_environment(prefix: Path, folder: Path) -> dict[str, str]:
     found = subprocess.run(["bash", "-c", script], env=clean, capture_output=True, check=True)
     pairs = (entry.partition("=") for entry in found.stdout.decode().split("\0") if entry)
     own = {
-        "ROS_DOMAIN_ID": own_domain(),
+        "ROS_DOMAIN_ID": new_domain(),
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
         "ROS_LOG_DIR": str(folder / "log"),
     }
