@@ -116,6 +116,8 @@ def _place_of_text(suspect: Suspect) -> Where:
 def _f_prefix(suspect: Suspect) -> RecognisedMistake | None:
     """Look for the string whose braces hold what can be read where it is written."""
     source, string = suspect.source, _string_of(suspect)
+    if _double_braces(suspect) is not None:
+        return None
     if string is None or not _holds_values(suspect.text):
         named = re.search(r"\{[A-Za-z_][\w.]{0,80}\}", suspect.text)
         if named is None or string is not None or not _is_sure(suspect):
@@ -137,6 +139,22 @@ def _f_prefix(suspect: Suspect) -> RecognisedMistake | None:
     name = source.module_of(given).text.code(given)
     found = suspect.finding("f_prefix", given, name=name, written=f"f{code}")
     return replace(found, variant="elsewhere")
+
+
+def _double_braces(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for an f-string whose values are in {{ }}, which stand for { } in the text."""
+    source, pattern = suspect.source, re.compile(r"\{\{([^{}\n]{1,80})\}\}")
+    for string in (n for n in source.all_nodes if isinstance(n, ast.JoinedStr)):
+        code = source.module_of(string).text.code(string)
+        found = pattern.search(code) if len(code) <= MOST_CODE else None
+        if found is None or f"{{{found[1]}}}" not in suspect.text:
+            continue
+        function = source.function_around(string)
+        if is_readable(source, source.module_of(string), function, found[1]):
+            written = pattern.sub(r"{\1}", code)
+            finding = suspect.finding("counter_in_text", string, name=found[1], written=written)
+            return replace(finding, variant="doubled_at")
+    return None
 
 
 def _given(suspect: Suspect, string: ast.Constant) -> ast.expr | None:
@@ -407,6 +425,9 @@ def _is_float_name(suspect: Suspect, name: str) -> bool:
 
 def _in_text(suspect: Suspect) -> RecognisedMistake | None:
     """The line shows the counter's name: the name is part of the string."""
+    doubled = _double_braces(suspect)
+    if doubled is not None:
+        return doubled
     counter = str(placeholder_values(suspect.assignment, suspect.source)["counter"])
     if "." not in counter or counter not in suspect.text:
         return None
@@ -498,7 +519,10 @@ KINDS = (
         msg("Write the text as {f_string}"),
         links.PYTHON_STRINGS,
         whys={
-            "doubled": msg("In an f-string, {{{{ is one shown brace: two braces hold no value."),
+            **dict.fromkeys(
+                ("doubled", "doubled_at"),
+                msg("In an f-string, {{{{ is one shown brace: two braces hold no value."),
+            ),
             "round": msg(
                 "In an f-string, a value is in braces. Round brackets and what is in them are "
                 "shown as they are."
@@ -512,7 +536,10 @@ KINDS = (
             ),
             "equals": msg("= in the braces also writes the code that is before it."),
         },
-        fixes={"equals": msg("Write {written} instead of {found}.")},
+        fixes={
+            "equals": msg("Write {written} instead of {found}."),
+            "doubled_at": msg("Write this text as {written}"),
+        },
         behind={"run.wrong_text": _in_text},
         fixed_by=tuple(map(node_log.right_text, (node_log.in_braces, node_log.text))),
         examples=(
@@ -522,6 +549,16 @@ KINDS = (
                     NODE,
                     "'Hello time: ' + str(self.counter_)",
                     "f'Hello time: {{self.counter_}}'",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "braces_doubled_in_a_variable",
+                Replace(
+                    NODE,
+                    "        self.get_logger().info('Hello time: ' + str(self.counter_))\n",
+                    "        text = f'Hello time: {{self.counter_}}'\n"
+                    "        self.get_logger().info(text)\n",
                 ),
                 fails="run.output",
             ),

@@ -106,6 +106,11 @@ FORMS = {
         "Then write on a line of its own: {step} (above this line, if the new value is needed here, "
         "else below it)."
     ),
+    "lambda_changes": msg(
+        "A lambda contains one expression and no statement, and {step} is a statement. Write a method "
+        "with def that contains what the lambda does, each part on a line of its own, and last the "
+        "line {step}. Write self. and the method's name, without brackets, instead of the lambda."
+    ),
     "return_assigns": msg(
         "return gives back a value and cannot assign one. Write on a line of its own: {step} Write "
         "below it, if the value is to be given back: {wanted}"

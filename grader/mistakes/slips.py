@@ -282,6 +282,9 @@ SIGNS = {
         "This line ends with a colon, but line {line} is not in its block. Write the lines of the "
         "block below this line, indented by 4 spaces."
     ),
+    "head_twice": msg(
+        "Line {line} begins the same block as this line. One of the two is enough: delete this line."
+    ),
     "block_comment": msg(
         "The block below this line has only a comment, and a comment is no statement. Write pass "
         "below this line, indented by 4 spaces, if nothing is to be done."
@@ -341,6 +344,9 @@ SIGNS = {
     "prefix_apart": msg("No space is between the letter and the quote. Write: {wanted}"),
     "dot_bracket": msg("No dot is between a name and its brackets. Write: {wanted}"),
     "parameter_outside": msg("The parameters of a def are inside its brackets. Write: {wanted}"),
+    "editor_behind": msg(
+        "The end of this line is a command for the editor, not code. Write: {wanted}"
+    ),
     "import_comma": msg("An import does not end with a comma. Write: {wanted}"),
     "backslash_end": msg(
         "A backslash continues a line only if nothing is behind it. Delete the spaces and the comment "

@@ -113,6 +113,9 @@ def _not_indented(text: Broken) -> Slip | None:
     head, shown = int(match["line"]), text.source.line(text.number).strip()
     if head == text.number:
         return Slip("signs", "block_missing", head, shown)
+    twice = _head_twice(text, head)
+    if twice is not None:
+        return twice
     if not 0 < head < text.number:
         return None
     width = len(indent_of(text.source.line(head)))
@@ -136,6 +139,24 @@ def _not_indented(text: Broken) -> Slip | None:
     alone = own == width and (_next_indent(text) > own or _ends_after(text))
     new = text.changed(text.within(0, 0, " " * 4)) if alone else None
     return Slip("signs", "not_indented", text.number, shown, "", new, other=head)
+
+
+HEAD_OF = re.compile(
+    r"[ \t]*(?:async[ \t]+)?(?:(?P<word>def|class)[ \t]+(?P<name>\w+)|(?P<all>.*\S))"
+)
+
+
+def _head_twice(text: Broken, head: int) -> Slip | None:
+    """Return the first line of a block that stands twice, one below the other."""
+    first, second = (HEAD_OF.match(text.source.line(n).rstrip()) for n in (head, text.number))
+    columns = {len(indent_of(text.source.line(n))) for n in (head, text.number)}
+    if first is None or second is None or first.groups() != second.groups() or len(columns) > 1:
+        return None
+    new = text.source.spliced([text.source.without(head)])
+    if new is None or not can_parse(new):
+        return None
+    shown = text.source.line(head).strip()
+    return Slip("signs", "head_twice", head, shown, other=text.number, fixed=new)
 
 
 def _lines_of_block(text: Broken, head: int) -> list[list[int]]:

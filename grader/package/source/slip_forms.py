@@ -285,7 +285,10 @@ def _changed_inside(text: Broken) -> Slip | None:
     if text.changed(splice) is None:
         return None
     step = f"{match['name']} {match['sign']}= {match['by']}"
-    return replace(text.slip("signs", "change_inside", _shown(text), splice), step=step)
+    found = text.slip("signs", "change_inside", _shown(text), splice)
+    before = text.code.text[: text.code.start_of(text.number) + match.start("all")]
+    in_lambda = re.search(r"\blambda\b[^\n]*\Z", before) is not None
+    return replace(found, step=step, variant="lambda_changes" if in_lambda else found.variant)
 
 
 def _assigns(text: Broken) -> Slip | None:

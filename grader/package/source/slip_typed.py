@@ -39,6 +39,7 @@ RULES = (
            r"\g<name>(\g<given>)"),
     _typed("import_comma", r"^(?P<all>[ \t]*(?:from[ \t].*|import[ \t].*?))[ \t]*,[ \t]*$", r"\g<all>"),
     _typed("colon_missing", rf"^(?P<all>[ \t]*(?:{BLOCK})\b.*?)[ \t]*[;,.][ \t]*$", r"\g<all>:"),
+    _typed("editor_behind", r"[ \t]*:(?:wqa?|w|qa?|x)!?[ \t]*$", ""),
     _typed("backslash_end", r"\\[ \t]+$", "\\"),
 )  # fmt: skip
 
