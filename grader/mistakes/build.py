@@ -223,6 +223,10 @@ KINDS = (
             "not_called": msg(
                 "{name} is a function and must be called. Write: {wanted}, then build again."
             ),
+            "comma_behind": msg(
+                "The comma at the end of this line makes {name} a tuple, and not a text. Write: "
+                "{wanted}, then build again."
+            ),
             "list_in_list": msg(
                 "find_packages() returns a list already. Write: {wanted}, without the square "
                 "brackets around it, then build again."
@@ -519,6 +523,15 @@ KINDS = (
             example(
                 "find_packages_not_called",
                 Replace(SETUP, "find_packages(exclude=['test'])", "find_packages"),
+                fails="build.colcon",
+            ),
+            example(
+                "package_name_with_a_comma",
+                Replace(
+                    SETUP,
+                    "package_name = 'my_robot_controller'\n",
+                    "package_name = 'my_robot_controller',\n",
+                ),
                 fails="build.colcon",
             ),
             example(

@@ -826,10 +826,39 @@ KINDS = (
             "project": msg(
                 "The entry is in pyproject.toml, which colcon build --symlink-install does not "
                 "read: it runs setup.py in a folder without that file."
-            )
+            ),
+            "below": msg(
+                "setup() does its work when it is called, in line {line}. What a line below it "
+                "changes comes too late."
+            ),
         },
         fix=msg("Write the entry into setup.py's entry_points, under console_scripts: '{wanted}',"),
+        fixes={
+            "below": msg(
+                "Move this statement up, above setup( in line {line} and below the lines that give "
+                "a value to what it uses. Then build again."
+            )
+        },
         fixed_by=(entries.replaced,),
         link=links.DEVELOPING,
+        examples=(
+            example(
+                "entry_appended_after_setup",
+                Replace(SETUP, "\nsetup(\n", "\nentries = []\n\nsetup(\n"),
+                Replace(
+                    SETUP,
+                    "[\n            'test_node = my_robot_controller.my_first_node:main',\n        ]",
+                    "entries",
+                ),
+                Replace(
+                    SETUP,
+                    "    },\n)\n",
+                    "    },\n)\n"
+                    "entries.append('test_node = my_robot_controller.my_first_node:main')\n",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
+        ),
     ),
 )

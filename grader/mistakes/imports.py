@@ -400,7 +400,13 @@ KINDS = (
         ),
         links.PACKAGE,
         close=CLOSE,
-        fixes={"elsewhere": msg("Move {there} to {path}: Python looks for it there.")},
+        fixes={
+            "elsewhere": msg("Move {there} to {path}: Python looks for it there."),
+            "init": msg(
+                "Delete this line. {file} runs before every other file of its folder, and it can be "
+                "empty. Or put {path} into the package, if you need it."
+            ),
+        },
         fixed_by=(lines.written,),
         examples=(
             example(
@@ -420,6 +426,11 @@ KINDS = (
                     "from rclpy.node import Node\n",
                     "from rclpy.node import Node\n\nfrom my_robot_controller.util import text_of\n",
                 ),
+                fails="run.starts",
+            ),
+            example(
+                "init_imports_a_missing_file",
+                Write(f"{INNER}/__init__.py", "from . import my_second_node\n"),
                 fails="run.starts",
             ),
             example(

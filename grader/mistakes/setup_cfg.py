@@ -92,6 +92,10 @@ KINDS = (
                 "Delete this line, or write above it the [section] to which it belongs. Then build "
                 "again."
             ),
+            "comment": msg(
+                "A comment in setup.cfg begins with #. Write # instead of {other} at the start of "
+                "this line, or delete the line. Then build again."
+            ),
             "mark": msg(
                 "Save the file again with the encoding UTF-8, without a BOM (byte order mark)."
             ),
@@ -113,6 +117,18 @@ KINDS = (
             example(
                 "setup_cfg_section_twice",
                 Replace(CFG, "[install]", "[develop]"),
+                fails="package.setup_cfg",
+                blocks=UNBUILT,
+            ),
+            example(
+                "setup_cfg_comment_of_matlab",
+                Replace(CFG, "[develop]\n", "% where ros2 run looks\n[develop]\n"),
+                fails="package.setup_cfg",
+                blocks=UNBUILT,
+            ),
+            example(
+                "setup_cfg_comment_of_c",
+                Replace(CFG, "[install]\n", "// the second part\n[install]\n"),
                 fails="package.setup_cfg",
                 blocks=UNBUILT,
             ),

@@ -302,13 +302,34 @@ def _file_as_name(
     )
 
 
+def _is_bound(name: str, package: str, evidence: Evidence) -> bool:
+    """Whether an import finds a name in a folder of the package, or whether this is not certain."""
+    folder = package.replace(".", "/")
+    if evidence.submission.file(f"{folder}.py") is not None:
+        return True  # (it is no folder)
+    if any(file.path.startswith(f"{folder}/{name}/") for file in evidence.submission.files):
+        return True
+    module = read_module(partial(data_of, evidence), f"{folder}/__init__.py")
+    if module is None:
+        return False
+    given = [i for i in own_imports(module) if i.bound == name and module.path not in i.paths]
+    files = [path for i in given for path in i.paths]
+    return name in _defined_in(module) or any(map(evidence.submission.file, files))
+
+
 def _not_handed_in(error: str, where: Where, evidence: Evidence) -> RecognisedMistake | None:
     """Return that the code imports a module of its own package that the package does not have."""
     package = evidence.assignment.folder
     match = re.search(rf"No module named '({re.escape(package)}(?:\.\w{{1,120}}){{1,9}})'", error)
-    if match is None:
+    part = re.search(
+        r"cannot import name '(\w{1,120})' from (?:partially initialized module )?"
+        rf"'({re.escape(package)}(?:\.\w{{1,120}}){{0,9}})'",
+        error,
+    )
+    if match is None and (part is None or _is_bound(part[1], part[2], evidence)):
         return None
-    path = match[1].replace(".", "/")
+    named = match[1] if match is not None else f"{part[2]}.{part[1]}" if part is not None else ""
+    path = named.replace(".", "/")
     submission = evidence.submission
     if any(submission.file(found) for found in (path, f"{path}.py")):
         return None
@@ -319,11 +340,12 @@ def _not_handed_in(error: str, where: Where, evidence: Evidence) -> RecognisedMi
     close = nearest(name, modules, cutoff=0.75)
     elsewhere = [f.path for f in submission.files if f.path.rpartition("/")[2] == f"{name}.py"]
     there = shown(elsewhere[0]) if elsewhere else ""
+    init = "init" if where.file.endswith("/__init__.py") else ""
     return RecognisedMistake(
         kind="node.own_module_missing",
         params={"name": name, "close": close, "written": close} if close else {"name": name},
-        words={"path": f"{path}.py", "there": there, "close": shown(close)},
-        variant="close" if close else "elsewhere" if there else "",
+        words={"path": f"{path}.py", "there": there, "close": shown(close), "file": where.file},
+        variant="close" if close else "elsewhere" if there else init,
         where=where,
     )
 

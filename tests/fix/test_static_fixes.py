@@ -24,6 +24,7 @@ NOT_FIXED = {
     *("not_utf8", "null_bytes", "word_document"),
     *("node_hidden_by_folder", "group_twice_with_entries", "rich_text"),
     "build_type_twice",
+    "entry_appended_after_setup",
     "main_of_the_class",
     *("entity_of_html", "email_twice_in_a_tag", "license_in_a_comment"),
     *("maintainer_in_a_comment_with_words", "entry_points_without_console_scripts"),

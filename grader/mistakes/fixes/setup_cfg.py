@@ -8,7 +8,7 @@ from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import SourceText, Splice, indent_of, read_text
-from grader.package.source.setup_cfg import KEYS, SetupCfg, SetupCfgFault, read_setup_cfg
+from grader.package.source.setup_cfg import COMMENT, KEYS, SetupCfg, SetupCfgFault, read_setup_cfg
 
 FILE = "setup.cfg"
 
@@ -98,6 +98,9 @@ def syntax(case: Case) -> Files | None:
     if "[" not in text.text:
         return _headings(case, text)
     line = text.line(case.finding.line or 0)
+    comment = COMMENT.fullmatch(line)
+    if comment is not None:
+        return _comment(case, text, comment)
     if _key(line) in KEYS.values() and line[:1].strip():
         return _heading_above(case, text, line)
     if line.strip() in ("[develop]", "[install]"):
@@ -107,6 +110,13 @@ def syntax(case: Case) -> Files | None:
         return None
     start = text.start_of(case.finding.line or 0)
     new = text.spliced([Splice(start, start + len(line), f"[{match[2]}]")])
+    return case.with_data(FILE, new) if new and _is_read(new) else None
+
+
+def _comment(case: Case, text: SourceText, found: re.Match[str]) -> Files | None:
+    """Begin a comment with #."""
+    start = text.start_of(case.finding.line or 0)
+    new = text.spliced([Splice(start, start + found.end("sign"), "#")])
     return case.with_data(FILE, new) if new and _is_read(new) else None
 
 

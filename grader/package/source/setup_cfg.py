@@ -95,10 +95,27 @@ def read_setup_cfg(found: bytes) -> SetupCfg:
         ) from None
     except configparser.ParsingError as error:
         line = error.errors[0][0] if error.errors else None
-        raise SetupCfgFault(say("a line that is neither a [section] nor key=value"), line) from None
+        sign = _comment_sign(text, line)
+        raise SetupCfgFault(
+            say("a line that is neither a [section] nor key=value"),
+            line,
+            "comment" if sign else "",
+            sign,
+        ) from None
     except (configparser.Error, ValueError) as error:
         raise SetupCfgFault(str(error).splitlines()[0]) from None
     return _with_lines(parser, text)
+
+
+COMMENT = re.compile(r"[ \t]*(?P<sign>%+|//+|--+|/\*+|<!--+|\"\"\"|''')[^=\[\n]*")
+"""A comment as other languages write it."""
+
+
+def _comment_sign(text: str, line: int | None) -> str:
+    """Return with what a line begins if it is a comment of another language; "" if it is none."""
+    rows = text.splitlines()
+    match = COMMENT.fullmatch(rows[line - 1]) if line and line <= len(rows) else None
+    return match["sign"] if match is not None else ""
 
 
 def _without_section(text: str, line: int) -> SetupCfgFault:
@@ -106,6 +123,9 @@ def _without_section(text: str, line: int) -> SetupCfgFault:
     if text[:1] == "\ufeff":
         return SetupCfgFault(say("a byte order mark before the first [section]"), line, "mark")
     reason, rows = say("a line before the first [section]"), text.splitlines()
+    sign = _comment_sign(text, line)
+    if sign:
+        return SetupCfgFault(reason, line, "comment", sign)
     if "[" not in text and all(key in text for key in KEYS.values()):
         return SetupCfgFault(reason, line, "headings")
     row = rows[line - 1] if line <= len(rows) else ""

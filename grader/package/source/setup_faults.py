@@ -491,9 +491,29 @@ def _not_copied(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
     return None
 
 
+def _comma_behind(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """A text above setup() with a comma behind it, which makes it a tuple."""
+    del match
+    text, found = reader.module.text, []
+    for node in reader.module.tree.body:
+        value = node.value if isinstance(node, ast.Assign) else None
+        if not isinstance(value, ast.Tuple) or len(value.elts) != 1:
+            continue
+        target = dotted(node.targets[0]) if isinstance(node, ast.Assign) else ""
+        code = text.code(value)
+        if target and not code.startswith("(") and code.endswith(","):
+            found.append((value, target, text.code(value.elts[0])))
+    if len(found) != 1:
+        return None
+    value, target, code = found[0]
+    splice = text.swap(value, code)
+    return reader.fault("comma_behind", value, splice, name=target, wanted=f"{target} = {code}")
+
+
 LOOKS: tuple[tuple[str, Callable[[_Reader, re.Match[str]], SetupFault | None]], ...] = (
     (r"TypeError: '(?:method|function)' object is not iterable", _not_called),
     (r"TypeError: expected string or bytes-like object", _list_in_list),
+    (r"TypeError: .{0,80}\btuple\b", _comma_behind),
     (r"FileNotFoundError: .{0,60}No such file or directory: '(?P<path>[^'\n]{1,200})'", _no_file),
     (r"NameError: name '(?P<name>\w{1,80})' is not defined", _name),
     (r"ImportError: cannot import name '(?P<name>\w{1,80})' from 'setuptools'", _not_in_setuptools),
@@ -513,6 +533,7 @@ LOOKS: tuple[tuple[str, Callable[[_Reader, re.Match[str]], SetupFault | None]], 
     (r"AttributeError: '\w{0,20}Path' object has no attribute", _path_object),
     (r"InvalidVersion: ", _refused_version),
     (r"inside of setup\(\)", _wrong_form),
+    (r"inside of setup\(\)", _comma_behind),
 )
 INSIDE = "inside of setup()"
 """Stands for an error that comes from inside of setuptools, and is not known."""

@@ -5,10 +5,13 @@
 
 from __future__ import annotations
 
+import ast
+import re
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
 from grader.base.shown import shown
+from grader.package.source.setup_packages import parsed_setup, setup_call
 from grader.report.model import Where
 from grader.verdict.checks.as_declared import must_be_as_declared
 from grader.verdict.checks.build_log import setup_error
@@ -79,15 +82,28 @@ def _other_name(evidence: Evidence) -> list[str]:
 
 
 def _computed(evidence: Evidence, actual: str) -> Failed:
-    entry = wanted_entry(evidence)
+    entry, below = wanted_entry(evidence), _below_setup(evidence)
     return Failed(
         "entry_point.computed_mapping",
         expected=say("'{entry}' among the console_scripts", entry=entry),
         actual=actual,
-        where=Where(file="setup.py"),
-        variant="project" if _in_project(evidence) else "",
-        words={"wanted": entry},
+        where=Where(file="setup.py", line=below[1] if below else None),
+        variant="project" if _in_project(evidence) else "below" if below else "",
+        words={"wanted": entry, "line": str(below[0]) if below else ""},
     )
+
+
+def _below_setup(evidence: Evidence) -> tuple[int, int] | None:
+    """Return the line of setup(), and a line below it with the entry; None if there is none."""
+    file, name = file_of(evidence, "setup.py"), evidence.assignment.executable
+    module = parsed_setup(file.data) if file is not None else None
+    call = setup_call(module) if module is not None else None
+    if module is None or call is None:
+        return None
+    entry = re.compile(rf"\s*{re.escape(name)}\s*=")
+    texts = [n for n in module.nodes if isinstance(n, ast.Constant) and isinstance(n.value, str)]
+    below = [n for n in texts if n.lineno > (call.end_lineno or 0) and entry.match(str(n.value))]
+    return (call.lineno, below[0].lineno) if below else None
 
 
 def _in_project(evidence: Evidence) -> bool:
