@@ -247,6 +247,9 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return replace(found, variant="function")
     if match["type"] == "Parameter":
         return _of_parameter(raised, match["name"])
+    made = _from_its_making(raised, match)
+    if made is not None:
+        return made
     if match["type"] in ("int", "float") and (plain := _number(raised, match["name"])):
         found = raised.finding("attribute_unknown", name=f"{plain}.{match['name']}", written=plain)
         return replace(found, variant="number")
@@ -255,6 +258,52 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         found = raised.finding("attribute_unknown", name=code, written=own)
         return replace(found, variant="written")
     return _similar(raised, match)
+
+
+def _from_its_making(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The line that makes the object explains why it does not have the attribute."""
+    kind, name = match["type"], match["name"]
+    statement = statement_at(raised.module, raised.line)
+    parts = ast.walk(statement) if statement is not None else ()
+    owners = {dotted(n.value) for n in parts if isinstance(n, ast.Attribute) and n.attr == name}
+    owner = owners.pop() if len(owners) == 1 else ""
+    for node in raised.module.nodes if owner else ():
+        value = node.value if isinstance(node, ast.Assign) else None
+        if not isinstance(node, ast.Assign) or not isinstance(value, ast.Call):
+            continue
+        if [dotted(target) for target in node.targets] != [owner]:
+            continue
+        if kind == "object" and dotted(value.func) == "object" and not value.args:
+            found = raised.finding("attribute_unknown", at=node, name=name)
+            return replace(found, variant="bare_object")
+        method = value.func if isinstance(value.func, ast.Attribute) else None
+        if method is not None and method.attr == "add_node" and kind in ("bool", "NoneType"):
+            text = raised.module.text
+            first = f"{owner} = {text.code(method.value)}"
+            second = f"{owner}.add_node({', '.join(map(text.code, value.args))})"
+            found = raised.finding("attribute_unknown", at=node, name=owner)
+            words = {**found.words, "statement": first, "step": second}
+            return replace(found, variant="of_add_node", words=words)
+    return None
+
+
+def _annotated(raised: Raised, own: ast.ClassDef, name: str) -> RecognisedMistake | None:
+    """The class of the object has the name with a colon where = belongs."""
+    for row in own.body:
+        if (
+            not isinstance(row, ast.AnnAssign)
+            or row.value is not None
+            or dotted(row.target) != name
+        ):
+            continue
+        if not isinstance(row.annotation, ast.Constant):
+            return None
+        module = raised.source.module_of(row)
+        value = module.text.code(row.annotation)
+        params = {"name": module.text.code(row), "written": f"{name} = {value}"}
+        found = raised.finding("attribute_unknown", at=row, params=params)
+        return replace(found, variant="annotated", words={**found.words, "attribute": name})
+    return None
 
 
 def _similar(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
@@ -267,6 +316,8 @@ def _similar(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     found = raised.finding("attribute_unknown", name=name)
     found = replace(found, words={**found.words, "type": kind})
     own = [c for m in raised.source.modules for c in m.classes if c.name == kind]
+    if len(own) == 1 and (annotated := _annotated(raised, own[0], name)) is not None:
+        return annotated
     if len(own) == 1 and own[0] not in raised.source.family:
         words = {**found.words, "line": str(own[0].lineno)}
         return replace(found, variant="own_class", words=words)
@@ -525,6 +576,16 @@ KINDS = (
                 "nothing."
             ),
             "module": msg("The module rclpy has nothing with the name {name}."),
+            "bare_object": msg(
+                "An object that object() makes cannot get attributes, such as {name}."
+            ),
+            "of_add_node": msg(
+                "add_node does not give back the executor, so {name} is no executor here."
+            ),
+            "annotated": msg(
+                "A colon after a name only states a type. A value is assigned with =, so the class "
+                "has no {attribute}."
+            ),
         },
         fixes={
             "written": msg("Write {written} instead of {name}."),
@@ -540,6 +601,14 @@ KINDS = (
             "parameter": msg("Write {written} instead of {name} behind get_parameter(…)."),
             "number": msg("Write {written} instead of {name}."),
             "none": msg("Find the line that should give it its value, and see what that does."),
+            "bare_object": msg(
+                "Write SimpleNamespace() instead of object(), and add the line from types import "
+                "SimpleNamespace at the top of the file."
+            ),
+            "of_add_node": msg(
+                "Write two lines instead of this one. The first: {statement} The second: {step}"
+            ),
+            "annotated": msg("Write {written} instead of {name}."),
             "module": msg(
                 "Compare the name with the documentation of rclpy. Many of a node's functions are "
                 "methods of the node: self.name(…) in the class."
@@ -561,6 +630,36 @@ KINDS = (
                 Replace(NODE, "self.counter_ += 1", "MyFirstNode.counter_ += 1"),
                 fails="run.output",
                 blocks=("run.interrupt",),
+            ),
+            example(
+                "values_in_an_object",
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "self.counter_ = 0\n        self.state = object()\n        self.state.text = 'a'",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "executor_is_what_add_node_returns",
+                Replace(
+                    NODE,
+                    "rclpy.spin(node)",
+                    "executor = rclpy.executors.SingleThreadedExecutor().add_node(node)\n"
+                    "        executor.spin()",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "value_of_a_class_with_a_colon",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class Texts:\n    hello: 'Hello time: '\n\n\nclass MyFirstNode",
+                ),
+                Replace(NODE, "'Hello time: ' + str", "Texts().hello + str"),
+                fails="run.output",
+                blocks=DEAD,
             ),
             example(
                 "node_spins_itself",

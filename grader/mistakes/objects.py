@@ -41,6 +41,10 @@ OF_NODE = (
 """What Node keeps for itself under names that a class can set."""
 OWN_METHOD = r"TypeError: \w{1,120}\.(?P<name>\w{1,120})\(\) (?:takes|missing|got)"
 NOT_A_NODE = r"'(?P<type>\w{1,120})' object has no attribute '(?:executor|handle|context)'"
+NOT_AN_EXECUTOR = (
+    r"AttributeError: '(?:int|float|str|NoneType|bool)' object has no attribute "
+    r"'(?:add_node|remove_node)'"
+)
 OWN_IMPORT = r"cannot import name '(?P<name>\w{1,120})' from partially initialized module '(?P<module>[\w.]{1,200})'"
 OPERATOR = r"unsupported operand type\(s\) for (?P<name>[-&|^/%]|//): '(?:str|int|float)' and '(?:str|int|float)'"
 NOT_A_NUMBER = (
@@ -139,6 +143,22 @@ def _not_spun(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     return None
 
 
+def _spin_with_more(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The call of spin that fails gets a second value that is no executor."""
+    del match
+    for call, name in raised.source.calls:
+        at = raised.source.module_of(call) is raised.module and raised.line in lines_of(call)
+        if not at or name not in ("rclpy.spin", "rclpy.spin_once", "spin", "spin_once"):
+            continue
+        if len(call.args) != 2 or call.keywords:
+            continue
+        text = raised.module.text
+        new = f"{text.code(call.func)}({text.code(call.args[0])})"
+        found = raised.finding("spin_of_other", at=call, name=text.code(call), written=new)
+        return replace(found, variant="second")
+    return None
+
+
 def _name_not_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """The call of super().__init__ that fails gets something that is no text."""
     call = raised.source.super_init
@@ -212,6 +232,16 @@ def _taken_inside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
             continue
         if (called and name in used & {*NODE_METHODS}) or (not called and name in OF_NODE):
             return raised.finding("name_taken", at=part, name=name, written=f"{name}_")
+    return None
+
+
+def _hides_property(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A method has the name of what rclpy reads from the node, and the error comes from rclpy."""
+    del match
+    for name in node_objects.PROPERTIES if raised.inside else ():
+        method = raised.source.methods.get(name)
+        if method is not None and not method.decorator_list:
+            return _own_method(raised, method, name)
     return None
 
 
@@ -372,12 +402,23 @@ KINDS = (
         msg("spin needs the node that was created, not its name."),
         INSTEAD,
         links.EXECUTORS,
-        raised={NOT_A_NODE: _not_spun},
+        whys={
+            "second": msg(
+                "rclpy.spin takes the node. A second value is an executor, and no period and no "
+                "number: the timer has the period."
+            )
+        },
+        raised={NOT_A_NODE: _not_spun, NOT_AN_EXECUTOR: _spin_with_more},
         fixed_by=(lines.written,),
         examples=(
             example(
                 "spin_of_name",
                 Replace(NODE, "rclpy.spin(node)", "rclpy.spin('my_first_node')"),
+                fails="run.starts",
+            ),
+            example(
+                "spin_with_a_period",
+                Replace(NODE, "rclpy.spin(node)", "rclpy.spin(node, 1.0)"),
                 fails="run.starts",
             ),
         ),
@@ -472,6 +513,7 @@ KINDS = (
             OWN_METHOD: _taken,
             "'RcutilsLogger' object is not callable": _taken,
             IN_NODE: _taken_inside,
+            r"(?:Type|Attribute)Error: ": _hides_property,
         },
         fixed_by=(
             node_objects.other_attribute,
@@ -506,6 +548,12 @@ KINDS = (
                 ),
                 fails="run.output",
                 blocks=DEAD,
+            ),
+            example(
+                "callback_is_handle",
+                Replace(NODE, "def timer_callback", "def handle"),
+                Replace(NODE, "self.timer_callback)", "self.handle)"),
+                fails="run.starts",
             ),
             example(
                 "callback_is_create_timer",

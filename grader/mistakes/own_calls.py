@@ -117,11 +117,33 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if found is None or not found.parameters:
         return None
     known = found.parameters
+    untyped = _without_type(raised, found, match["name"])
+    if untyped is not None:
+        return untyped
     near = nearest(match["name"], dict.fromkeys(known))
     if near and all(keyword.arg != near for keyword in found.call.keywords):
         words = {"name": f"{match['name']}=", "written": f"{near}="}
         return _told(raised, found, "near", **words)
     return _told(raised, found, "unknown", name=match["name"], names=", ".join(known))
+
+
+def _without_type(raised: Raised, found: _Called, name: str) -> RecognisedMistake | None:
+    """A dataclass has the name with a value, but without a type: it is no parameter then."""
+    if not isinstance(found.made, ast.ClassDef):
+        return None
+    module = raised.source.module_of(found.made)
+    plain = [s for s in found.made.body if isinstance(s, ast.Assign) and len(s.targets) == 1]
+    values = [(dotted(s.targets[0]), s.value, s.lineno) for s in plain]
+    if name not in [target for target, *_ in values]:
+        return None
+    given = {keyword.arg for keyword in found.call.keywords}
+    wanted = [(n, v, at) for n, v, at in values if n in given and isinstance(v, ast.Constant)]
+    rows = [f"{n}: {type(v.value).__name__} = {module.text.code(v)}" for n, v, _ in wanted
+            if isinstance(v, ast.Constant)]  # fmt: skip
+    if name not in [n for n, *_ in wanted]:
+        return None
+    lines = ", ".join(str(at) for *_, at in wanted)
+    return _told(raised, found, "untyped", name=name, names=" / ".join(rows), lines=lines)
 
 
 def _twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -241,6 +263,10 @@ KINDS = (
             "unknown": msg(
                 "name=value in a call works only for the names in the definition (line {line}): {names}"
             ),
+            "untyped": msg(
+                "A dataclass (line {line}) takes only values for names with a type: name: type = value. "
+                "{name} has no type there."
+            ),
             "twice": msg(
                 "Values without a name go to the parameters in their order (line {line}): {names}. So "
                 "{name} gets two values in this call: one by its place, and one by {name}=."
@@ -259,6 +285,7 @@ KINDS = (
             "unknown": msg(
                 "Write one of these names instead of {name} on this line. Or add {name} to the definition."
             ),
+            "untyped": msg("Write in the class (line {lines}), with the types: {names}"),
             "twice": msg(
                 "Delete one of the two values. If the value without a name is meant for another "
                 "parameter, write the name of that one and = before it."
@@ -276,6 +303,25 @@ KINDS = (
         },
         fixed_by=(lines.written,),
         examples=(
+            example(
+                "dataclass_without_types",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "from dataclasses import dataclass\n\nimport rclpy\nfrom",
+                ),
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "@dataclass\nclass Settings:\n    text: str\n    start = 0\n\n\nclass MyFirstNode",
+                ),
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "self.counter_ = Settings(text='Hello time: ', start=0).start",
+                ),
+                fails="run.starts",
+            ),
             example(
                 "constructor_with_three_parameters",
                 Replace(NODE, "def __init__(self)", "def __init__(self, name, start)"),

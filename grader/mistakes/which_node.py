@@ -34,6 +34,8 @@ GUARD = msg(
     "before that: {name} is called twice."
 )
 
+LIFECYCLE = ("rclpy.lifecycle", "rclpy.lifecycle.node")
+
 
 def _made_in_callback(suspect: Suspect) -> RecognisedMistake | None:
     source, callback = suspect.source, suspect.source.callback
@@ -137,14 +139,59 @@ def _method_not_called(suspect: Suspect) -> RecognisedMistake | None:
         return None
     if source.methods.get(function.name) is not function:
         return None
+    if function.decorator_list:
+        return _property_not_read(suspect, function, timers[0].call)
+    if function.name.startswith("on_") and _lifecycle_import(suspect) is not None:
+        return None
     return _call_missing(suspect, function)
+
+
+def _property_not_read(
+    suspect: Suspect, function: Function, call: ast.Call
+) -> RecognisedMistake | None:
+    """The method that creates the timer is a property, and nothing reads it."""
+    init, last = suspect.source.methods.get("__init__"), function.body[-1]
+    is_property = [dotted(d) for d in function.decorator_list] == ["property"]
+    alone = isinstance(last, ast.Return) and last.value is call and len(function.body) == 1
+    if not (is_property and alone) or init is None:
+        return None
+    line = str(init.body[-1].end_lineno)
+    written = f"self.{function.name} = {suspect.source.module_of(call).text.code(call)}"
+    found = suspect.finding(
+        "method_not_called", function, name=function.name, line=line, written=written
+    )
+    return replace(found, variant="property")
+
+
+def _lifecycle_import(suspect: Suspect) -> ast.ImportFrom | None:
+    """Return the import of the base class of lifecycle nodes, if the node's class is one."""
+    for node in suspect.source.all_nodes:
+        if isinstance(node, ast.ImportFrom) and node.module in LIFECYCLE:
+            names = {a.asname or a.name for a in node.names if a.name in ("Node", "LifecycleNode")}
+            if names & {dotted(b) for c in suspect.source.family for b in c.bases}:
+                return node
+    return None
+
+
+def _not_configured(suspect: Suspect) -> RecognisedMistake | None:
+    """A lifecycle node creates its timer when it is configured, which nobody does."""
+    timers, imported = suspect.source.timers, _lifecycle_import(suspect)
+    function = timers[0].function if timers else None
+    if imported is None or function is None or not function.name.startswith("on_"):
+        return None
+    name = next(a for a in imported.names if a.name in ("Node", "LifecycleNode"))
+    bound = "" if (name.asname or name.name) == "Node" else f" as {name.asname or name.name}"
+    others = [a for a in imported.names if a is not name]
+    code = f"from {imported.module} import {', '.join(map(ast.unparse, others))}"
+    new = " and ".join([f"from rclpy.node import Node{bound}", *([code] if others else [])])
+    return suspect.finding("lifecycle_node", imported, name=function.name, written=new)
 
 
 def _call_missing(suspect: Suspect, function: Function) -> RecognisedMistake:
     """The call belongs at the end of __init__, or below the line that creates the node."""
     source, name = suspect.source, function.name
-    more = len(function.args.args) - len(function.args.defaults) > 1
-    call = f"{name}({'…' if more else ''})"
+    given = function.args.args[1 : len(function.args.args) - len(function.args.defaults)]
+    call = f"{name}({', '.join(a.arg for a in given)})"
     init = source.methods.get("__init__")
     if init is None:
         found = suspect.finding("method_not_called", function, name=name, call=call)
@@ -152,7 +199,8 @@ def _call_missing(suspect: Suspect, function: Function) -> RecognisedMistake:
     last = init.body[-1]
     line = last.end_lineno or last.lineno
     place = Where(file=source.module_of(last).path, line=line)
-    return suspect.finding("method_not_called", place, name=name, call=call, line=line)
+    found = suspect.finding("method_not_called", place, name=name, call=call, line=line)
+    return replace(found, variant="arguments") if given else found
 
 
 def _other_node_spun(suspect: Suspect) -> RecognisedMistake | None:
@@ -504,16 +552,72 @@ KINDS = (
         msg("Nothing calls the method that creates the timer"),
         msg("Nothing calls {name}: when the node is made, only its __init__ runs."),
         msg("Write self.{call} below line {line}, at the end of __init__."),
-        fixes={"no_init": msg("Call {call} on the node after it is created, before spin.")},
+        whys={
+            "property": msg(
+                "{name} is a property: its lines run when the code reads self.{name}, and no line "
+                "reads it."
+            )
+        },
+        fixes={
+            "no_init": msg("Call {call} on the node after it is created, before spin."),
+            "arguments": msg(
+                "Write self.{call} below line {line}, at the end of __init__, and in the brackets a "
+                "value instead of each name."
+            ),
+            "property": msg(
+                "Write {written} below line {line}, at the end of __init__. Delete the method {name} "
+                "and the line @property above it."
+            ),
+        },
         behind={"run.no_lines": _method_not_called},
         fixed_by=(node_setup.called,),
         examples=(
+            example(
+                "timer_in_a_property",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)\n",
+                    "\n    @property\n    def timer(self):\n"
+                    "        return self.create_timer(1.0, self.timer_callback)\n",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
             example(
                 "setup_not_called",
                 Replace(
                     NODE,
                     "        self.create_timer(1.0, self.timer_callback)\n",
                     "\n    def setup(self):\n        self.create_timer(1.0, self.timer_callback)\n",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "lifecycle_node",
+        "timer",
+        msg("The node waits to be configured"),
+        msg(
+            "The base class is the lifecycle node of ROS. ROS calls {name} only when somebody asks "
+            "for it, for example with ros2 lifecycle set. Nobody does, so the timer is never created."
+        ),
+        msg(
+            "Write instead of this import: {written} Then move the line of {name} that creates the "
+            "timer to the end of __init__, and delete {name}."
+        ),
+        behind={"run.no_lines": _not_configured},
+        examples=(
+            example(
+                "lifecycle_node",
+                Replace(NODE, "from rclpy.node import Node", "from rclpy.lifecycle import Node"),
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)\n",
+                    "\n    def on_configure(self, state):\n"
+                    "        self.timer = self.create_timer(1.0, self.timer_callback)\n"
+                    "        return super().on_configure(state)\n",
                 ),
                 fails="run.output",
                 blocks=SILENT,

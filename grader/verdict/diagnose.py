@@ -134,8 +134,8 @@ def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedM
     source = source_of_node(evidence)
     if source is None:
         return None
-    if symptom == "run.wrong_node_name" and source.super_init is not None:
-        diagnosis.where = place_of(source, source.super_init)
+    if symptom == "run.wrong_node_name" and source.name_given is not None:
+        diagnosis.where = place_of(source, source.name_given)
     other = other_version(symptom, source, evidence)
     if other is not None:
         return other

@@ -24,6 +24,11 @@ METHODS = (
     *("get_parameter", "destroy_timer", "create_rate", "get_namespace", "add_waitable"),
 )
 """Methods of Node that a node needs itself, or that a beginner calls."""
+PROPERTIES = (
+    *("handle", "context", "executor", "timers", "clients", "publishers", "services"),
+    *("subscriptions", "guards", "waitables", "default_callback_group"),
+)
+"""What rclpy reads from a node: properties of Node."""
 NO_ARGUMENTS = ("get_logger", "get_clock", "get_name", "destroy_node", "get_namespace")
 """Those of them that are called with empty brackets, like a method of the student."""
 

@@ -249,6 +249,18 @@ class NodeSource:
                 return call
         return None
 
+    @cached_property
+    def name_given(self) -> ast.Call | None:
+        """The call that gives the node its name: that of a base class, if this gives it itself."""
+        call, node = self.super_init, self.node_class
+        bases = {last_part(dotted(base)) for base in (node.bases if node is not None else ())}
+        own = [c for c in self.family if c.name in bases and c is not node]
+        if call is None or call.args or call.keywords or len(own) != 1:
+            return call
+        inits = [s for s in own[0].body if isinstance(s, Function) and s.name == "__init__"]
+        calls = [c for init in inits for c, name in calls_in(init) if name == "super().__init__"]
+        return calls[0] if len(calls) == 1 and calls[0].args else call
+
     @property
     def uses_ros(self) -> bool:
         """Whether one of the files imports rclpy."""
