@@ -8,7 +8,7 @@ from itertools import pairwise
 import pytest
 
 from grader.package.intake.model import SourceFile
-from grader.package.source.ends_after import ends_after
+from grader.package.source.ends_after import counts_to, ends_after
 from grader.package.source.real_time import reads_real_time
 from grader.report.blocks import quotation
 from grader.report.page import Page
@@ -97,9 +97,28 @@ def test_only_lines_that_are_closer_than_a_real_clock_makes_them_are_explained(
         ("END = 1\nEND = 9\nrclpy.spin_until_future_complete(node, done, timeout_sec=END)", 0.0),
         ("rclpy.spin_until_future_complete(node, done)", 0.0),
         ("while time.time() - start < 15:\n    rclpy.spin_once(node)", 15.0),
+        ("end = time.time() + 7\nwhile time.time() < end:\n    rclpy.spin_once(node)", 7.0),
+        ("end = now() + delta(seconds=7)\nwhile now() < end:\n    rclpy.spin_once(node)", 7.0),
+        ("threading.Timer(6.0, rclpy.shutdown).start()\nrclpy.spin(node)", 6.0),
+        ("signal.alarm(5)\nrclpy.spin(node)", 5.0),
         ("while self.count < 15:\n    rclpy.spin_once(node)", 0.0),
         ("rclpy.spin(node)", 0.0),
     ],
 )
 def test_the_time_after_which_a_node_ends_is_read(text: str, seconds: float) -> None:
     assert ends_after([SourceFile(NODE, "file", data=text.encode())]) == seconds
+
+
+@pytest.mark.parametrize(
+    ("text", "number"),
+    [
+        ("self.n += 1\nif self.n == 30:\n    rclpy.shutdown()", 30),
+        ("n = n + 1\nwhile n < 2 * 20:\n    rclpy.spin_once(node)", 40),
+        ("LAST = 25\nself.n += 1\nif node.n >= LAST:\n    quit()", 25),
+        ("self.n = (self.n + 1) % 60", 60),
+        ("self.n += 1\nif self.n == 3600:\n    rclpy.shutdown()", 0),
+        ("self.n += 1\nif self.other == 30:\n    rclpy.shutdown()", 0),
+    ],
+)
+def test_the_number_at_which_a_count_ends_is_read(text: str, number: int) -> None:
+    assert counts_to([SourceFile(NODE, "file", data=text.encode())]) == number

@@ -55,6 +55,14 @@ def test_a_node_that_says_when_it_ends_is_watched_until_then() -> None:
         assert longer == [unforeseen(one, could_end=could_end) for one in HASHES]
 
 
+def test_a_node_that_says_how_far_it_counts_is_watched_until_then() -> None:
+    for could_end in (False, True):
+        observed = [unforeseen(one, could_end=could_end, counts_to=30) for one in HASHES]
+        assert {one.more_ticks for one in observed} == {30}
+        fewer = [unforeseen(one, could_end=could_end, counts_to=1) for one in HASHES]
+        assert fewer == [unforeseen(one, could_end=could_end) for one in HASHES]
+
+
 def test_the_secret_is_readable_by_its_owner_only(own_installation: Path) -> None:
     key = installation_key()
     file = own_installation / KEY_FILE

@@ -14,7 +14,7 @@ from grader.base.unheard import unheard
 from grader.course.assignment import Assignment
 from grader.course.scenario import RunPlan
 from grader.package.source.command_line import reads_command_line
-from grader.package.source.ends_after import ends_after
+from grader.package.source.ends_after import counts_to, ends_after
 from grader.package.source.real_time import reads_real_time
 from grader.package.source.remarks import Remark, remarks_on
 from grader.package.submission import Submission
@@ -94,7 +94,10 @@ class Session:
         self._reads_command_line = reads_command_line(submission.files)
         could_end = any(remark.kind in ("ends", "hides") for remark in self._remarks)
         self._unforeseen = unforeseen(
-            submission.sha256, could_end=could_end, ends_after=ends_after(submission.files)
+            submission.sha256,
+            could_end=could_end,
+            ends_after=ends_after(submission.files),
+            counts_to=0 if self._reads_real_time else counts_to(submission.files),
         )
         try:
             made = build(self.sandbox, submission, package=self.assignment.package)

@@ -35,9 +35,12 @@ class Unforeseen:
     draw: float
 
 
-def unforeseen(sha256: str, *, could_end: bool, ends_after: float = 0) -> Unforeseen:
+def unforeseen(
+    sha256: str, *, could_end: bool, ends_after: float = 0, counts_to: int = 0
+) -> Unforeseen:
     """Return how the submission with this hash is observed on this installation.
 
+    `counts_to` is the number at which its source says that a count ends, 0 if it says none.
     `ends_after` is the time in seconds after which its source says that it ends, 0 if it says none.
     Longer times than MOST_STAY_SECONDS are not waited for.
     """
@@ -48,7 +51,7 @@ def unforeseen(sha256: str, *, could_end: bool, ends_after: float = 0) -> Unfore
     if 0 < ends_after < MOST_STAY_SECONDS:
         seconds = max(seconds, ends_after + 1)
     return Unforeseen(
-        more_ticks=1 + ticks % (MORE_IF_IT_COULD_END if could_end else MORE_TICKS),
+        more_ticks=max(counts_to, 1 + ticks % (MORE_IF_IT_COULD_END if could_end else MORE_TICKS)),
         stay_seconds=seconds,
         draw=draw / 2**64,
     )
