@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import joined, say
 from grader.base.shown import shown
 from grader.package.source.newer_python import with_older_quotes
+from grader.package.source.place import place_of
 from grader.package.source.python import PythonFault, parse_python
 from grader.verdict.checks.actual_node import actual_path
 from grader.verdict.checks.declare import RUN, check
@@ -108,12 +109,13 @@ def _ended(evidence: Evidence) -> Outcome:
     if run.watch.counted and not run.nodes:
         return _no_node(evidence, say("lines came, but no node was ever on the graph"))
     source = source_of_node(evidence)
+    spins = source.calls_of("spin") if source is not None else []
     return Failed(
         "run.exits_at_once",
         expected=say("the node runs until Ctrl+C"),
         actual=say("it ended by itself at once, with status {status}", status=str(run.status)),
-        where=node_file(evidence),
-        variant="spins" if source is not None and source.calls_of("spin") else "",
+        where=place_of(source, spins[0]) if source and spins else node_file(evidence),
+        variant="spins" if spins else "",
         words=words(evidence),
     )
 
