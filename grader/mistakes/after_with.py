@@ -11,6 +11,7 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import BODY_OF_MAIN, NODE, example
 from grader.mistakes.fixes.case import Case
+from grader.mistakes.fixes.node_executor import executors_of
 from grader.mistakes.fixes.node_order import SPINS
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
@@ -115,7 +116,7 @@ def _executor_ended(suspect: Suspect) -> RecognisedMistake | None:
                 continue
             spins = source.calls_of("spin", within=source.function_around(block) or module.tree)
             inside = list(ast.walk(block))
-            for name in _executors_of(block):
+            for name in _executors_of(block, executors_of(source)):
                 own = [call for call in spins if dotted(call.func) == f"{name}.spin"]
                 below = [call for call in own if call.lineno > (block.end_lineno or 0)]
                 if below and not any(call in inside for call in own):
@@ -141,13 +142,15 @@ def _below_executor(
     return replace(found, words=words, variant="" if next_one else "moved")
 
 
-def _executors_of(block: ast.With) -> list[str]:
-    """Return the names of executors that a `with` makes, or ends."""
+def _executors_of(block: ast.With, known: set[str]) -> list[str]:
+    """Return the names of executors that a `with` makes, or that it only ends."""
     names = []
     for item in block.items:
         made, name = item.context_expr, dotted(item.optional_vars) if item.optional_vars else ""
         if isinstance(made, ast.Call) and last_part(dotted(made.func)).endswith("Executor"):
             names.append(name)
+        elif dotted(made) in known:
+            names.append(dotted(made))
     return [name for name in names if name]
 
 

@@ -90,13 +90,17 @@ KINDS = (
         msg("Call rclpy.spin(node) in {function} after creating the node (not spin_once)."),
         links.EXECUTORS,
         fixes={
+            "elsewhere": msg(
+                "rclpy.spin is there. Follow {function} from its first line: what ends it before "
+                "that, or why is that line not reached?"
+            ),
             "spins": msg(
                 "The line shown spins the node. Print a text on a line directly above it and on one "
                 "directly below it, and run the node again. If neither comes, the program does not "
                 "come to this line: follow {function} from its first line. If both come, spin ended "
                 "at once: ROS, the executor or what it waits for was at its end before. If only the "
                 "first comes, what runs inside of spin ended the program."
-            )
+            ),
         },
         fixed_by=(node_life.spin,),
     ),
@@ -670,8 +674,8 @@ KINDS = (
                     NODE,
                     SPIN_UNTIL_CTRL_C,
                     (
-                        "    import signal\n"
-                        "    signal.signal(signal.SIGINT, signal.SIG_IGN)\n"
+                        "    from signal import SIGINT, SIG_IGN, signal as at\n"
+                        "    at(SIGINT, SIG_IGN)\n"
                         "    rclpy.spin(node)\n"
                     ),
                 ),

@@ -99,7 +99,9 @@ def _both_count(suspect: Suspect) -> RecognisedMistake | None:
     source, main = suspect.source, suspect.function
     if main is None:
         return None
-    classes = _classes(source)
+    text = suspect.output.text.partition("{")[0].strip()
+    found = _classes(source).items()
+    classes = {name: c for name, c in found if not text or text in ast.unparse(c)}
     looped = _made_in_loop(suspect, main, classes)
     if looped is not None:
         return looped
@@ -225,7 +227,7 @@ KINDS = (
     _node(
         "two_nodes_count",
         "timer",
-        msg("Two nodes log lines, and both are spun"),
+        msg("Two nodes log the lines of the count, and both are spun"),
         msg(
             "This line creates a second node beside the one of line {line}. Each has a timer of its "
             "own, and each logs its own lines."

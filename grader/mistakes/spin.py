@@ -134,7 +134,8 @@ def _spun_twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
 def _spinning_function(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a line that only names the function in which the node is spun."""
     source = suspect.source
-    around = {source.function_around(call) for call in source.calls_of("spin")} - {suspect.function}
+    spins = [call for call, name in source.calls if last_part(name) == "spin"]
+    around = {source.function_around(call) for call in spins} - {suspect.function}
     functions = {f.name: f for f in around if f is not None}
     for node in source.all_nodes:
         named = node.value if isinstance(node, ast.Expr) else None
@@ -238,7 +239,8 @@ def _spins_and_sleeps(
     suspect: Suspect, loop: ast.While | ast.For, found: RecognisedMistake
 ) -> RecognisedMistake | None:
     """Look for a loop that only spins once and sleeps, beside a timer that does the work."""
-    calls = [s.value for s in loop.body if isinstance(s, ast.Expr)]
+    values = [s.value for s in loop.body if isinstance(s, ast.Expr)]
+    calls = [value.value if isinstance(value, ast.Await) else value for value in values]
     names = [dotted(call.func) for call in calls if isinstance(call, ast.Call)]
     only = {last_part(name) for name in names} == {"spin_once", "sleep"}
     once = next((name for name in names if last_part(name) == "spin_once"), "")

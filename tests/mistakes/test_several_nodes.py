@@ -60,6 +60,18 @@ def test_a_second_node_that_is_not_spun_makes_no_lines() -> None:
     assert found is None or found.kind != "node.two_nodes_count"
 
 
+def test_a_second_node_that_logs_another_text_makes_no_lines_of_the_count() -> None:
+    timer = "        self.create_timer(5.0, self.tick)\n\n    def tick(self):\n"
+    helper = OTHER.rstrip() + f"\n{timer}        self.get_logger().info('battery')\n\n\n"
+    spin = "        executor.add_node(node)\n        executor.add_node(twin)\n        executor.spin()\n"
+    text = changed(
+        ("def main(", f"{helper}def main("), (MADE, f"{MADE}    twin = Other()\n"), (SPIN, spin)
+    )
+    for symptom in ("run.twice", "run.wrong_step"):
+        found = look(symptom, text)
+        assert found is None or found.kind != "node.two_nodes_count"
+
+
 @pytest.mark.parametrize("condition", ["args is None", "not args", "__name__ != '__main__'"])
 def test_a_condition_that_ends_main_for_ros2_run(condition: str, tmp_path: Path) -> None:
     ends = f"    if {condition}:\n        print('nothing to do')\n        return\n"
@@ -85,6 +97,23 @@ def test_an_executor_below_its_with() -> None:
     found = look("run.exits_at_once", text)
     line = line_of(text, "executor.add_node(node)")
     assert fix_of(found).startswith(f"Indent this line as far as line {line}:")
+
+
+def test_an_executor_below_the_with_that_ends_it() -> None:
+    block = (
+        "        executor = SingleThreadedExecutor()\n        with executor:\n"
+        "            executor.add_node(node)\n        executor.spin()\n"
+    )
+    found = look("run.exits_at_once", changed((SPIN, block)))
+    assert fix_of(found).startswith("Indent this line as far as line")
+
+
+def test_a_method_of_a_helper_class_that_spins_and_is_only_named() -> None:
+    app = "class App:\n\n    def start(self):\n        rclpy.spin(MyFirstNode())\n\n\ndef main("
+    text = changed(
+        ("def main(", app), (SPIN, "        pass\n"), (MADE, "    app = App()\n    app.start\n")
+    )
+    assert fix_of(look("run.exits_at_once", text)) == "Write app.start()."
 
 
 def test_an_executor_in_its_with_is_not_the_cause() -> None:
