@@ -497,7 +497,7 @@ KINDS = (
             "loop": msg(
                 "spin_once handles one callback and returns. The loop around it must go on until "
                 "Ctrl+C, and this loop ended earlier. A message of a simulated clock is a callback "
-                "too: in the grader's run, fewer lines come than in your terminal."
+                "too: in the grader's run, fewer lines can come than in your terminal."
             ),
             "condition": msg(
                 "spin_once handles one callback and returns. The loop around it must go on until "
