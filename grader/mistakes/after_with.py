@@ -11,9 +11,10 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import BODY_OF_MAIN, NODE, example
 from grader.mistakes.fixes.case import Case
+from grader.mistakes.fixes.node_executor import executors_of
 from grader.mistakes.fixes.node_order import SPINS
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
 from grader.package.edit.tree import Replace
@@ -106,6 +107,53 @@ def _not_running(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
     return raised.finding("ros_not_running") if raised.inside == "rclpy" and spins else None
 
 
+def _executor_ended(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for an executor that a `with` makes, and that is spun only below its block."""
+    source = suspect.source
+    for module in source.modules:
+        for block in module.nodes:
+            if not isinstance(block, ast.With):
+                continue
+            spins = source.calls_of("spin", within=source.function_around(block) or module.tree)
+            inside = list(ast.walk(block))
+            for name in _executors_of(block, executors_of(source)):
+                own = [call for call in spins if dotted(call.func) == f"{name}.spin"]
+                below = [call for call in own if call.lineno > (block.end_lineno or 0)]
+                if below and not any(call in inside for call in own):
+                    return _below_executor(suspect, block, below[0], name)
+    return None
+
+
+def _below_executor(
+    suspect: Suspect, block: ast.With, spin: ast.Call, name: str
+) -> RecognisedMistake:
+    """The next line can be indented; a line that is elsewhere has to be moved."""
+    module = suspect.source.module_of(spin)
+    around = block_of(module, block)
+    after = around[around.index(block) + 1 :] if block in around else []
+    next_one = bool(after) and isinstance(after[0], ast.Expr) and after[0].value is spin
+    last = block.body[-1]
+    found = suspect.finding("executor_ended", spin, name=name, line=block.lineno)
+    words = {
+        **found.words,
+        "indented": str(block.body[0].lineno),
+        "below": str(last.end_lineno or last.lineno),
+    }
+    return replace(found, words=words, variant="" if next_one else "moved")
+
+
+def _executors_of(block: ast.With, known: set[str]) -> list[str]:
+    """Return the names of executors that a `with` makes, or that it only ends."""
+    names = []
+    for item in block.items:
+        made, name = item.context_expr, dotted(item.optional_vars) if item.optional_vars else ""
+        if isinstance(made, ast.Call) and last_part(dotted(made.func)).endswith("Executor"):
+            names.append(name)
+        elif dotted(made) in known:
+            names.append(dotted(made))
+    return [name for name in names if name]
+
+
 def _indented(case: Case) -> Files | None:
     """Indent the lines below the `with` as far as its block."""
     module, params = case.module, case.finding.params
@@ -171,5 +219,57 @@ KINDS = (
             "come after this line."
         ),
         raised={NO_CONTEXT: _not_running},
+    ),
+    _node(
+        "executor_ended",
+        "spin",
+        msg("The executor is spun below its with block"),
+        msg(
+            "The with in line {line} shuts {name} down at the end of its block. This line is below "
+            "the block: there, {name}.spin() returns at once."
+        ),
+        msg("Indent this line as far as line {indented}: then it is in the block of the with."),
+        links.EXECUTORS,
+        fixes={
+            "moved": msg(
+                "Move this line into the block of the with: below line {below}, indented as far as "
+                "line {indented}."
+            )
+        },
+        behind={"run.exits_at_once": _executor_ended},
+        deletes=("moved",),
+        examples=(
+            example(
+                "executor_spun_below_its_with",
+                Replace(
+                    NODE,
+                    "from rclpy.node",
+                    "from rclpy.executors import SingleThreadedExecutor\nfrom rclpy.node",
+                ),
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n",
+                    "        with SingleThreadedExecutor() as executor:\n"
+                    "            executor.add_node(node)\n        executor.spin()\n",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "executor_spun_far_below_its_with",
+                Replace(
+                    NODE,
+                    "from rclpy.node",
+                    "from rclpy.executors import SingleThreadedExecutor\nfrom rclpy.node",
+                ),
+                Replace(
+                    NODE,
+                    "    try:\n",
+                    "    with SingleThreadedExecutor() as executor:\n"
+                    "        executor.add_node(node)\n    try:\n",
+                ),
+                Replace(NODE, "        rclpy.spin(node)\n", "        executor.spin()\n"),
+                fails="run.starts",
+            ),
+        ),
     ),
 )

@@ -21,6 +21,7 @@ from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of
 from grader.package.source.truth import OK, Truth, always_set_to, truth_of
+from grader.package.source.unreached import exits
 
 
 def _functions(source: NodeSource) -> list[Function]:
@@ -155,6 +156,8 @@ def _condition_changed(case: Case) -> Files | None:
     """Write the contrary of the condition, or delete the if and its return if that is certain."""
     if "written" in case.finding.params:
         return lines.written(case)
+    if "part" in case.finding.params:
+        return lines.deleted(case)
     node, module = case.node, case.module
     found = [
         n
@@ -192,10 +195,37 @@ def _returns_before_spin(suspect: Suspect) -> RecognisedMistake | None:
         for call, name in calls_in(main) if main is not None else ():
             if last_part(name) in node_order.SPINS and call.lineno > found.lineno:
                 return _return(suspect, found)
+    return _ends_if_called_so(suspect)
+
+
+def _ends_if_called_so(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for an if that ends the entry function, and is always true for ros2 run."""
+    source, main = suspect.source, suspect.source.main
+    spins = source.calls_of(*node_order.SPINS, within=main) if main is not None else []
+    first = min((call.lineno for call in spins), default=0)
+    for block in ast.walk(main) if main is not None else ():
+        if not isinstance(block, ast.If) or (block.end_lineno or 0) >= first or block.orelse:
+            continue
+        last = block.body[-1]
+        word = "return" if isinstance(last, ast.Return) else exits(last)
+        truth = truth_of(source, block.test) if word else None
+        if truth is None or not truth.value or source.function_around(block) is not main:
+            continue
+        if truth.reason in ("argument", "guard"):
+            name = ast.unparse(block.test)[:60]
+            params: dict[str, str | int] = {
+                "name": name,
+                "part": word,
+                "lines": _rows(block),
+                "line": first,
+            }
+            mistake = suspect.finding("return_early", block, **params)
+            return replace(mistake, variant=f"called_{truth.reason}")
     return None
 
 
 CONTRARY = msg("Write {written} instead of {name}.")
+WHOLE_IF = msg("Delete line {lines}, the if with all its lines.")
 GONE = msg("Delete line {lines}, the if and its return.")
 IF_TRUE = msg(
     "return ends the function: while the condition {name} is true, the lines below it do not run."
@@ -252,6 +282,14 @@ KINDS = (
             "choice": IF_TRUE,
             "alone": IF_TRUE,
             "limit": IF_TRUE,
+            "called_argument": msg(
+                "ros2 run calls {function} without arguments, so that {name} is true: {part} ends it "
+                "here, and line {line}, which spins the node, is not reached."
+            ),
+            "called_guard": msg(
+                "ros2 run imports the file and calls {function}, so that {name} is true: {part} ends "
+                "it here, and line {line}, which spins the node, is not reached."
+            ),
             "bits": BITS,
             "bits_gone": BITS,
             "ok": RUNS,
@@ -276,6 +314,8 @@ KINDS = (
                 "condition that is false when the line is to be logged."
             ),
             "limit": GONE,
+            "called_argument": WHOLE_IF,
+            "called_guard": WHOLE_IF,
             "bits": CONTRARY,
             "ok": CONTRARY,
             "function": CONTRARY,
@@ -313,6 +353,16 @@ KINDS = (
                 "returns_before_spin",
                 Replace(
                     NODE, "    node = MyFirstNode()\n", "    node = MyFirstNode()\n    return\n"
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "returns_without_arguments",
+                Replace(
+                    NODE,
+                    "    rclpy.init(args=args)\n",
+                    "    if args is None:\n        print('no arguments')\n        return\n"
+                    "    rclpy.init(args=args)\n",
                 ),
                 fails="run.starts",
             ),

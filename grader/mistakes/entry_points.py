@@ -657,7 +657,13 @@ KINDS = (
                 "In {path}, move the def of {function} (line {line}) out of the class: to the left "
                 "margin, below the class, without self and without @staticmethod. Then write "
                 "'{wanted}' in setup.py, and build again."
-            )
+            ),
+            "in_class_called": msg(
+                "In {path}, write {function} instead of {code} in line {at}, and move the def of "
+                "{function} (line {line}) out of the class: to the left margin, below the class, "
+                "without self and without @staticmethod. Then write '{wanted}' in setup.py, and "
+                "build again."
+            ),
         },
         examples=(
             example(

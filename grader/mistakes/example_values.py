@@ -713,6 +713,9 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "written": "@dataclass",
     },
     "node.no_enum": {"name": "Speed.SLOW.value", "class": "Speed", "written": "Speed.SLOW"},
+    "node.executor_ended": {"name": "executor", "line": "30", "indented": "31", "below": "31"},
+    "node.spun_in_turn": {"name": "battery", "line": "31", "written": "node"},
+    "node.two_nodes_count": {"name": "other", "line": "30", "lines": "32, 35"},
     "node.below_with": {"line": "30", "first": "32", "last": "35", "indented": "31"},
     "node.last_def_counts": {
         "name": "__init__",

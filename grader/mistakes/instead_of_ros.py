@@ -16,6 +16,7 @@ from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.imported import full_name, imports
+from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.python_logging import is_of_logging, python_logs
@@ -98,11 +99,34 @@ def _python_logging_hidden(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _signal_handler(suspect: Suspect) -> RecognisedMistake | None:
-    for call in suspect.source.calls_of("signal"):
-        ignored = len(call.args) > 1 and last_part(dotted(call.args[1])).startswith("SIG_")
-        if full_name(suspect.source.module_of(call), call.func) == "signal.signal" and not ignored:
+    """Look for a handler of Ctrl+C that does not end the program."""
+    source = suspect.source
+    for call in source.calls_of("signal"):
+        module = source.module_of(call)
+        given = [*call.args, *(word.value for word in call.keywords)]
+        called = full_name(module, call.func) == "signal.signal"
+        if not called or len(given) != 2 or last_part(dotted(given[0])) != "SIGINT":
+            continue
+        if last_part(dotted(given[1])) == "SIG_IGN":
+            return replace(suspect.finding("signal_handler", call), variant="ignored")
+        if not last_part(dotted(given[1])).startswith("SIG_") and not _may_end(source, given[1]):
             return suspect.finding("signal_handler", call)
     return None
+
+
+def _may_end(source: NodeSource, handler: ast.expr) -> bool:
+    """Whether a handler of a signal has a part that ends the program, or ROS, or is unknown."""
+    name = last_part(dotted(handler))
+    defined: list[ast.AST] = [
+        n for n in source.all_nodes if isinstance(n, Function) and n.name == name
+    ]
+    parts = [handler] if isinstance(handler, ast.Lambda) else defined
+    ends = {"exit", "_exit", "quit", "shutdown", "try_shutdown", "kill", "set", "set_result"}
+    return not parts or any(
+        isinstance(n, ast.Raise) or (isinstance(n, ast.Call) and last_part(dotted(n.func)) in ends)
+        for part in parts
+        for n in ast.walk(part)
+    )
 
 
 def _duration(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -331,13 +355,25 @@ KINDS = (
     _node(
         "signal_handler",
         "shutdown",
-        msg("The program has its own function for Ctrl+C"),
+        msg("The program changes what Ctrl+C does"),
         msg(
             "signal.signal replaces what Python and rclpy do at Ctrl+C: no KeyboardInterrupt comes, "
             "and spin goes on unless your function ends it."
         ),
         msg("Remove signal.signal and its function: Ctrl+C ends rclpy.spin by itself."),
         links.EXECUTORS,
+        whys={
+            "ignored": msg(
+                "signal.SIG_IGN makes the program ignore Ctrl+C: no KeyboardInterrupt comes, and "
+                "spin goes on."
+            )
+        },
+        fixes={
+            "ignored": msg(
+                "Delete this line. To end without a traceback, catch KeyboardInterrupt around the "
+                "line that spins: try: above it, and except KeyboardInterrupt: pass below it."
+            )
+        },
         behind={"run.ignores_interrupt": _signal_handler},
         examples=(
             example(
@@ -347,6 +383,16 @@ KINDS = (
                     NODE,
                     "    try:\n",
                     "    signal.signal(signal.SIGINT, lambda *_: None)\n    try:\n",
+                ),
+                fails="run.interrupt",
+            ),
+            example(
+                "ctrl_c_ignored",
+                Replace(NODE, "import rclpy\nfrom", "import signal\n\nimport rclpy\nfrom"),
+                Replace(
+                    NODE,
+                    "    try:\n",
+                    "    signal.signal(signal.SIGINT, signal.SIG_IGN)\n    try:\n",
                 ),
                 fails="run.interrupt",
             ),

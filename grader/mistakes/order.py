@@ -96,9 +96,18 @@ def _cleaned_up_first(raised: Raised, match: re.Match[str]) -> RecognisedMistake
 def _cleans_up_first(suspect: Suspect) -> RecognisedMistake | None:
     early = node_order.early_cleanup(suspect.source)
     found = _cleanup(suspect.source)
+    if early is not None and _leaves_before(suspect.source, early[0].lineno):
+        return None  # (what leaves the function is the cause, and finally runs on the way out)
     if early is None or found is None:
         return _init_ends(suspect) or _by_method(suspect)
     return _with_later(suspect.source, suspect.finding("cleanup_early", early[0], name=found[0]))
+
+
+def _leaves_before(source: NodeSource, line: int) -> bool:
+    """Whether the entry function has a return above a line."""
+    nodes = ast.walk(source.main) if source.main is not None else ()
+    own = [n for n in nodes if isinstance(n, ast.Return) and n.lineno < line]
+    return any(source.function_around(n) is source.main for n in own)
 
 
 def _with_later(source: NodeSource, found: RecognisedMistake) -> RecognisedMistake:

@@ -42,7 +42,7 @@ WRITE_NUMBER = msg("Write {written} instead of {old} in line {line}: {code} is t
 WRITE_UNIT = msg("Write {written} instead of {old} in line {line}: the period is then {period} s.")
 SPINS = msg(
     "The line shown spins the node: ROS calls your callbacks there. No other line of yours raised the "
-    "error. Compare the parameters of your callbacks, and what "
+    "error. Compare what this line passes, the parameters of your callbacks, and what "
     "create_timer gets, with the last line of the traceback."
 )
 NO_LINE = msg(
@@ -90,10 +90,17 @@ KINDS = (
         msg("Call rclpy.spin(node) in {function} after creating the node (not spin_once)."),
         links.EXECUTORS,
         fixes={
-            "spins": msg(
+            "elsewhere": msg(
                 "rclpy.spin is there. Follow {function} from its first line: what ends it before "
                 "that, or why is that line not reached?"
-            )
+            ),
+            "spins": msg(
+                "The line shown spins the node. Print a text on a line directly above it and on one "
+                "directly below it, and run the node again. If neither comes, the program does not "
+                "come to this line: follow {function} from its first line. If both come, spin ended "
+                "at once: ROS, the executor or what it waits for was at its end before. If only the "
+                "first comes, what runs inside of spin ended the program."
+            ),
         },
         fixed_by=(node_life.spin,),
     ),
@@ -667,8 +674,8 @@ KINDS = (
                     NODE,
                     SPIN_UNTIL_CTRL_C,
                     (
-                        "    import signal\n"
-                        "    signal.signal(signal.SIGINT, signal.SIG_IGN)\n"
+                        "    from signal import SIGINT, SIG_IGN, signal as at\n"
+                        "    at(SIGINT, SIG_IGN)\n"
                         "    rclpy.spin(node)\n"
                     ),
                 ),
@@ -684,17 +691,24 @@ KINDS = (
         msg("Correct the line shown, or what it calls. Remove it if the node does not need it."),
         links.RCLPY,
         whys={
+            "spins": msg("Ctrl+C shuts ROS down. A line that spins after that raises an error."),
             "status": msg(
                 "The exit status says whether a program ended well: 0 means yes. This one is that of "
                 "an error, but Python printed no traceback: the program chose it."
-            )
+            ),
         },
         fixes={
             "status": msg(
                 "Look at what runs after Ctrl+C: {function} returns a value, or calls sys.exit() or "
                 "os._exit() with one. Remove the value."
             ),
-            "spins": SPINS,
+            "spins": msg(
+                "The line shown spins the node. Print a text on a line directly above it, run the node, "
+                "and press Ctrl+C. If the text comes again after Ctrl+C, the program comes to this "
+                "line once more: after a KeyboardInterrupt, end the loop around it, or leave out this "
+                "call. If not, read the last line of the traceback: it says what went wrong while "
+                "this line was waiting."
+            ),
             "no_line": NO_LINE,
             "inside": INSIDE,
         },

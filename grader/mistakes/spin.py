@@ -17,6 +17,7 @@ from grader.package.edit.tree import Edit, Replace, Write
 from grader.package.source.counter import targets_of
 from grader.package.source.endless import Loop, idle_loop
 from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.node import NodeSource
 from grader.package.source.place import statement_at
 from grader.package.source.spinning_loop import condition_of, loop_around, only_called, other_work
 from grader.package.source.until_ctrl_c import parts_until_ctrl_c
@@ -98,33 +99,62 @@ def _of_executor(suspect: Suspect, call: ast.Call, wanted: str) -> RecognisedMis
     return replace(found, variant="executor")
 
 
-def _spun_twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """Look for a thread that spins beside a call of spin."""
-    del match
-    source = raised.source
-    threads = [
+def _threads_that_spin(source: NodeSource) -> list[ast.Call]:
+    return [
         call
         for call in source.calls_of("Thread")
         for word in call.keywords
         if word.arg == "target" and last_part(dotted(word.value)) == "spin"
     ]
-    spins = source.calls_of("spin")
+
+
+def _uses_of(source: NodeSource, thread: ast.Call) -> list[int]:
+    """Return the other lines that use the variable of a thread."""
+    module = source.module_of(thread)
+    statement = statement_at(module, thread.lineno)
+    names = set(targets_of(statement)) if statement is not None else set()
+    function = source.function_around(thread) or module.tree
+    uses = {n.lineno for n in ast.walk(function) if isinstance(n, ast.expr) and dotted(n) in names}
+    return sorted(uses - {thread.lineno})
+
+
+def _spun_twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Look for a thread that spins beside a call of spin."""
+    del match
+    source = raised.source
+    threads, spins = _threads_that_spin(source), source.calls_of("spin")
     if len(threads) != 1 or len(spins) != 1:
         return None
-    module = source.module_of(threads[0])
-    statement = statement_at(module, threads[0].lineno)
-    names = set(targets_of(statement)) if statement is not None else set()
-    function = source.function_around(threads[0]) or module.tree
-    uses = {n.lineno for n in ast.walk(function) if isinstance(n, ast.expr) and dotted(n) in names}
-    rows = ", ".join(map(str, sorted(uses - {threads[0].lineno})))
+    rows = ", ".join(map(str, _uses_of(source, threads[0])))
     params = {"line": str(spins[0].lineno), "lines": rows}
     found = raised.finding("spun_twice", at=threads[0], params=params)
     return replace(found, variant="used" if rows else "")
 
 
+def _spinning_function(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a line that only names the function in which the node is spun."""
+    source = suspect.source
+    spins = [call for call, name in source.calls if last_part(name) == "spin"]
+    around = {source.function_around(call) for call in spins} - {suspect.function}
+    functions = {f.name: f for f in around if f is not None}
+    for node in source.all_nodes:
+        named = node.value if isinstance(node, ast.Expr) else None
+        name = dotted(named) if isinstance(named, ast.Attribute | ast.Name) else ""
+        function = functions.get(last_part(name))
+        if named is None or function is None:
+            continue
+        if any(last_part(called) == function.name for _, called in source.calls):
+            return None
+        given = len(function.args.args) - len(function.args.defaults) - ("." in name)
+        node_name = str(placeholder_values(suspect.assignment, source)["node"])
+        wanted = f"{name}({'' if given <= 0 else node_name if given == 1 else '…'})"
+        return suspect.finding("spin_not_called", named, name=name, wanted=wanted)
+    return None
+
+
 def _not_called(suspect: Suspect) -> RecognisedMistake | None:
     if _spins(suspect):
-        return None
+        return _spinning_function(suspect)
     for node in suspect.source.all_nodes:
         named = node.value if isinstance(node, ast.Expr) else None
         if not isinstance(named, ast.Attribute | ast.Name):
@@ -190,7 +220,16 @@ def _with_class(
 ) -> RecognisedMistake:
     """Return a loop with sleep; a node without a class of its own has no method and no __init__."""
     if suspect.source.node_class is not None:
-        return found
+        around = suspect.source.function_around(loop)
+        spins = suspect.source.calls_of("spin", within=suspect.function or ast.Pass())
+        threads = _threads_that_spin(suspect.source)
+        if len(threads) == 1 and not spins:
+            rows = [threads[0].lineno, *_uses_of(suspect.source, threads[0])]
+            lines = ", ".join(map(str, rows))
+            return replace(found, variant="threaded", words={**found.words, "lines": lines})
+        if not spins or around is None or around is suspect.function:
+            return found
+        return replace(found, variant="beside", words={**found.words, "name": around.name})
     word = "while" if isinstance(loop, ast.While) else "for"
     words = {**found.words, "loop": word, "wanted": f"rclpy.spin({found.words['node']})"}
     return replace(found, variant="function", words=words)
@@ -200,7 +239,8 @@ def _spins_and_sleeps(
     suspect: Suspect, loop: ast.While | ast.For, found: RecognisedMistake
 ) -> RecognisedMistake | None:
     """Look for a loop that only spins once and sleeps, beside a timer that does the work."""
-    calls = [s.value for s in loop.body if isinstance(s, ast.Expr)]
+    values = [s.value for s in loop.body if isinstance(s, ast.Expr)]
+    calls = [value.value if isinstance(value, ast.Await) else value for value in values]
     names = [dotted(call.func) for call in calls if isinstance(call, ast.Call)]
     only = {last_part(name) for name in names} == {"spin_once", "sleep"}
     once = next((name for name in names if last_part(name) == "spin_once"), "")
@@ -329,6 +369,10 @@ INTO_FUNCTION = msg(
     "variable outside of all functions: global) with the variable's name. Then write two lines "
     "instead of the whole {loop} loop: {node}.create_timer({period}, tick), and below it {wanted}."
 )
+BESIDE_SPIN = msg(
+    "A loop with sleep beside rclpy.spin does not follow ROS time: in a simulation or a replay it runs "
+    "at the wrong speed, and it does not stop when time stops. A timer follows ROS time."
+)
 IN_EACH_ROUND = msg(
     "spin_once handles one callback and returns. The other lines of the {loop} loop around it run in "
     "each round, and not when a timer is due: no timer calls them."
@@ -350,7 +394,22 @@ KINDS = (
             "{function} instead of the loop."
         ),
         links.EXECUTORS,
-        fixes={"function": INTO_FUNCTION},
+        whys={"beside": BESIDE_SPIN, "threaded": BESIDE_SPIN},
+        fixes={
+            "function": INTO_FUNCTION,
+            "threaded": msg(
+                "Put what the loop does into a method, and call it with a timer that __init__ "
+                "creates: self.create_timer({period}, self.{callback}). Then write "
+                "rclpy.spin({node}) in {function} instead of the loop, and delete the thread that "
+                "spins the node now (line {lines})."
+            ),
+            "beside": msg(
+                "Put what the loop in {name} does into a method, and call it with a timer that "
+                "__init__ creates: self.create_timer({period}, self.{callback}). Then delete the "
+                "loop, and what starts {name} if nothing else is left in it. {function} spins the "
+                "node already."
+            ),
+        },
         behind={"run.never_spins": _sleep_loop},
         examples=(
             example(
@@ -437,7 +496,8 @@ KINDS = (
         whys={
             "loop": msg(
                 "spin_once handles one callback and returns. The loop around it must go on until "
-                "Ctrl+C, and this loop ended earlier."
+                "Ctrl+C, and this loop ended earlier. A message of a simulated clock is a callback "
+                "too: in the grader's run, fewer lines can come than in your terminal."
             ),
             "condition": msg(
                 "spin_once handles one callback and returns. The loop around it must go on until "

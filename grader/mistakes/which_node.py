@@ -37,6 +37,12 @@ GUARD = msg(
 LIFECYCLE = ("rclpy.lifecycle", "rclpy.lifecycle.node")
 
 
+SPINS_ALL = msg(
+    "The spin of an executor takes no node: it calls the callbacks of all nodes that were added to "
+    "it with add_node."
+)
+
+
 def _made_in_callback(suspect: Suspect) -> RecognisedMistake | None:
     source, callback = suspect.source, suspect.source.callback
     for call, name in calls_in(callback) if callback is not None else ():
@@ -81,6 +87,22 @@ def _executor_without_node(suspect: Suspect) -> RecognisedMistake | None:
         before, _, method = name.rpartition(".")
         if method in SPINS and before in executors(suspect) - given:
             return suspect.finding("executor_without_node", call, name=before)
+    return None
+
+
+def _node_to_spin(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Look for a node that is given to the spin of an executor, and not to add_node."""
+    del match
+    source = raised.source
+    for call in source.calls_of("spin"):
+        owner = dotted(call.func).rpartition(".")[0]
+        if call.lineno != raised.line or len(call.args) != 1 or not owner:
+            continue
+        code = source.module_of(call).text.code
+        added = any(dotted(add.func) == f"{owner}.add_node" for add in source.calls_of("add_node"))
+        node = code(call.args[0])
+        found = raised.finding("executor_without_node", at=call, name=owner, node=node)
+        return replace(found, variant="added" if added else "given")
     return None
 
 
@@ -636,9 +658,19 @@ KINDS = (
             "late": msg(
                 "spin waits until Ctrl+C: line {line}, which gives the node to the executor, is not "
                 "reached before. An executor without the node does not call its callbacks."
-            )
+            ),
+            "given": SPINS_ALL,
+            "added": SPINS_ALL,
         },
-        fixes={"late": msg("Move line {line} ({name}.add_node) above this line.")},
+        fixes={
+            "late": msg("Move line {line} ({name}.add_node) above this line."),
+            "given": msg(
+                "Write {name}.add_node({node}) on a line of its own above this line, and "
+                "{name}.spin() in this line."
+            ),
+            "added": msg("Write {name}.spin() in this line: {name} has the node already."),
+        },
+        raised={r"TypeError: \w{1,60}\.spin\(\) takes 1 positional argument but 2": _node_to_spin},
         behind={"run.never_spins": _executor_without_node, "run.no_lines": _executor_without_node},
         fixed_by=(node_executor.added_first,),
         examples=(
@@ -648,6 +680,13 @@ KINDS = (
                 Replace(NODE, "        executor.add_node(node)\n", ""),
                 fails="run.spins",
                 blocks=("run.output", *SILENT),
+            ),
+            example(
+                "executor_spins_with_a_node",
+                *OWN_EXECUTOR,
+                Replace(NODE, "        executor.add_node(node)\n", ""),
+                Replace(NODE, "executor.spin()", "executor.spin(node)"),
+                fails="run.starts",
             ),
             example(
                 "executor_gets_node_late",

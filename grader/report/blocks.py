@@ -81,7 +81,7 @@ def block(page: Page, check: CheckResult, *, lines: int, on: str = "") -> None:
     _field(page, say("why"), check.rationale, lines)
     if check.status == "inconclusive":
         busy = say(
-            "No points given or taken: the cause is not in the package. Grade again; if it stays, ask the instructor."
+            "No points given or taken: this could not be decided. Grade again; if it stays, ask the instructor."
         )
         page.field(say("points"), busy)
     elif check.status == "error":

@@ -221,7 +221,7 @@ def _say_where(diagnosis: Diagnosis, failed: Failed, evidence: Evidence) -> None
     variant, library = failed.variant, raised_inside(evidence, program)
     if where is None or not where.line:
         variant = "no_line"
-    elif source is not None and _spins(source.module_at(where.file), where.line):
+    elif library and source is not None and _spins(source.module_at(where.file), where.line):
         variant = "spins"
     elif library:
         variant = "inside"

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 RIGHT = (SOLUTION / NODE).read_text(encoding="utf-8")
 SPIN = "rclpy.spin(node)"
 MAIN = RIGHT[RIGHT.index("    node = MyFirstNode()") : RIGHT.index("\n\nif __name__")]
+RCLPY = "/opt/ros/jazzy/lib/python3.12/site-packages/rclpy/executors.py"
 TRACEBACK = """\
 Traceback (most recent call last):
   File "/ws/install/my_robot_controller/lib/my_robot_controller/test_node", line 33, in <module>
@@ -122,7 +123,8 @@ def test_an_unknown_error_is_not_blamed_on_a_line_that_only_spins(
     symptom: str, at: str, asks: str, bench: Bench
 ) -> None:
     line = next(n for n, text in enumerate(RIGHT.splitlines(), 1) if at in text) if at else None
-    trace = TRACEBACK.format(line=line, error="RuntimeError: an unknown one")
+    inside = f'  File "{RCLPY}", line 9, in spin\n' if "spin" in at else ""
+    trace = TRACEBACK.format(line=line, error=f"{inside}RuntimeError: an unknown one")
     seen = evidence(bench, RIGHT, trace.replace("my_first_node.py", NODE if at else "other.py"))
     found = failed(symptom)
     found.variant = "callback" if symptom == "run.ended_early" else ""
@@ -130,6 +132,16 @@ def test_an_unknown_error_is_not_blamed_on_a_line_that_only_spins(
     shown_text = diagnose(found, seen)
     assert [m.id for m in shown_text.mistakes] == [symptom]
     assert asks in shown_text.fix
+
+
+def test_an_error_of_the_call_of_spin_itself_is_about_that_line(bench: Bench) -> None:
+    line = next(n for n, text in enumerate(RIGHT.splitlines(), 1) if "rclpy.spin(" in text)
+    trace = TRACEBACK.format(line=line, error="RuntimeError: an unknown one")
+    found = failed("run.died_at_start")
+    found.where = Where(file=NODE, line=line)
+    fix = diagnose(found, evidence(bench, RIGHT, trace)).fix
+    assert "what is wrong with the line shown" in fix
+    assert "callbacks" not in fix
 
 
 def test_a_status_without_an_error_asks_for_no_line(bench: Bench) -> None:

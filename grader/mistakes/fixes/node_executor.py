@@ -25,12 +25,14 @@ class AddedLate:
 
 def executors_of(source: NodeSource) -> set[str]:
     """Return the variables of executors."""
-    made = [n for n in source.all_nodes if isinstance(n, ast.Assign)]
+    made = [(n.value, n.targets) for n in source.all_nodes if isinstance(n, ast.Assign)]
+    items = [item for n in source.all_nodes if isinstance(n, ast.With) for item in n.items]
+    made += [(i.context_expr, [i.optional_vars]) for i in items if i.optional_vars is not None]
     return {
         dotted(target)
-        for node in made
-        if isinstance(node.value, ast.Call) and dotted(node.value.func).endswith("Executor")
-        for target in node.targets
+        for value, targets in made
+        if isinstance(value, ast.Call) and dotted(value.func).endswith("Executor")
+        for target in targets
     }
 
 

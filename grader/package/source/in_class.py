@@ -26,3 +26,27 @@ def line_in_class(found: bytes, given: str, function: str) -> int:
     classes = [node for node in body if isinstance(node, ast.ClassDef) and node.name == owner]
     methods = [n for cls in classes for n in cls.body if isinstance(n, Function)]
     return next((n.lineno for n in methods if n.name == function), 0)
+
+
+def calls_of_method(found: bytes, given: str) -> list[tuple[int, str]]:
+    """Return the calls of the method `Class.function` outside of its class: line and what is called.
+
+    As in `Class.function()` and `Class().function()`.
+    """
+    owner, _, name = given.partition(".")
+    try:
+        body = parse_python(found).tree.body
+    except PythonFault:
+        return []
+    outside = [n for s in body if not isinstance(s, ast.ClassDef) for n in ast.walk(s)]
+    named = [n.func for n in outside if isinstance(n, ast.Call)]
+    return [
+        (n.lineno, ast.unparse(n))
+        for n in named
+        if isinstance(n, ast.Attribute) and n.attr == name and _is_of(n.value, owner)
+    ]
+
+
+def _is_of(whole: ast.expr, owner: str) -> bool:
+    named = whole.func if isinstance(whole, ast.Call) else whole
+    return isinstance(named, ast.Name) and named.id == owner

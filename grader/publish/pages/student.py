@@ -134,7 +134,7 @@ def _fields(check: CheckResult, translate: Translator) -> list[Field]:
             where = say("{file}, line {line}", file=where, line=check.where.line)
     open_ = {
         "inconclusive": say(
-            "No points given or taken: the cause is not in the package. Grade again; if it stays, ask the instructor."
+            "No points given or taken: this could not be decided. Grade again; if it stays, ask the instructor."
         ),
         "error": say("No points given or taken: this is a fault of the grader. Please report it."),
     }

@@ -9,7 +9,7 @@ from grader.base.i18n.message import Message, say
 from grader.base.nearest import meant, nearest, there_is, with_difference
 from grader.base.shown import shown
 from grader.package.source.entry_points import Entry, EntryPoints, Misplaced, is_refused, misplaced
-from grader.package.source.in_class import line_in_class
+from grader.package.source.in_class import calls_of_method, line_in_class
 from grader.package.source.python import PythonFault, parse_python
 from grader.package.source.values import Table, Text
 from grader.report.model import Where
@@ -284,6 +284,9 @@ def other_target(evidence: Evidence, entry: Entry) -> Failed:
     data = file.data if file is not None else b""
     line = line_in_class(data, target.partition(":")[2], wanted.function)
     in_class = mistake == "setup.other_function" and line > 0
+    calls = calls_of_method(data, target.partition(":")[2]) if in_class else []
+    places = {"at": str(calls[0][0]), "code": shown(calls[0][1])} if len(calls) == 1 else {}
+    variant = "in_class_called" if places else "in_class" if in_class else ""
     return _failed(
         evidence,
         entry,
@@ -291,8 +294,13 @@ def other_target(evidence: Evidence, entry: Entry) -> Failed:
         because,
         found=shown(target),
         meant_to_be=wanted.target,
-        variant="in_class" if in_class else "",
-        words={"function": wanted.function, "line": str(line), "path": node_path(evidence)},
+        variant=variant,
+        words={
+            "function": wanted.function,
+            "line": str(line),
+            "path": node_path(evidence),
+            **places,
+        },
         target=shown(entry.target),
     )
 

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
 from grader.base.shown import shown
+from grader.package.source.names import last_part
 from grader.package.source.newer_python import with_older_quotes
+from grader.package.source.place import place_of
 from grader.package.source.python import PythonFault, parse_python
 from grader.verdict.checks.actual_node import actual_path
 from grader.verdict.checks.declare import RUN, check
@@ -108,14 +110,22 @@ def _ended(evidence: Evidence) -> Outcome:
     if run.watch.counted and not run.nodes:
         return _no_node(evidence, say("lines came, but no node was ever on the graph"))
     source = source_of_node(evidence)
+    named = source.calls if source is not None else ()
+    spins = [call for call, name in named if last_part(name) == "spin"]
+    own = [call for call in spins if source and _is_line(source.module_of(call).parents.get(call))]
     return Failed(
         "run.exits_at_once",
         expected=say("the node runs until Ctrl+C"),
         actual=say("it ended by itself at once, with status {status}", status=str(run.status)),
-        where=node_file(evidence),
-        variant="spins" if source is not None and source.calls_of("spin") else "",
+        where=place_of(source, own[0]) if source and own else node_file(evidence),
+        variant="spins" if own else "elsewhere" if spins else "",
         words=words(evidence),
     )
+
+
+def _is_line(around: ast.AST | None) -> bool:
+    """Whether what is around a call is a line of its own, as it is not in a lambda."""
+    return isinstance(around, ast.Expr | ast.Assign)
 
 
 def _newer_line(evidence: Evidence) -> tuple[int, str]:

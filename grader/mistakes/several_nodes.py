@@ -1,0 +1,276 @@
+"""Mistakes of a program with several nodes: spun one after the other, or both of them count."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import NODE, SILENT, example
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.mistakes.spin_not_reached import UNWRAP
+from grader.package.edit.tree import Replace
+from grader.package.source.counter import targets_of
+from grader.package.source.module import Function
+from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.node import NodeSource
+from grader.package.source.place import block_of
+
+
+def _spun(call: ast.Call) -> str:
+    """Return the name that a call of rclpy.spin gets; "" for another call."""
+    given = call.args[0] if dotted(call.func) in ("rclpy.spin", "spin") and call.args else None
+    return dotted(given) if given is not None else ""
+
+
+def _in_turn(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a spin of another node before the one of the node that counts."""
+    source = suspect.source
+    spins = [call for call in source.calls_of("spin") if _spun(call)]
+    if len(spins) == 1:
+        return _in_loop(suspect, spins[0])
+    counting = _counting(source)
+    if len(spins) != 2:
+        return None
+    first, second = sorted(spins, key=lambda call: call.lineno)
+    module = source.module_of(first)
+    one, other = (module.parents.get(call) for call in (first, second))
+    if not isinstance(one, ast.Expr) or other not in block_of(module, one):
+        return None
+    if _spun(first) in counting or _spun(second) not in counting:
+        return None
+    params: dict[str, str | int] = {
+        "name": _spun(first),
+        "line": second.lineno,
+        "written": _spun(second),
+    }
+    return suspect.finding("spun_in_turn", first, **params)
+
+
+def _in_loop(suspect: Suspect, spin: ast.Call) -> RecognisedMistake | None:
+    """Look for a loop over nodes that spins each, and that begins with another node."""
+    source = suspect.source
+    module = source.module_of(spin)
+    statement = module.parents.get(spin)
+    loop = module.parents.get(statement) if isinstance(statement, ast.Expr) else None
+    if not isinstance(loop, ast.For) or dotted(loop.target) != _spun(spin):
+        return None
+    counting = _counting(source)
+    nodes = [
+        last_part(dotted(n.func)) if isinstance(n, ast.Call) else dotted(n)
+        for n in _listed(source, loop.iter)
+    ]
+    if not nodes or nodes[0] in counting or not set(nodes) & counting:
+        return None
+    found = suspect.finding("spun_in_turn", spin, name=_spun(spin), line=loop.lineno)
+    return replace(found, variant="loop")
+
+
+def _listed(source: NodeSource, given: ast.expr) -> list[ast.expr]:
+    """Return the parts of a list, also of one that a variable gets once."""
+    if isinstance(given, ast.List | ast.Tuple):
+        return given.elts
+    name = dotted(given)
+    made = [n for n in source.all_nodes if name and name in targets_of(n)]
+    value = made[0].value if len(made) == 1 and isinstance(made[0], ast.Assign) else None
+    return value.elts if isinstance(value, ast.List | ast.Tuple) else []
+
+
+def _counting(source: NodeSource) -> set[str]:
+    """Return the classes that log with a timer, and the variables that get an object of one."""
+    classes = set(_classes(source))
+    made = [n for n in source.all_nodes if isinstance(n, ast.Assign)]
+    return classes.union(*(targets_of(n) for n in made if _made(n.value) in classes))
+
+
+def _made(value: ast.expr) -> str:
+    return last_part(dotted(value.func)) if isinstance(value, ast.Call) else ""
+
+
+def _classes(source: NodeSource) -> dict[str, ast.ClassDef]:
+    """Return the classes that log with a timer, by name."""
+    return {c.name: c for m in source.modules for c in m.classes if _logs_with_timer(source, c)}
+
+
+def _both_count(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for two nodes of the entry function that are both spun, and both log with a timer."""
+    source, main = suspect.source, suspect.function
+    if main is None:
+        return None
+    text = suspect.output.text.partition("{")[0].strip()
+    found = _classes(source).items()
+    classes = {name: c for name, c in found if not text or text in ast.unparse(c)}
+    looped = _made_in_loop(suspect, main, classes)
+    if looped is not None:
+        return looped
+    added = {dotted(a) for call in source.calls_of("add_node", within=main) for a in call.args}
+    made = [
+        (n, name, _made(n.value))
+        for n in ast.walk(main)
+        if isinstance(n, ast.Assign) and _made(n.value) in classes
+        for name in targets_of(n)
+        if name in added
+    ]
+    if len(made) != 2 or len({name for _, name, _ in made}) != 2:
+        return None
+    made.sort(key=lambda each: each[0].lineno)
+    wanted = [suspect.assignment.node_name in ast.unparse(classes[c]) for _, _, c in made]
+    kept, gone = reversed(made) if wanted == [False, True] else made
+    rows = {
+        n.lineno
+        for n in ast.walk(main)
+        if isinstance(n, ast.expr) and dotted(n) == gone[1] and n.lineno != gone[0].lineno
+    }
+    lines = ", ".join(map(str, sorted(rows)))
+    return suspect.finding(
+        "two_nodes_count", gone[0], name=gone[1], line=kept[0].lineno, lines=lines
+    )
+
+
+def _made_in_loop(
+    suspect: Suspect, main: Function, classes: dict[str, ast.ClassDef]
+) -> RecognisedMistake | None:
+    """Look for a loop of the entry function that makes a node in each round, and uses no number."""
+    for loop in ast.walk(main):
+        if not isinstance(loop, ast.For) or loop.orelse:
+            continue
+        names = {last_part(name) for _, name in calls_in(loop)}
+        inside = [n for s in loop.body for n in ast.walk(s)]
+        leaves = any(isinstance(n, ast.Break | ast.Continue) for n in inside)
+        used = any(dotted(n) == dotted(loop.target) for n in inside if isinstance(n, ast.Name))
+        if names & set(classes) and "add_node" in names and not leaves and not used:
+            found = suspect.finding("two_nodes_count", loop, word="for")
+            return replace(found, variant="loop")
+    return None
+
+
+def _logs_with_timer(source: NodeSource, found: ast.ClassDef) -> bool:
+    names = {last_part(name) for _, name in calls_in(found)}
+    return "create_timer" in names and bool(source.logs(found))
+
+
+OTHER = """\
+class OtherNode(Node):
+
+    def __init__(self):
+        super().__init__('other_node')
+
+
+def main("""
+EXECUTOR = """\
+        executor = SingleThreadedExecutor()
+        other = MyFirstNode()
+        executor.add_node(node)
+        executor.add_node(other)
+        executor.spin()
+"""
+_node = Family("node", links.EXECUTORS)
+KINDS = (
+    _node(
+        "spun_in_turn",
+        "spin",
+        msg("Another node is spun first"),
+        msg(
+            "rclpy.spin({name}) waits until Ctrl+C. Line {line}, which spins {written}, is not "
+            "reached before."
+        ),
+        msg(
+            "If the program does not need {name}, delete this line. To spin both nodes, write "
+            "from rclpy.executors import SingleThreadedExecutor at the top of the file, three lines "
+            "instead of this one: executor = SingleThreadedExecutor(), executor.add_node({name}) and "
+            "executor.add_node({written}), and executor.spin() instead of line {line}."
+        ),
+        whys={
+            "loop": msg(
+                "rclpy.spin waits until Ctrl+C: the loop does not come to its second node before. "
+                "Only the callbacks of the first node are called."
+            )
+        },
+        fixes={
+            "loop": msg(
+                "Give all nodes to one executor: write from rclpy.executors import "
+                "SingleThreadedExecutor at the top of the file, executor = SingleThreadedExecutor() "
+                "above line {line}, executor.add_node({name}) instead of this line, and "
+                "executor.spin() below it, indented as far as line {line}."
+            )
+        },
+        behind={"run.no_lines": _in_turn, "run.never_spins": _in_turn},
+        examples=(
+            example(
+                "nodes_spun_in_turn",
+                Replace(NODE, "def main(", OTHER),
+                Replace(NODE, "        rclpy.spin(node)\n", ""),
+                Replace(
+                    NODE,
+                    "    try:\n",
+                    "    other = OtherNode()\n    try:\n"
+                    "        rclpy.spin(other)\n        rclpy.spin(node)\n",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+            example(
+                "nodes_spun_in_a_loop",
+                Replace(NODE, "def main(", OTHER),
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n",
+                    "        for each in [OtherNode(), node]:\n            rclpy.spin(each)\n",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "two_nodes_count",
+        "timer",
+        msg("Two nodes log the lines of the count, and both are spun"),
+        msg(
+            "This line creates a second node beside the one of line {line}. Each has a timer of its "
+            "own, and each logs its own lines."
+        ),
+        msg("Keep one: delete this line, and delete what uses {name} in line {lines}."),
+        whys={
+            "loop": msg(
+                "This loop creates a node in each round. Each has a timer of its own, and each logs "
+                "its own lines."
+            )
+        },
+        fixes={"loop": UNWRAP},
+        behind={"run.twice": _both_count, "run.wrong_step": _both_count},
+        examples=(
+            example(
+                "two_nodes_count",
+                Replace(NODE, "        rclpy.spin(node)\n", EXECUTOR),
+                Replace(
+                    NODE,
+                    "from rclpy.node",
+                    "from rclpy.executors import SingleThreadedExecutor\nfrom rclpy.node",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "node_made_in_a_loop_of_main",
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n",
+                    "        executor = SingleThreadedExecutor()\n"
+                    "        for _ in range(2):\n"
+                    "            node = MyFirstNode()\n"
+                    "            executor.add_node(node)\n"
+                    "        executor.spin()\n",
+                ),
+                Replace(NODE, "    node = MyFirstNode()\n    try", "    try"),
+                Replace(
+                    NODE,
+                    "from rclpy.node",
+                    "from rclpy.executors import SingleThreadedExecutor\nfrom rclpy.node",
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+)
