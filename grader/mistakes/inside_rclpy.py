@@ -200,11 +200,6 @@ KINDS = (
         },
         raised={MISSING: _missing, ATTRIBUTE: _attribute},
         examples=(
-            example(
-                "number_as_the_executor",
-                Replace(NODE, "rclpy.spin(node)", "rclpy.spin(node, 1.0)"),
-                fails="run.starts",
-            ),
         ),
     ),
 )

@@ -39,7 +39,9 @@ def _in_turn(suspect: Suspect) -> RecognisedMistake | None:
     one, other = (module.parents.get(call) for call in (first, second))
     if not isinstance(one, ast.Expr) or other not in block_of(module, one):
         return None
-    if _spun(first) in counting or _spun(second) not in counting:
+    node = source.node_variables
+    by_class = _spun(second) in node and _spun(first) not in node
+    if not by_class and (_spun(first) in counting or _spun(second) not in counting):
         return None
     params: dict[str, str | int] = {
         "name": _spun(first),

@@ -28,13 +28,21 @@ def module_with_node(modules: Sequence[Module]) -> Module:
 def class_of_node(module: Module, made: set[str]) -> ast.ClassDef | None:
     """Return the class that is the node, or was meant to be; None if there is no class.
 
-    `made` are the names that the entry function calls: they tell several nodes apart.
+    `made` are the names that the entry function calls: they tell several nodes apart. Of several
+    that it calls, the first one that counts is the node.
     """
     for fits in (derives_from_node, acts_as_node):
         found = [c for c in module.classes if fits(c)]
+        called = [c for c in found if c.name in made] or found[:1]
         if found:
-            return next((c for c in found if c.name in made), found[0])
+            return next((c for c in called if _counts(c)), called[0])
     return module.classes[0] if module.classes else None
+
+
+def _counts(found: ast.ClassDef) -> bool:
+    """Return whether a class adds to one of its attributes."""
+    changed = [n for n in ast.walk(found) if isinstance(n, ast.AugAssign)]
+    return any(isinstance(n.target, ast.Attribute) and isinstance(n.op, ast.Add) for n in changed)
 
 
 def derives_from_node(found: ast.ClassDef) -> bool:
