@@ -14,7 +14,7 @@ from grader.mistakes.fixes import lines, node_count, node_worked_out
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
-from grader.mistakes.worked_out import INSTEAD, first_of, worked_out
+from grader.mistakes.worked_out import INSTEAD, change_of, first_of, worked_out
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.asked_attribute import never_there
@@ -183,7 +183,7 @@ def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
         return None
     if any(not _is_under_if(suspect, node) for node in counter.set):
         return None
-    if _changes_elsewhere(suspect, counter.name):
+    if _changes_elsewhere(suspect, counter.name) or change_of(suspect, "name") is not None:
         return None
     found = suspect.finding("counter_not_increased", counter.logged, name=counter.name)
     around = source.function_around(counter.logged)

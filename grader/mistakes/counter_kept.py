@@ -66,6 +66,46 @@ def _dropped(suspect: Suspect) -> RecognisedMistake | None:
     return replace(found, words={**found.words, "attribute": called})
 
 
+def _replace_dropped(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a line that only calls _replace(): it changes nothing, whatever else the file does."""
+    for part in parts_of_callback(suspect.source):
+        module = suspect.source.module_of(part)
+        for node in ast.walk(part):
+            call = node.value if isinstance(node, ast.Expr) else None
+            if not isinstance(call, ast.Call) or not isinstance(call.func, ast.Attribute):
+                continue
+            on, code = dotted(call.func.value), module.text.code(call)
+            if call.func.attr == "_replace" and on and "(" not in on and "\n" not in code:
+                found = suspect.finding("result_dropped", node, name=code, written=f"{on} = {code}")
+                return replace(found, words={**found.words, "attribute": on})
+    return None
+
+
+def _taken(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a line that takes a number from the iterator, which is not logged."""
+    change = change_of(suspect, "taken")
+    if change is None:
+        return None
+    found = suspect.finding("number_taken", change.at, name=change.name)
+    return replace(
+        found, words={**found.words, "lines": change.form}, variant="uses" if change.form else ""
+    )
+
+
+def _fresh(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a call whose function counts in a parameter that has a default."""
+    change = change_of(suspect, "fresh")
+    if change is not None:
+        words = {"number": change.form, "attribute": change.written, "line": str(change.at.lineno)}
+        found = suspect.finding("default_counts", change.at, name=change.name)
+        return replace(found, words={**found.words, **words, "start": str(suspect.output.start)})
+    change = change_of(suspect, "given")
+    if change is None:
+        return None
+    found = suspect.finding("default_counts", change.at, name=change.name, written=change.written)
+    return replace(found, words={**found.words, "number": change.form}, variant="given")
+
+
 def _next_twice(suspect: Suspect) -> RecognisedMistake | None:
     """Look for several calls of next() in a function, where one gives the right lines."""
     change = change_of(suspect, "next")
@@ -118,7 +158,10 @@ KINDS = (
             "nowhere."
         ),
         INSTEAD,
-        behind={"run.constant_counter": _dropped, "run.wrong_text": _dropped},
+        behind={
+            "run.constant_counter": first_of(_dropped, _replace_dropped),
+            "run.wrong_text": _dropped,
+        },
         fixed_by=(node_worked_out.change("kept"),),
         examples=(
             example(
@@ -168,6 +211,85 @@ KINDS = (
                     "            self.get_logger().info(f'Hello time: {next(self.counter_)}')",
                 ),
                 Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "number_taken",
+        "counter",
+        msg("A number is taken from the iterator before the first line"),
+        msg("next() does not only look: it takes the number out. The first line gets the one after it."),
+        msg("Delete this line: {name}"),
+        fixes={
+            "uses": msg(
+                "Delete this line and what uses its number (lines {lines}): {name}. Only the line that "
+                "logs may call next()."
+            )
+        },
+        behind={"run.wrong_start": _taken},
+        fixed_by=(node_worked_out.change("taken"),),
+        examples=(
+            example(
+                "first_number_looked_at",
+                Replace(NODE, IMPORTS, f"import itertools\n\n{IMPORTS}"),
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "self.counter_ = itertools.count()\n"
+                    "        first = next(self.counter_)\n"
+                    "        if first != 0:\n"
+                    "            raise ValueError('has to start at 0')",
+                ),
+                Replace(NODE, "str(self.counter_)", "str(next(self.counter_))"),
+                Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "default_counts",
+        "counter",
+        msg("A parameter begins with its default value in each call"),
+        msg(
+            "The parameter {number} is a new variable in each call: a call that gives it no value "
+            "begins with the default again. What the function adds to it is gone when it ends."
+        ),
+        msg(
+            "Keep the count on the node. In __init__, write {attribute} = {start} below "
+            "super().__init__. In line {line}, write {attribute} instead of {name}. Below the statement "
+            "that logs, write {attribute} += {step}"
+        ),
+        fixes={"given": msg("Give the counter to the call: write {written} instead of {name}.")},
+        whys={
+            "given": msg(
+                "A call that gives the parameter {number} no value uses its default, each time the same."
+            )
+        },
+        behind=dict.fromkeys(("run.constant_counter", "run.wrong_step"), _fresh),
+        fixed_by=(node_worked_out.change("fresh", "given"),),
+        examples=(
+            example(
+                "default_as_counter",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "def counted(n=0):\n    now = n\n    n = n + 1\n    return now\n\n\n"
+                    "class MyFirstNode",
+                ),
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(NODE, "str(self.counter_)", "str(counted())"),
+                Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
+            ),
+            example(
+                "default_of_helper_used",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "def one_more(n=0):\n    return n + 1\n\n\nclass MyFirstNode",
+                ),
+                Replace(NODE, "self.counter_ += 1", "self.counter_ = one_more()"),
                 fails="run.output",
             ),
         ),

@@ -168,6 +168,8 @@ def _next(source: NodeSource) -> ast.Call | None:
 
 def _used_up(suspect: Suspect) -> RecognisedMistake | None:
     call = _next(suspect.source)
+    if call is not None and len(call.args) > 1:
+        return None  # (with a second value, next() raises no StopIteration)
     return suspect.finding("iterator_ended", call) if call is not None else None
 
 

@@ -41,6 +41,8 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     statement = statement_at(raised.module, raised.line)
     if isinstance(statement, ast.Assign) and text_added(statement):
         return None
+    if number_first and statement is not None and _sums(statement):
+        return _summed(raised, statement)
     for node in raised.module.nodes:
         if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Add):
             continue
@@ -64,6 +66,24 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
         return None
     name = raised.module.text.code(added)
     return raised.finding("str_plus_int", at=statement, name=name, written=f"str({name})")
+
+
+def _sums(statement: ast.stmt) -> list[ast.Call]:
+    """Return the calls of sum() in a statement."""
+    return [n for n in ast.walk(statement) if isinstance(n, ast.Call) and dotted(n.func) == "sum"]
+
+
+def _summed(raised: Raised, statement: ast.stmt) -> RecognisedMistake | None:
+    """sum() adds a text to a number; None if another + of the statement can be the one that fails."""
+    calls = _sums(statement)
+    added = [
+        n for n in ast.walk(statement) if isinstance(n, ast.BinOp) and isinstance(n.op, ast.Add)
+    ]
+    code = raised.module.text.code(calls[0])
+    if len(calls) > 1 or any(_may_be_number(n.left) for n in added) or "\n" in code:
+        return None
+    found = raised.finding("str_plus_int", name=code, written="''.join(…)")
+    return replace(found, variant="summed")
 
 
 def _number_added_last(node: ast.BinOp, text: SourceText) -> tuple[str, str, str] | None:
@@ -443,9 +463,19 @@ KINDS = (
         msg("Python's + joins a string only with another string."),
         msg("Write {written} instead of {name}: str() makes a string of a number."),
         links.PYTHON_STRINGS,
-        whys={"late": msg("Python makes the string first, and then adds a number to it.")},
+        whys={
+            "late": msg("Python makes the string first, and then adds a number to it."),
+            "summed": msg(
+                "sum() begins with the number 0 and adds each part to it, so it cannot add a string."
+            ),
+        },
         fixes={
-            "late": msg("Write {written} instead of {name}, so that the numbers are added first.")
+            "late": msg("Write {written} instead of {name}, so that the numbers are added first."),
+            "summed": msg(
+                "{name} gets a string. To join strings, use ''.join() instead of sum(): all its parts "
+                "must be strings, and str() makes one of a number. To add numbers, give sum() only "
+                "numbers: int() makes one of a string."
+            ),
         },
         seen=r'TypeError: can only concatenate str \(not "(?P<type>\w{1,40})"\) to str'
         r"|TypeError: unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'",

@@ -6,17 +6,21 @@ Whatever is not known stands for itself (`UNKNOWN`), and makes what is built wit
 from __future__ import annotations
 
 import ast
+import collections
 import itertools
 import operator
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from grader.package.source.generators import is_plain_generator
 from grader.package.source.module import Function
+from grader.package.source.named_tuples import is_named_tuple, named_tuple
 from grader.package.source.names import dotted, last_part
 from grader.package.source.node import LOG_METHODS
 
 MOST_STEPS = 4000
+MOST_YIELDED = 16  # values of a generator
 MOST_CALLS = 25  # calls inside each other
 LONGEST = 500  # characters of a text
 LARGEST = 10**9
@@ -64,6 +68,8 @@ BUILTINS: Mapping[str, Callable[..., object]] = {
     "ord": ord,
     "sorted": sorted,
 }
+COUNTING = ("Counter", "collections.Counter")
+ITERATORS = (itertools.count, type(iter([])), type(iter(())))
 Scope = tuple[dict[str, object], ...]  # the names, the innermost first
 ERRORS = (TypeError, ValueError, ArithmeticError, LookupError, AttributeError, StopIteration)
 
@@ -74,6 +80,10 @@ class UnplayableError(Exception):
 
 class _SpunError(Exception):
     """The node is spun."""
+
+
+class _EnoughError(Exception):
+    """A generator has given enough values."""
 
 
 class _ReturnedError(Exception):
@@ -170,6 +180,7 @@ class _Player:
         self.ticking = False
         self.classes = {n.name: n for n in module.body if isinstance(n, ast.ClassDef)}
         self.of_class: dict[ast.ClassDef, dict[str, object]] = {}
+        self.defaults: dict[ast.expr, object] = {}
 
     def lines(self, function: str, ticks: int) -> list[Line]:
         for statement in self.module.body:
@@ -207,6 +218,7 @@ class _Player:
     def defines(self, node: ast.stmt, scope: Scope) -> bool:
         """Run a statement that defines a name; return whether it is one."""
         if isinstance(node, Function):
+            self.keep_defaults(node.args, scope)
             scope[0][node.name] = _Code(node, scope)
         elif isinstance(node, ast.ClassDef):
             scope[0][node.name] = _Class(node)
@@ -253,14 +265,27 @@ class _Player:
             if not _is_plain_or_list(met):
                 raise UnplayableError
             self.run(node.body if met else node.orelse, scope)
+        elif isinstance(node, ast.While) and " values" in scope[0]:
+            while self.met(node.test, scope):
+                self.run(node.body, scope)
         elif isinstance(node, ast.While) and not self.ticking:
             self.run(node.body, scope)  # (a loop that spins ends this)
         elif isinstance(node, ast.Try):
             self.run([*node.body, *node.orelse, *node.finalbody], scope)
         elif isinstance(node, ast.With):
             self.run(node.body, scope)
+        elif isinstance(node, ast.Assert):
+            met = self.value(node.test, scope)
+            if not _is_plain_or_list(met) or not met:
+                raise UnplayableError
         elif not isinstance(node, ast.Pass | ast.Delete):
             raise UnplayableError
+
+    def met(self, test: ast.expr, scope: Scope) -> bool:
+        value = self.value(test, scope)
+        if not _is_plain_or_list(value):
+            raise UnplayableError
+        return bool(value)
 
     def assign(self, target: ast.expr, value: object, scope: Scope) -> None:
         if isinstance(target, ast.Name):
@@ -303,6 +328,7 @@ class _Player:
         if isinstance(node, ast.Call):
             return self.called(node, scope)
         if isinstance(node, ast.Lambda):
+            self.keep_defaults(node.args, scope)
             return _Code(node, scope)
         if isinstance(node, ast.IfExp):
             met = self.value(node.test, scope)
@@ -333,6 +359,8 @@ class _Player:
             return self.container(node, scope)
         if isinstance(node, ast.GeneratorExp | ast.ListComp):
             return self.comprehended(node, scope)
+        if isinstance(node, ast.Yield):
+            return self.yielded(node, scope)
         return UNKNOWN
 
     def container(
@@ -343,6 +371,10 @@ class _Player:
             return self.several(node, scope)
         if isinstance(node, ast.Subscript):
             of, key = self.value(node.value, scope), self.value(node.slice, scope)
+            if isinstance(node.slice, ast.Slice) and isinstance(of, str):
+                ends = [self.value(v, scope) if v else None for v in _ends(node.slice)]
+                plain = all(v is None or type(v) is int for v in ends)
+                return self.python(operator.getitem, of, slice(*ends)) if plain else UNKNOWN
             known = isinstance(of, list | tuple | dict | str) and isinstance(key, int | str)
             return self.python(operator.getitem, of, key) if known else UNKNOWN
         keys = [self.value(key, scope) if key is not None else UNKNOWN for key in node.keys]
@@ -415,6 +447,8 @@ class _Player:
         if isinstance(of, _Made):
             if name in of.attributes:
                 return of.attributes[name]
+            if name == "_replace" and is_named_tuple(of.of):
+                return _Method(of, name)
             return self.of_object(of, self.line_of(of.of), name)
         if isinstance(of, _Super):
             line = self.line_of(of.of.of)
@@ -516,7 +550,7 @@ class _Player:
             init = self.of_object(made, self.line_of(function.found), "__init__")
             if isinstance(init, _Code):
                 self.call(init, given, named)
-            elif function.found.decorator_list:
+            elif function.found.decorator_list or is_named_tuple(function.found):
                 made.attributes |= self.fields(function.found, given, named)
             elif (given or named) and not function.found.bases:
                 raise UnplayableError
@@ -536,7 +570,11 @@ class _Player:
         """Return the attributes of a new object of a dataclass."""
         own = {n.name for n in found.body if isinstance(n, Function)}
         plain = len(found.decorator_list) == 1 and not found.bases and "__post_init__" not in own
-        if not plain or last_part(dotted(found.decorator_list[0])).rstrip("()") != "dataclass":
+        if is_named_tuple(found):
+            plain = not found.decorator_list
+        elif not plain or last_part(dotted(found.decorator_list[0])).rstrip("()") != "dataclass":
+            plain = False
+        if not plain:
             raise UnplayableError
         values: dict[str, object] = {}
         fields = [n for n in found.body if isinstance(n, ast.AnnAssign)]
@@ -573,8 +611,17 @@ class _Player:
             return itertools.count(
                 int(str(named.get("start", begin))), int(str(named.get("step", by)))
             )
+        if name == "iter" and len(given) == 1 and isinstance(given[0], list | tuple):
+            return iter(given[0])
         if name == "next" and len(given) == 1:
-            return next(given[0]) if isinstance(given[0], itertools.count) else UNKNOWN
+            return next(given[0]) if isinstance(given[0], ITERATORS) else UNKNOWN
+        if name in COUNTING and not named and len(given) <= 1:
+            return collections.Counter() if name.endswith("Counter") and not given else UNKNOWN
+        if name == "range" and given and all(type(v) is int for v in given):
+            return self.python(lambda *ends: list(range(*ends)[: LONGEST + 1]), *given)
+        if last == "namedtuple" and not named:
+            made_class = named_tuple(given)
+            return _Class(made_class) if made_class is not None else UNKNOWN
         done = BUILTINS.get(name)
         if done is None:
             return _Named(f"{name}()")
@@ -586,6 +633,10 @@ class _Player:
 
     def method(self, method: _Method, given: list[object], named: dict[str, object]) -> object:
         of, name = method.of, method.name
+        if isinstance(of, _Made) and not given and set(named) <= set(of.attributes):
+            return _Made(of.of, {**of.attributes, **named})  # (_replace of a named tuple)
+        if isinstance(of, dict) and name in ("get", "update") and not named:
+            return self.python(getattr(of, name), *given)
         if isinstance(of, list) and name == "append" and len(given) == 1:
             of.append(given[0])
             return None
@@ -609,18 +660,21 @@ class _Player:
 
     def code(self, code: _Code, given: list[object], named: dict[str, object]) -> object:
         found, values = code.found, [*code.given, *given]
-        if any(isinstance(n, ast.Yield | ast.YieldFrom | ast.Await) for n in ast.walk(found)):
+        yields = any(isinstance(n, ast.Yield | ast.YieldFrom | ast.Await) for n in ast.walk(found))
+        if yields and not is_plain_generator(found):
             raise UnplayableError
         own: dict[str, object] = {}
         if code.owner is not None:
             own[" self"], own[" owner"] = code.given[0], code.owner
-        self.bind(found.args, values, named, own, code.around)
+        self.bind(found.args, values, named, own)
         self.depth += 1
         if self.depth > MOST_CALLS:
             raise UnplayableError
         try:
             if isinstance(found, ast.Lambda):
                 return self.value(found.body, (own, *code.around))
+            if yields:
+                return self.generated(found, (own, *code.around))
             self.run(found.body, (own, *code.around))
         except _ReturnedError as end:
             return end.value
@@ -628,13 +682,38 @@ class _Player:
             self.depth -= 1
         return None
 
+    def generated(self, found: Function, scope: Scope) -> object:
+        """Return an iterator over the first values of a generator that only uses its own variables."""
+        values: list[object] = []
+        scope[0][" values"] = values
+        try:
+            self.run(found.body, scope)
+        except (_EnoughError, _ReturnedError):
+            pass
+        return iter(values)
+
+    def yielded(self, node: ast.Yield, scope: Scope) -> object:
+        values = scope[0].get(" values")
+        if not isinstance(values, list):
+            raise UnplayableError
+        values.append(self.value(node.value, scope) if node.value is not None else None)
+        if len(values) >= MOST_YIELDED:
+            raise _EnoughError
+        return None
+
+    def keep_defaults(self, parameters: ast.arguments, scope: Scope) -> None:
+        """Work out the defaults of parameters, as Python does: once, when it reads the function."""
+        for default in (*parameters.defaults, *filter(None, parameters.kw_defaults)):
+            value = self.value(default, scope)
+            same = self.defaults.get(default, value) in (value,)
+            self.defaults[default] = value if same else UNKNOWN
+
     def bind(
         self,
         parameters: ast.arguments,
         values: list[object],
         named: dict[str, object],
         own: dict[str, object],
-        around: Scope,
     ) -> None:
         places = [*parameters.posonlyargs, *parameters.args]
         if parameters.kwarg is not None or (len(values) > len(places) and not parameters.vararg):
@@ -647,11 +726,15 @@ class _Player:
             elif place.arg in named:
                 own[place.arg] = named[place.arg]
             elif place in defaults:
-                own[place.arg] = self.value(defaults[place], around or (self.names,))
+                own[place.arg] = self.defaults.get(defaults[place], UNKNOWN)
             else:
                 raise UnplayableError
         if parameters.vararg is not None:
             own[parameters.vararg.arg] = tuple(values[len(places) :])
+
+
+def _ends(of: ast.Slice) -> tuple[ast.expr | None, ...]:
+    return of.lower, of.upper, of.step
 
 
 def _is_plain(value: object) -> bool:
