@@ -72,7 +72,9 @@ def _replace_dropped(suspect: Suspect) -> RecognisedMistake | None:
         module = suspect.source.module_of(part)
         for node in ast.walk(part):
             call = node.value if isinstance(node, ast.Expr) else None
-            if not isinstance(call, ast.Call) or not isinstance(call.func, ast.Attribute):
+            if not isinstance(node, ast.Expr) or not isinstance(call, ast.Call):
+                continue
+            if not isinstance(call.func, ast.Attribute):
                 continue
             on, code = dotted(call.func.value), module.text.code(call)
             if call.func.attr == "_replace" and on and "(" not in on and "\n" not in code:
@@ -219,14 +221,11 @@ KINDS = (
         "number_taken",
         "counter",
         msg("A number is taken from the iterator before the first line"),
-        msg("next() does not only look: it takes the number out. The first line gets the one after it."),
+        msg(
+            "next() does not only look: it takes the number out. The first line gets the one after it."
+        ),
         msg("Delete this line: {name}"),
-        fixes={
-            "uses": msg(
-                "Delete this line and what uses its number (lines {lines}): {name}. Only the line that "
-                "logs may call next()."
-            )
-        },
+        fixes={"uses": msg("Delete this line and what uses its number (lines {lines}): {name}")},
         behind={"run.wrong_start": _taken},
         fixed_by=(node_worked_out.change("taken"),),
         examples=(

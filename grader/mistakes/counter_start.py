@@ -61,8 +61,8 @@ def _added_before(suspect: Suspect) -> RecognisedMistake | None:
     if change.sort == "before":
         words = {**found.words, "written": change.name, "line": change.written}
         module = suspect.source.module_of(change.at)
-        block = [n for n in block_of(module, change.at) if str(n.lineno) == change.written]
-        yields = any(isinstance(getattr(n, "value", None), ast.Yield) for n in block)
+        yields = any(isinstance(n, ast.Yield) and str(n.lineno) == change.written
+                     for n in module.nodes)  # fmt: skip
         return replace(found, words=words, variant="yields" if yields else "")
     around = suspect.source.function_around(change.at)
     function = around.name if around is not None else ""

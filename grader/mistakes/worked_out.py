@@ -11,7 +11,8 @@ from grader.mistakes.fixes import node_worked_out
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromSource, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
-from grader.package.source.one_change import Change, changes, logged_lines, wanted_lines
+from grader.package.source.change import Change
+from grader.package.source.one_change import changes, logged_lines, wanted_lines
 
 LONGEST = 200  # characters of a piece of code that a text shows
 INSTEAD = msg("Write {written} instead of {name}.")
@@ -56,6 +57,13 @@ def first_of(*looks: FromSource) -> FromSource:
         return next(filter(None, (look(suspect) for look in looks)), None)
 
     return found
+
+
+def _joined(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for parts of join() to put together, if no other text of a string is enough."""
+    if change_of(suspect, "text") is not None:
+        return None
+    return worked_out("join_between", "joined")(suspect)
 
 
 _node = Family("node", links.PYTHON_STRINGS)
@@ -151,7 +159,7 @@ KINDS = (
         msg("join() puts its text between the wrong parts"),
         msg("join() puts the text that it is called on between all the parts that it gets."),
         INSTEAD,
-        behind={"run.wrong_text": worked_out("join_between", "joined")},
+        behind={"run.wrong_text": _joined},
         fixed_by=(node_worked_out.change("joined"),),
         examples=(
             example(
@@ -198,9 +206,7 @@ KINDS = (
         "part_of_number",
         "text",
         msg("Only a part of the number is logged"),
-        msg(
-            "{form} takes only a part of a text. From 10 on, a number has more than one digit."
-        ),
+        msg("{form} takes only a part of a text. From 10 on, a number has more than one digit."),
         INSTEAD,
         behind=dict.fromkeys(
             ("run.wrong_step", "run.wrong_text"), worked_out("part_of_number", "character")

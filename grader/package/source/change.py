@@ -35,12 +35,15 @@ class Wanted:
     step: int
 
 
-def of_piece(module: Module, sort: str, node: ast.stmt | ast.expr, new: str, form: str = "") -> Change:
+def of_piece(
+    module: Module, sort: str, node: ast.stmt | ast.expr, new: str, form: str = ""
+) -> Change:
     """Return the change of a piece of syntax."""
     return Change(sort, node, module.text.code(node), new, (module.text.swap(node, new),), form)
 
 
 def additions(module: Module) -> Iterator[ast.AugAssign | ast.Assign]:
+    """Yield the statements that add to a name, or take from it."""
     for node in module.nodes:
         if isinstance(node, ast.AugAssign) and isinstance(node.op, SUM):
             yield node

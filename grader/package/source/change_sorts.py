@@ -159,7 +159,9 @@ def _anew(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Cha
     """Yield an attribute that is set once in place of an iterator that each call of next() makes."""
     del wanted, before
     text, used = module.text, {dotted(n) for n in module.nodes if isinstance(n, ast.Attribute)}
-    name = next((n for n in ("self.numbers", "self.numbers_", "self.count_up") if n not in used), "")
+    name = next(
+        (n for n in ("self.numbers", "self.numbers_", "self.count_up") if n not in used), ""
+    )
     for method in (n for n in module.nodes if isinstance(n, Function)):
         init = _init_beside(module, method)
         for call, called in calls_in(method) if init is not None else ():

@@ -7,9 +7,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 
 from grader.package.edit.text import Splice, indent_of
-from grader.package.source.change import Change as Change
-from grader.package.source.change import Wanted as Wanted
-from grader.package.source.change import additions, of_piece
+from grader.package.source.change import Change, Wanted, additions, of_piece
 from grader.package.source.change_sorts import MORE_SORTS
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function, Module
@@ -189,6 +187,8 @@ def _firsts(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[C
         if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
             inside = node.value.values if isinstance(node.value, ast.Dict) else [node.value]
             inside = node.value.elts if isinstance(node.value, ast.List) else inside
+            if isinstance(node.value, ast.List) and wanted.start == 0 and node.value.elts:
+                yield _within(module, "first", node, node.value, "[]")
             for part in (part for part in inside if _number(part) is not None):
                 yield _within(module, "first", node, part, str(wanted.start))
         elif isinstance(node, ast.Call) and called_name(node) == "count":
@@ -237,7 +237,7 @@ def _doubled(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[
 def _without(module: Module, sort: str, node: ast.stmt) -> Iterator[Change]:
     text = module.text
     row = text.line(node.lineno).partition("#")[0].strip()
-    if len(blockof_piece(module, node)) > 1 and row == text.code(node):
+    if len(block_of(module, node)) > 1 and row == text.code(node):
         yield Change(sort, node, text.code(node), "", (text.without(node.lineno),))
 
 
@@ -246,7 +246,7 @@ def _before(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[C
     del wanted, before
     text = module.text
     for node in additions(module):
-        block = blockof_piece(module, node)
+        block = block_of(module, node)
         row = text.line(node.lineno)
         if row.partition("#")[0].strip() != text.code(node):
             continue
@@ -262,7 +262,7 @@ def _returned(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator
     del wanted, before
     text = module.text
     for node in additions(module):
-        block, name = blockof_piece(module, node), next(targets_of(node), "")
+        block, name = block_of(module, node), next(targets_of(node), "")
         after = block[block.index(node) + 1 :]
         back = after[0] if len(after) == 1 and isinstance(after[0], ast.Return) else None
         value = back.value if isinstance(back, ast.Return) else None

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import ast
 import collections
+import contextlib
 import itertools
 import operator
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from grader.package.source.generators import is_plain_generator
@@ -69,7 +70,7 @@ BUILTINS: Mapping[str, Callable[..., object]] = {
     "sorted": sorted,
 }
 COUNTING = ("Counter", "collections.Counter")
-ITERATORS = (itertools.count, type(iter([])), type(iter(())))
+ITERATORS = (itertools.count, Iterator)
 Scope = tuple[dict[str, object], ...]  # the names, the innermost first
 ERRORS = (TypeError, ValueError, ArithmeticError, LookupError, AttributeError, StopIteration)
 
@@ -603,25 +604,9 @@ class _Player:
             if named:
                 return UNKNOWN
             return _Code(first.found, first.around, (*first.given, *given[1:]), first.owner)
-        if name in ("itertools.count", "count"):
-            plain = [v for v in (*given, *named.values()) if isinstance(v, int)]
-            if len(plain) != len(given) + len(named) or not set(named) <= {"start", "step"}:
-                return UNKNOWN
-            begin, by = [*plain[: len(given)], *(0, 1)[len(given) :]]
-            return itertools.count(
-                int(str(named.get("start", begin))), int(str(named.get("step", by)))
-            )
-        if name == "iter" and len(given) == 1 and isinstance(given[0], list | tuple):
-            return iter(given[0])
-        if name == "next" and len(given) == 1:
-            return next(given[0]) if isinstance(given[0], ITERATORS) else UNKNOWN
-        if name in COUNTING and not named and len(given) <= 1:
-            return collections.Counter() if name.endswith("Counter") and not given else UNKNOWN
-        if name == "range" and given and all(type(v) is int for v in given):
-            return self.python(lambda *ends: list(range(*ends)[: LONGEST + 1]), *given)
-        if last == "namedtuple" and not named:
-            made_class = named_tuple(given)
-            return _Class(made_class) if made_class is not None else UNKNOWN
+        of_several = self.of_several(name, given, named)
+        if of_several is not None:
+            return of_several
         done = BUILTINS.get(name)
         if done is None:
             return _Named(f"{name}()")
@@ -630,6 +615,41 @@ class _Player:
         if name == "format" and len(given) == 2 and TOO_WIDE.search(str(given[1])):
             return UNKNOWN
         return self.python(done, *given, **named)
+
+    def of_several(self, name: str, given: list[object], named: dict[str, object]) -> object | None:
+        """Return what functions of several values give; None for other functions."""
+        first = given[0] if given else None
+        if name in ("itertools.count", "count"):
+            return self.counting(given, named)
+        if name == "iter" and len(given) == 1 and isinstance(first, list | tuple):
+            return iter(first)
+        if name == "next" and len(given) == 1:
+            return next(first) if isinstance(first, ITERATORS) else UNKNOWN
+        if name in COUNTING:
+            return UNKNOWN if given or named else collections.Counter()
+        if name == "map" and len(given) == 2 and isinstance(first, _Named):
+            done, values = BUILTINS.get(first.name), given[1]
+            if (
+                done is None
+                or not isinstance(values, list | tuple)
+                or not _is_plain_or_list(values)
+            ):
+                return UNKNOWN
+            return [self.python(done, value) for value in values]
+        if name == "range" and given and all(type(v) is int for v in given):
+            return self.python(lambda *ends: list(range(*ends)[: LONGEST + 1]), *given)
+        if name.rpartition(".")[2] == "namedtuple" and not named:
+            made = named_tuple(given)
+            return _Class(made) if made is not None else UNKNOWN
+        return None
+
+    def counting(self, given: list[object], named: dict[str, object]) -> object:
+        """Return what itertools.count() gives."""
+        plain = [v for v in (*given, *named.values()) if isinstance(v, int)]
+        if len(plain) != len(given) + len(named) or not set(named) <= {"start", "step"}:
+            return UNKNOWN
+        begin, by = [*plain[: len(given)], *(0, 1)[len(given) :]]
+        return itertools.count(int(str(named.get("start", begin))), int(str(named.get("step", by))))
 
     def method(self, method: _Method, given: list[object], named: dict[str, object]) -> object:
         of, name = method.of, method.name
@@ -686,10 +706,8 @@ class _Player:
         """Return an iterator over the first values of a generator that only uses its own variables."""
         values: list[object] = []
         scope[0][" values"] = values
-        try:
+        with contextlib.suppress(_EnoughError, _ReturnedError):
             self.run(found.body, scope)
-        except (_EnoughError, _ReturnedError):
-            pass
         return iter(values)
 
     def yielded(self, node: ast.Yield, scope: Scope) -> object:

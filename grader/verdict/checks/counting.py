@@ -102,13 +102,15 @@ def _line_by_line(evidence: Evidence, wanted: Count, expected: str) -> Passed:
     shown = ", ".join(event.text[:80] for event in events[first : first + 4])
     numbers = [event.n for event in events if event.n is not None]
     if not numbers or events[0].n is None:
+        made = _made_by(evidence)
         raise Failed(
             "run.wrong_text",
             expected=expected,
             actual=_difference(wanted.line(0), events[0].text),
             where=line_of(evidence, events[0].record),
             params={"text": events[0].text[:200]},
-            words=words(evidence),
+            variant="lines" if made else "",
+            words={**words(evidence), "lines": made} if made else words(evidence),
             advice=[*_changes_nothing(evidence), *_begins_again(evidence)],
         )
     mistake, text = _count_fault(run, wanted, numbers)
