@@ -659,6 +659,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.number_taken": {"name": "first = next(self.numbers)", "lines": "13-15"},
     "node.join_between": {"name": "'time', ':'", "written": "'time:'", "form": "':'"},
     "node.other_name_shown": {"name": "self.period", "written": "self.counter", "form": "15"},
+    "node.other_key": {"name": "'N'", "written": "'n'"},
     "node.part_of_number": {"name": "str(n)[0]", "written": "str(n)", "form": "[0]"},
     "node.logger_called": {
         "name": "self.get_logger()",

@@ -203,7 +203,7 @@ KINDS = (
     _node(
         "format_value_missing",
         "text",
-        msg("format() has no value for a place of the text"),
+        msg("A place of the text gets no value"),
         OF_FORMAT,
         msg("Give a value for this place in the () of format: {place}"),
         whys={

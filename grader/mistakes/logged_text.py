@@ -16,7 +16,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.mistakes.worked_out import first_of, worked_out
 from grader.package.edit.tree import Replace
-from grader.package.source.one_change import logged_lines
+from grader.package.source.one_change import SEVERAL, logged_lines
 
 ALIKE = 0.7
 
@@ -60,7 +60,8 @@ def _worked_out(suspect: Suspect) -> RecognisedMistake | None:
         plain = isinstance(given.left, ast.Constant | ast.BinOp) and bool(ends)
     found = worked_out("text_elsewhere", "text")(suspect)
     at = found.where.line if found is not None and found.where is not None else None
-    if found is not None and "\\n" in str(found.params["name"]):
+    name = str(found.params["name"]) if found is not None else ""
+    if "\\n" in name or SEVERAL.fullmatch(name):
         return found
     return None if plain and call is not None and at == call.lineno else found
 

@@ -176,7 +176,7 @@ KINDS = (
         fixes={
             "lines": msg(
                 "The line has to be exactly '{line}', with the counter's value as the number. These lines "
-                "make or change what the log line shows: {lines}. Compare what they and the log line "
+                "make a part of what the log line shows: {lines}. Compare what they and the log line "
                 "write with it, character by character."
             ),
             "later": msg(

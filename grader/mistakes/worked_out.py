@@ -203,6 +203,26 @@ KINDS = (
         ),
     ),
     _node(
+        "other_key",
+        "counter",
+        msg("A value is set under one key and read under another"),
+        msg("A dict keeps a value of its own under each key: {name} and {written} are two keys."),
+        INSTEAD,
+        behind=dict.fromkeys(
+            ("run.constant_counter", "run.wrong_step"), worked_out("other_key", "key")
+        ),
+        fixed_by=(node_worked_out.change("key"),),
+        examples=(
+            example(
+                "counts_under_other_key",
+                Replace(NODE, "self.counter_ = 0", "self.data_ = {'n': 0}"),
+                Replace(NODE, "str(self.counter_)", "str(self.data_['n'])"),
+                Replace(NODE, "self.counter_ += 1", "self.data_['N'] = self.data_['n'] + 1"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
         "part_of_number",
         "text",
         msg("Only a part of the number is logged"),

@@ -219,6 +219,23 @@ def _one_character(module: Module, wanted: Wanted, before: Sequence[str]) -> Ite
             yield of_piece(module, "character", node, module.text.code(node.value), form)
 
 
+def _keys(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
+    """Yield another key of the file in place of one that is read or set."""
+    del wanted, before
+    found = []
+    for node in module.nodes:
+        key = node.slice if isinstance(node, ast.Subscript) else None
+        if isinstance(node, ast.Call) and last_part(dotted(node.func)) == "get" and node.args:
+            key = node.args[0]
+        if isinstance(key, ast.Constant) and module.text.plain_string(key) is not None:
+            found.append(key)
+    codes = dict.fromkeys(map(module.text.code, found))
+    for node in sorted(found, key=lambda n: -n.lineno):
+        for other in codes:
+            if ast.literal_eval(other) != node.value:
+                yield of_piece(module, "key", node, other)
+
+
 MORE_SORTS: dict[str, Callable[[Module, Wanted, Sequence[str]], Iterator[Change]]] = {
     "taken": _taken,
     "joined": _joined,
@@ -226,5 +243,6 @@ MORE_SORTS: dict[str, Callable[[Module, Wanted, Sequence[str]], Iterator[Change]
     "anew": _anew,
     "given": _given,
     "name": _other_names,
+    "key": _keys,
     "character": _one_character,
 }

@@ -19,6 +19,7 @@ from grader.package.source.played import played
 TICKS = 12
 MOST_TRIED = 150
 PLACES = re.compile(r"%[-+ 0-9.]*[a-zA-Z]|\{[^{}]*\}")
+SEVERAL = re.compile(r"(?:'[^'\\\n]*'|\"[^\"\\\n]*\")(?: +(?:'[^'\\\n]*'|\"[^\"\\\n]*\"))+")
 SHORTEST = 3  # characters of a part of an f-string that is looked for in a line
 LETTER_METHODS = ("capitalize", "lower", "lstrip", "rstrip", "strip", "title", "upper")
 AS_CODE = ("repr", "ascii")
@@ -91,7 +92,8 @@ def _texts(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Ch
         at = old.find(value)
         if value.endswith("\n") and module.text.code(node).count("\\n") == 1:
             yield of_piece(module, "text", node, module.text.code(node).replace("\\n", ""))
-        if not value or module.text.plain_string(node) is None:
+        plain = module.text.plain_string(node) is not None
+        if not value or not (plain or SEVERAL.fullmatch(module.text.code(node))):
             continue
         for part in PLACES.split(value) if PLACES.search(value) else ():
             yield from _in_format(module, node, part, old, new)

@@ -32,7 +32,8 @@ def traced(source: NodeSource, call: ast.Call) -> list[ast.stmt]:
         trace.look()
         if len(trace.found) == before:
             break
-    own = {n for n in trace.found if any(part is call for part in ast.walk(n))}
+    statements = (n for n in trace.found if not isinstance(n, Function))
+    own = {n for n in statements if any(part is call for part in ast.walk(n))}
     order = {module: at for at, module in enumerate(source.modules)}
     found = trace.found - own
     return sorted(found, key=lambda n: (order[source.module_of(n)], n.lineno, n.col_offset))
