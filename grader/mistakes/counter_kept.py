@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import ast
+import re
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import LOG, NODE, STEP_LINE, example
-from grader.mistakes.fixes import node_worked_out
+from grader.mistakes.fixes import lines, node_words, node_worked_out
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.worked_out import INSTEAD, change_of, first_of, worked_out
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import changes_of, outer_word, parts_of_callback
-from grader.package.source.names import dotted
+from grader.package.source.named_tuples import is_named_tuple
+from grader.package.source.names import called_name, dotted
+from grader.package.source.place import statement_at
 from grader.package.source.plain_counter import plain_start
 
 IMPORTS = "import rclpy\nfrom"
@@ -64,6 +67,33 @@ def _dropped(suspect: Suspect) -> RecognisedMistake | None:
     called = change.written.removesuffix(change.name).removesuffix(" = ")
     found = suspect.finding("result_dropped", change.at, name=change.name, written=change.written)
     return replace(found, words={**found.words, "attribute": called})
+
+
+def _set_in_tuple(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A field of a named tuple is set on the line."""
+    del match
+    statement = statement_at(raised.module, raised.line)
+    if not isinstance(statement, ast.AugAssign) or not isinstance(statement.target, ast.Attribute):
+        return None
+    on, code = dotted(statement.target.value), raised.module.text.code(statement)
+    made = node_words.values_of(raised.source, statement.target.value)
+    classes = {c.name for m in raised.source.modules for c in m.classes if is_named_tuple(c)}
+    classes |= {
+        target.id
+        for n in raised.module.tree.body
+        if isinstance(n, ast.Assign)
+        and isinstance(n.value, ast.Call)
+        and called_name(n.value) == "namedtuple"
+        for target in n.targets
+        if isinstance(target, ast.Name)
+    }
+    is_tuple = made and all(isinstance(v, ast.Call) and called_name(v) in classes for v in made)
+    if not on or not is_tuple or not isinstance(statement.op, ast.Add) or "\n" in code:
+        return None
+    field, value = statement.target.attr, raised.module.text.code(statement.value)
+    written = f"{on} = {on}._replace({field}={on}.{field} + {value})"
+    found = raised.finding("named_tuple_set", at=statement, name=code, written=written)
+    return replace(found, words={**found.words, "attribute": on})
 
 
 def _replace_dropped(suspect: Suspect) -> RecognisedMistake | None:
@@ -214,6 +244,33 @@ KINDS = (
                 ),
                 Replace(NODE, STEP_LINE, ""),
                 fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "named_tuple_set",
+        "counter",
+        msg("A field of a named tuple is set"),
+        msg(
+            "{attribute} is a named tuple, and a tuple cannot be changed. _replace() makes a new one."
+        ),
+        INSTEAD,
+        raised={r"AttributeError: can't set attribute": _set_in_tuple},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "field_of_named_tuple_set",
+                Replace(NODE, IMPORTS, f"from collections import namedtuple\n\n{IMPORTS}"),
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "State = namedtuple('State', 'n')\n\n\nclass MyFirstNode",
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.state = State(0)"),
+                Replace(NODE, "str(self.counter_)", "str(self.state.n)"),
+                Replace(NODE, "self.counter_ += 1", "self.state.n += 1"),
+                fails="run.output",
+                blocks=("run.interrupt",),
             ),
         ),
     ),

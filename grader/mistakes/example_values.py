@@ -656,6 +656,15 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "written": "counted(self.counter)",
         "line": "17",
     },
+    "node.named_tuple_set": {
+        "name": "self.state.n += 1",
+        "written": "self.state = self.state._replace(n=self.state.n + 1)",
+        "attribute": "self.state",
+    },
+    "node.line_made_anew": {
+        "name": "'Hello time: ' + str(n) + str(n)",
+        "written": "f'Hello time: {n}'",
+    },
     "node.number_taken": {"name": "first = next(self.numbers)", "lines": "13-15"},
     "node.join_between": {"name": "'time', ':'", "written": "'time:'", "form": "':'"},
     "node.other_name_shown": {"name": "self.period", "written": "self.counter", "form": "15"},

@@ -74,6 +74,26 @@ def _called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     return raised.finding("logger_called", at=found[0].func, name=code, written=f"{code}.info")
 
 
+def _result_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """What is called on the line is the result of a call of info(), not the method."""
+    del match
+    statement = statement_at(raised.module, raised.line)
+    for call in ast.walk(statement) if statement is not None else ():
+        if not isinstance(call, ast.Call) or not dotted(call.func):
+            continue
+        values = node_words.values_of(raised.source, call.func)
+        value = values[0] if len(values) == 1 else None
+        if not isinstance(value, ast.Call) or called_name(value) not in LOG_METHODS:
+            continue
+        text = raised.source.module_of(value).text
+        code = text.code(value)
+        if "\n" in code or "get_logger" not in code:
+            continue
+        found = raised.finding("logger_called", at=value, name=code, written=text.code(value.func))
+        return replace(found, variant="result")
+    return None
+
+
 def _is_logger(raised: Raised, value: ast.expr) -> bool:
     """Whether a name has only a logger as its value."""
     values = node_words.values_of(raised.source, value) if dotted(value) else []
@@ -189,10 +209,20 @@ KINDS = (
     _node(
         "logger_called",
         "logger",
-        msg("The logger itself is called"),
+        msg("What is called is no method of the logger"),
         msg("A logger is an object. One of its methods, such as info, logs the text that it gets."),
         msg("Write {written}(…) instead of {name}(…)."),
-        raised={r"'RcutilsLogger' object is not callable": _called},
+        raised={
+            r"'RcutilsLogger' object is not callable": _called,
+            r"'(?:bool|NoneType)' object is not callable": _result_called,
+        },
+        whys={
+            "result": msg(
+                "{name} logs a line and gives back no function. The name of a method without () is the "
+                "method itself, which can be called later."
+            )
+        },
+        fixes={"result": msg("Write {written} instead of {name}.")},
         fixed_by=(lines.written,),
         examples=(
             example(

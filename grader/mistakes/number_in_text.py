@@ -41,6 +41,9 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     statement = statement_at(raised.module, raised.line)
     if isinstance(statement, ast.Assign) and text_added(statement):
         return None
+    kept = _kept_as_text(raised, statement)
+    if kept is not None:
+        return kept
     if number_first and statement is not None and _sums(statement):
         return _summed(raised, statement)
     for node in raised.module.nodes:
@@ -66,6 +69,22 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
         return None
     name = raised.module.text.code(added)
     return raised.finding("str_plus_int", at=statement, name=name, written=f"str({name})")
+
+
+def _kept_as_text(raised: Raised, statement: ast.stmt | None) -> RecognisedMistake | None:
+    """A counter that is kept as a text gets a number: `self.n = str(self.n + 1)`."""
+    value = statement.value if isinstance(statement, ast.Assign) else None
+    made = isinstance(value, ast.Call) and dotted(value.func) == "str" and len(value.args) == 1
+    total = value.args[0] if isinstance(value, ast.Call) and made else None
+    if not isinstance(statement, ast.Assign) or not isinstance(total, ast.BinOp):
+        return None
+    name = dotted(total.left)
+    if not isinstance(total.op, ast.Add) or name not in targets_of(statement):
+        return None
+    if not _is_literal(total.right):
+        return None
+    found = raised.finding("str_plus_int", at=total, name=name, written=f"int({name})")
+    return replace(found, variant="kept_text")
 
 
 def _sums(statement: ast.stmt) -> list[ast.Call]:
@@ -145,7 +164,7 @@ def _f_prefix(suspect: Suspect) -> RecognisedMistake | None:
     values = re.findall(r"\{([^{}!:=]{1,80})[!:=]?[^{}]{0,20}\}", suspect.text)
     if all(is_readable(source, module, source.function_around(string), v) for v in values):
         if code[:1] not in ("'", '"'):
-            return suspect.finding("f_prefix", string)
+            return _f_of_part(suspect, string)
         found = suspect.finding("f_prefix", string, name=code, written=f"f{code}")
         return replace(found, variant="written" if len(code) <= MOST_CODE else "")
     given = _given(suspect, string)
@@ -157,6 +176,24 @@ def _f_prefix(suspect: Suspect) -> RecognisedMistake | None:
     name = source.module_of(given).text.code(given)
     found = suspect.finding("f_prefix", given, name=name, written=f"f{code}")
     return replace(found, variant="elsewhere")
+
+
+def _f_of_part(suspect: Suspect, string: ast.Constant) -> RecognisedMistake | None:
+    """Name the only string with braces that has no f, of several beside each other."""
+    module = suspect.source.module_of(string)
+    last = string.end_lineno or string.lineno
+    found = [
+        (row, part)
+        for row in range(string.lineno, last + 1)
+        for part in re.findall(r"(?<![\w'\"])(?:'[^'\\]*'|\"[^\"\\]*\")", module.line(row))
+        if re.search(r"\{[^{}]+\}", part)
+    ]
+    if len(found) != 1:
+        return None
+    row, part = found[0]
+    place = Where(file=module.path, line=row)
+    mistake = suspect.finding("f_prefix", place, name=part, written=f"f{part}")
+    return replace(mistake, variant="part")
 
 
 def _given(suspect: Suspect, string: ast.Constant) -> ast.expr | None:
@@ -465,12 +502,18 @@ KINDS = (
         links.PYTHON_STRINGS,
         whys={
             "late": msg("Python makes the string first, and then adds a number to it."),
+            "kept_text": msg(
+                "{name} is a string here: Python's + joins a string only with another one."
+            ),
             "summed": msg(
                 "sum() begins with the number 0 and adds each part to it, so it cannot add a string."
             ),
         },
         fixes={
             "late": msg("Write {written} instead of {name}, so that the numbers are added first."),
+            "kept_text": msg(
+                "Write {written} instead of {name}: int() makes a number of the string."
+            ),
             "summed": msg(
                 "{name} gets a string. To join strings, use ''.join() instead of sum(): all its parts "
                 "must be strings, and str() makes one of a number. To add numbers, give sum() only "
@@ -595,8 +638,14 @@ KINDS = (
         msg("Python replaces {{…}} with a value only in a string that begins with f."),
         msg("Write an f before the first quote: {f_string}"),
         links.PYTHON_STRINGS,
+        whys={
+            "part": msg(
+                "Of several strings beside each other, each one with {{…}} needs an f of its own."
+            )
+        },
         fixes={
             "written": msg("Write an f before the first quote: {written}"),
+            "part": msg("Write {written} instead of {name}."),
             "elsewhere": msg(
                 "Write {written} instead of {name} in this line: an f-string reads its values where it "
                 "is written."

@@ -171,15 +171,6 @@ KINDS = (
                 ),
                 fails="run.output",
             ),
-            example(
-                "join_without_blank",
-                Replace(
-                    NODE,
-                    "'Hello time: ' + str(self.counter_)",
-                    "''.join(['Hello time:', str(self.counter_)])",
-                ),
-                fails="run.output",
-            ),
         ),
     ),
     _node(

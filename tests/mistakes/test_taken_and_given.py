@@ -250,3 +250,120 @@ def test_the_logger_is_no_function() -> None:
         "TypeError: 'RcutilsLogger' object is not callable", text, line_of(text, "get_logger")
     )
     assert fix_of(found) == "Write self.get_logger().info(…) instead of self.get_logger()(…)."
+
+
+def test_each_string_needs_its_own_f() -> None:
+    text = changed(
+        (
+            LOG,
+            "text = (f'Hello '\n                'time: {self.counter_}')\n        self.get_logger().info(text)",
+        )
+    )
+    suspect = Suspect(node_in(text), ASSIGNMENT, "Hello time: {self.counter_}")
+    found = behind_symptom("run.wrong_text", suspect)
+    assert found is not None
+    assert found.where is not None
+    assert found.where.line == line_of(text, "'time: {")
+    assert fix_of(found) == "Write f'time: {self.counter_}' instead of 'time: {self.counter_}'."
+
+
+def test_a_counter_that_is_kept_as_text_is_made_a_number() -> None:
+    text = changed(
+        (START, "        self.counter_ = '0'\n"),
+        (STEP, "        self.counter_ = str(self.counter_ + 1)\n"),
+    )
+    error = 'TypeError: can only concatenate str (not "int") to str'
+    assert fix_of(raised(error, text, line_of(text, "str(self.counter_ + 1)"))).startswith(
+        "Write int(self.counter_) instead of self.counter_:"
+    )
+
+
+def test_a_variable_that_a_method_declares_is_not_its_own() -> None:
+    reset = "global counter\n        counter = 0\n        "
+    text = changed(
+        (CLASS, f"counter = 0\n\n\n{CLASS}"),
+        (LOG, f"{reset}self.get_logger().info(f'Hello time: {{counter}}')"),
+        (STEP, "        counter += 1\n"),
+    )
+    found = look("run.constant_counter", text)
+    assert found is not None
+    assert found.variant == "file_there"
+    assert fix_of(found).startswith("Delete this line: line ")
+
+
+def test_the_result_of_info_is_no_function() -> None:
+    text = changed(
+        (START, f"{START}        self.log_ = self.get_logger().info('start')\n"),
+        (LOG, f"self.log_({TEXT})"),
+    )
+    found = raised(
+        "TypeError: 'bool' object is not callable", text, line_of(text, "self.log_('Hello")
+    )
+    assert fix_of(found) == (
+        "Write self.get_logger().info instead of self.get_logger().info('start')."
+    )
+
+
+@pytest.mark.parametrize(
+    ("symptom", "text"),
+    [
+        ("run.wrong_text", "f'Hello time: {self.counter_} {self.counter_ + 1}'"),
+        ("run.wrong_text", "f'Hello time: {self.counter_ / 1:.0f}s'"),
+    ],
+)
+def test_a_line_of_other_parts_is_written_anew(symptom: str, text: str) -> None:
+    fix = fix_of(found_in(symptom, changed((TEXT, text))))
+    assert fix == f"Write f'Hello time: {{self.counter_}}' instead of {text}."
+
+
+@pytest.mark.parametrize(
+    ("start", "shown", "step", "fix"),
+    [
+        (
+            "self.d = dict(n=1)",
+            "'Hello time: {n}'.format(**self.d)",
+            "self.d['n'] += 1",
+            "self.d = dict(n=0)",
+        ),
+        (
+            "self.declare_parameter('start', 1)\n        self.n = self.get_parameter('start').value",
+            "'Hello time: ' + str(self.n)",
+            "self.n += 1",
+            "self.declare_parameter('start', 0)",
+        ),
+    ],
+)
+def test_a_first_value_is_found_where_it_is_written(
+    start: str, shown: str, step: str, fix: str
+) -> None:
+    text = changed((START, f"        {start}\n"), (TEXT, shown), (STEP, f"        {step}\n"))
+    assert fix_of(found_in("run.wrong_start", text)).startswith(f"Write {fix} instead of")
+
+
+def test_the_item_of_a_default_is_returned_before_it_grows() -> None:
+    text = changed(
+        (CLASS, f"def counted(n=[0]):\n    n[0] += 1\n    return n[0]\n\n\n{CLASS}"),
+        (TEXT, "'Hello time: %s' % counted()"),
+        (STEP, ""),
+    )
+    assert "number = n[0]; n[0] += 1; return number" in fix_of(found_in("run.wrong_start", text))
+
+
+def test_a_field_of_a_named_tuple_is_not_set() -> None:
+    text = changed(
+        (IMPORT, POINT),
+        (CLASS, f"S = namedtuple('S', 'n')\n\n\n{CLASS}"),
+        (START, "        self.s = S(0)\n"),
+        (TEXT, "'Hello time: ' + str(self.s.n)"),
+        (STEP, "        self.s.n += 1\n"),
+    )
+    found = raised("AttributeError: can't set attribute", text, line_of(text, "self.s.n += 1"))
+    assert (
+        fix_of(found) == "Write self.s = self.s._replace(n=self.s.n + 1) instead of self.s.n += 1."
+    )
+
+
+def test_a_first_value_that_a_helper_returns_is_found() -> None:
+    helper = "    def first(self):\n        return 1\n\n    def timer_callback"
+    text = changed((START, START.replace("0", "self.first()")), ("    def timer_callback", helper))
+    assert fix_of(found_in("run.wrong_start", text)) == "Write return 0 instead of return 1."

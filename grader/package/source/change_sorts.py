@@ -10,6 +10,7 @@ from grader.package.source.change import Change, Wanted, additions, of_piece
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function, Module
 from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.node import LOG_METHODS
 from grader.package.source.place import block_of
 
 NAMES = ("self.counter", "self.counter_", "self.count_of_lines")
@@ -236,6 +237,29 @@ def _keys(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Cha
                 yield of_piece(module, "key", node, other)
 
 
+def _whole(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
+    """Yield an f-string with the required text and one value in place of all that a logger gets."""
+    del before
+    text = module.text
+    head, found, tail = wanted.lines[0].rpartition(str(wanted.start))
+    if not found or set(head + tail) & set("{}'\\"):
+        return
+    for call, called in calls_in(module.tree):
+        given = call.args[0] if len(call.args) == 1 and not call.keywords else None
+        made = isinstance(given, ast.JoinedStr | ast.BinOp | ast.Call)
+        if last_part(called) not in LOG_METHODS or given is None or not made:
+            continue
+        if "\n" in text.code(given):
+            continue
+        values = [
+            n for n in ast.walk(given) if isinstance(n, ast.Attribute | ast.Name | ast.Subscript)
+        ]
+        values = [n for n in values if isinstance(n.ctx, ast.Load)]
+        for code in dict.fromkeys(text.code(n) for n in values):
+            if code and not set(code) & set("'\"{}\\") and code != "self":
+                yield of_piece(module, "whole", given, f"f'{head}{{{code}}}{tail}'")
+
+
 MORE_SORTS: dict[str, Callable[[Module, Wanted, Sequence[str]], Iterator[Change]]] = {
     "taken": _taken,
     "joined": _joined,
@@ -244,5 +268,6 @@ MORE_SORTS: dict[str, Callable[[Module, Wanted, Sequence[str]], Iterator[Change]
     "given": _given,
     "name": _other_names,
     "key": _keys,
+    "whole": _whole,
     "character": _one_character,
 }

@@ -189,9 +189,17 @@ def _firsts(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[C
         if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
             inside = node.value.values if isinstance(node.value, ast.Dict) else [node.value]
             inside = node.value.elts if isinstance(node.value, ast.List) else inside
+            if isinstance(node.value, ast.Call) and dotted(node.value.func) == "dict":
+                inside = [keyword.value for keyword in node.value.keywords]
             if isinstance(node.value, ast.List) and wanted.start == 0 and node.value.elts:
                 yield _within(module, "first", node, node.value, "[]")
             for part in (part for part in inside if _number(part) is not None):
+                yield _within(module, "first", node, part, str(wanted.start))
+        elif isinstance(node, ast.Return) and node.value is not None:
+            if _number(node.value) is not None:
+                yield _within(module, "first", node, node.value, str(wanted.start))
+        elif isinstance(node, ast.Call) and called_name(node) == "declare_parameter":
+            for part in (part for part in node.args[1:2] if _number(part) is not None):
                 yield _within(module, "first", node, part, str(wanted.start))
         elif isinstance(node, ast.Call) and called_name(node) == "count":
             for part in [*node.args[:1], *(k.value for k in node.keywords if k.arg == "start")]:
@@ -273,8 +281,12 @@ def _returned(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator
         if text.line(node.lineno).partition("#")[0].strip() != text.code(node):
             continue
         kept = "number" if "number" not in module.names else "before"
+        target = node.target if isinstance(node, ast.AugAssign) else None
+        name = text.code(target) if isinstance(target, ast.Subscript) else name
         spans = [
-            text.span(n) for n in ast.walk(value) if isinstance(n, ast.expr) and dotted(n) == name
+            text.span(n)
+            for n in ast.walk(value)
+            if isinstance(n, ast.expr) and text.code(n) == name
         ]
         code, first = text.code(value), text.span(value)[0]
         if (

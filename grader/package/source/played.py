@@ -135,6 +135,11 @@ class _Logger:
 
 
 @dataclass(frozen=True)
+class _Parameter:
+    value: object
+
+
+@dataclass(frozen=True)
 class _Log:
     level: str
 
@@ -182,6 +187,7 @@ class _Player:
         self.classes = {n.name: n for n in module.body if isinstance(n, ast.ClassDef)}
         self.of_class: dict[ast.ClassDef, dict[str, object]] = {}
         self.defaults: dict[ast.expr, object] = {}
+        self.parameters: dict[str, object] = {}
 
     def lines(self, function: str, ticks: int) -> list[Line]:
         for statement in self.module.body:
@@ -459,6 +465,8 @@ class _Player:
                 if name in self.of_class.get(found, {}):
                     return self.of_class[found][name]
             return UNKNOWN
+        if isinstance(of, _Parameter):
+            return of.value if name == "value" else UNKNOWN
         if isinstance(of, _Logger):
             return _Log(name) if name in LOG_METHODS else UNKNOWN
         if isinstance(of, _Named):
@@ -507,7 +515,13 @@ class _Player:
             return self.base_of(scope)
         function = self.value(node.func, scope)
         given = self.several(ast.List(node.args), scope)
-        named = {k.arg or "": self.value(k.value, scope) for k in node.keywords}
+        named: dict[str, object] = {}
+        for keyword in node.keywords:
+            value = self.value(keyword.value, scope)
+            if keyword.arg is None and isinstance(value, dict):
+                named |= value if all(isinstance(key, str) for key in value) else {"": value}
+            else:
+                named[keyword.arg or ""] = value
         if not isinstance(given, list) or "" in named:
             return UNKNOWN
         if isinstance(function, _Log):
@@ -638,6 +652,13 @@ class _Player:
             return [self.python(done, value) for value in values]
         if name == "range" and given and all(type(v) is int for v in given):
             return self.python(lambda *ends: list(range(*ends)[: LONGEST + 1]), *given)
+        if name == "dict" and not given:
+            return dict(named)
+        if name == "self.declare_parameter" and len(given) == 2 and isinstance(first, str):
+            self.parameters[first] = given[1]
+            return UNKNOWN
+        if name == "self.get_parameter" and first in self.parameters:
+            return _Parameter(self.parameters[str(first)])
         if name.rpartition(".")[2] == "namedtuple" and not named:
             made = named_tuple(given)
             return _Class(made) if made is not None else UNKNOWN
