@@ -387,7 +387,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.called_by_hand": {"written": "self.create_timer(0.5, self.callback)"},
     "node.counts_elsewhere": {"name": "self.counter", "other": "count"},
     "node.property_set": {"name": "counter", "written": "self._counter", "line": "15"},
-    "node.str_plus_int": {"name": "self.counter", "written": "str(self.counter)"},
+    "node.str_plus_int": {
+        "name": "self.counter",
+        "written": "str(self.counter)",
+        "attribute": "self.counter",
+    },
     "node.step_is_text": COUNTER,
     "node.plus_reversed": COUNTER,
     "node.counter_not_increased": {**COUNTER, "word": "global", "function": CALLBACK},

@@ -83,8 +83,11 @@ def _kept_as_text(raised: Raised, statement: ast.stmt | None) -> RecognisedMista
         return None
     if not _is_literal(total.right):
         return None
-    found = raised.finding("str_plus_int", at=total, name=name, written=f"int({name})")
-    return replace(found, variant="kept_text")
+    code, added = raised.module.text.code(total), raised.module.text.code(total.right)
+    if "\n" in code:
+        return None
+    found = raised.finding("str_plus_int", at=total, name=code, written=f"int({name}) + {added}")
+    return replace(found, words={**found.words, "attribute": name}, variant="kept_text")
 
 
 def _sums(statement: ast.stmt) -> list[ast.Call]:
@@ -503,7 +506,7 @@ KINDS = (
         whys={
             "late": msg("Python makes the string first, and then adds a number to it."),
             "kept_text": msg(
-                "{name} is a string here: Python's + joins a string only with another one."
+                "{attribute} is a string here: Python's + joins a string only with another one."
             ),
             "summed": msg(
                 "sum() begins with the number 0 and adds each part to it, so it cannot add a string."

@@ -274,7 +274,7 @@ def test_a_counter_that_is_kept_as_text_is_made_a_number() -> None:
     )
     error = 'TypeError: can only concatenate str (not "int") to str'
     assert fix_of(raised(error, text, line_of(text, "str(self.counter_ + 1)"))).startswith(
-        "Write int(self.counter_) instead of self.counter_:"
+        "Write int(self.counter_) + 1 instead of self.counter_ + 1:"
     )
 
 
