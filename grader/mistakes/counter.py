@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Mapping
 from dataclasses import replace
 
-from grader.base.i18n.message import msg
+from grader.base.i18n.message import Value, msg
 from grader.mistakes import links
 from grader.mistakes.counted import counter_in, text_added
 from grader.mistakes.example import LOG_LINE, NODE, STEP_LINE, example
@@ -14,7 +15,7 @@ from grader.mistakes.fixes import lines, node_count, node_worked_out
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
-from grader.mistakes.worked_out import INSTEAD, first_of, worked_out
+from grader.mistakes.worked_out import INSTEAD, change_of, first_of, worked_out
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.asked_attribute import never_there
@@ -26,10 +27,11 @@ from grader.package.source.counter import (
     starts_of,
     targets_of,
 )
-from grader.package.source.module import Function
+from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, last_part
 from grader.package.source.plain_counter import plain_start
 
+SET_AGAIN = msg("This line sets {name} to {value} again in each call.")
 SUM = ast.Add | ast.Sub
 MODULO = msg(
     "% {form} gives the rest of a division by {form}: after the numbers below {form} comes 0 again."
@@ -95,11 +97,24 @@ def _in_variable(
     module = suspect.source.module_of(around)
     scope = next((n for n in module.around(around) if isinstance(n, Function | ast.Module)), None)
     words = {**found.words, "function": around.name}
+    declared = declares(around, str(found.words["name"]))
+    if declared and around in suspect.source.own_methods:
+        return _in_declared(module, found, words)
     if around in suspect.source.own_methods:
         return replace(found, words=words, variant="local")
     words["word"] = "nonlocal" if isinstance(scope, Function) else "global"
-    declared = declares(around, str(found.words["name"]))
     return replace(found, words=words, variant="declared" if declared else "outside")
+
+
+def _in_declared(
+    module: Module, found: RecognisedMistake, words: Mapping[str, Value]
+) -> RecognisedMistake:
+    """Say where a variable of the file, which a method declares with global, has its first value."""
+    name = str(found.words["name"])
+    firsts = [n for n in module.tree.body if name in targets_of(n)]
+    if not firsts:
+        return replace(found, words=words, variant="file")
+    return replace(found, words={**words, "first": str(firsts[0].lineno)}, variant="file_there")
 
 
 def _in_callback(
@@ -183,7 +198,7 @@ def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
         return None
     if any(not _is_under_if(suspect, node) for node in counter.set):
         return None
-    if _changes_elsewhere(suspect, counter.name):
+    if _changes_elsewhere(suspect, counter.name) or change_of(suspect, "name") is not None:
         return None
     found = suspect.finding("counter_not_increased", counter.logged, name=counter.name)
     around = source.function_around(counter.logged)
@@ -326,6 +341,8 @@ KINDS = (
                 "{name} is a variable of {function}: each call creates it again, with the value "
                 "{value}."
             ),
+            "file": SET_AGAIN,
+            "file_there": SET_AGAIN,
             "if": msg("Each time the condition above this line is true, {name} starts again."),
             "always": ALWAYS,
             "always_there": ALWAYS,
@@ -348,6 +365,10 @@ KINDS = (
                 "Move {name} = {value} to the line above def {function}, with the same indentation as "
                 "that def."
             ),
+            "file": msg(
+                "Move {name} = {value} out of the class, to a line of its own below the imports."
+            ),
+            "file_there": SET_ALREADY,
             "if": ONLY_DELETE,
             "always": msg("Move {name} = {value} to __init__."),
             "there": SET_ALREADY,
@@ -360,7 +381,7 @@ KINDS = (
             "modulo": INSTEAD,
             "modulo_line": ONLY_DELETE,
         },
-        deletes=("", "local", "if", "there", "always", "always_there", "modulo_line"),
+        deletes=("", "local", "if", "file_there", "there", "always", "always_there", "modulo_line"),
         behind={"run.constant_counter": _reset, "run.wrong_step": first_of(_reset_if, _modulo)},
         fixed_by=(node_worked_out.change("modulo"), node_count.kept, node_count.moved),
         examples=(

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import ast
+import re
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import LOG, NODE, STEP_LINE, example
-from grader.mistakes.fixes import node_worked_out
+from grader.mistakes.fixes import lines, node_words, node_worked_out
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.worked_out import INSTEAD, change_of, first_of, worked_out
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import changes_of, outer_word, parts_of_callback
-from grader.package.source.names import dotted
+from grader.package.source.named_tuples import is_named_tuple
+from grader.package.source.names import called_name, dotted
+from grader.package.source.place import statement_at
 from grader.package.source.plain_counter import plain_start
 
 IMPORTS = "import rclpy\nfrom"
@@ -64,6 +67,75 @@ def _dropped(suspect: Suspect) -> RecognisedMistake | None:
     called = change.written.removesuffix(change.name).removesuffix(" = ")
     found = suspect.finding("result_dropped", change.at, name=change.name, written=change.written)
     return replace(found, words={**found.words, "attribute": called})
+
+
+def _set_in_tuple(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A field of a named tuple is set on the line."""
+    del match
+    statement = statement_at(raised.module, raised.line)
+    if not isinstance(statement, ast.AugAssign) or not isinstance(statement.target, ast.Attribute):
+        return None
+    on, code = dotted(statement.target.value), raised.module.text.code(statement)
+    made = node_words.values_of(raised.source, statement.target.value)
+    classes = {c.name for m in raised.source.modules for c in m.classes if is_named_tuple(c)}
+    classes |= {
+        target.id
+        for n in raised.module.tree.body
+        if isinstance(n, ast.Assign)
+        and isinstance(n.value, ast.Call)
+        and called_name(n.value) == "namedtuple"
+        for target in n.targets
+        if isinstance(target, ast.Name)
+    }
+    is_tuple = made and all(isinstance(v, ast.Call) and called_name(v) in classes for v in made)
+    if not on or not is_tuple or not isinstance(statement.op, ast.Add) or "\n" in code:
+        return None
+    field, value = statement.target.attr, raised.module.text.code(statement.value)
+    written = f"{on} = {on}._replace({field}={on}.{field} + {value})"
+    found = raised.finding("named_tuple_set", at=statement, name=code, written=written)
+    return replace(found, words={**found.words, "attribute": on})
+
+
+def _replace_dropped(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a line that only calls _replace(): it changes nothing, whatever else the file does."""
+    for part in parts_of_callback(suspect.source):
+        module = suspect.source.module_of(part)
+        for node in ast.walk(part):
+            call = node.value if isinstance(node, ast.Expr) else None
+            if not isinstance(node, ast.Expr) or not isinstance(call, ast.Call):
+                continue
+            if not isinstance(call.func, ast.Attribute):
+                continue
+            on, code = dotted(call.func.value), module.text.code(call)
+            if call.func.attr == "_replace" and on and "(" not in on and "\n" not in code:
+                found = suspect.finding("result_dropped", node, name=code, written=f"{on} = {code}")
+                return replace(found, words={**found.words, "attribute": on})
+    return None
+
+
+def _taken(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a line that takes a number from the iterator, which is not logged."""
+    change = change_of(suspect, "taken")
+    if change is None:
+        return None
+    found = suspect.finding("number_taken", change.at, name=change.name)
+    return replace(
+        found, words={**found.words, "lines": change.form}, variant="uses" if change.form else ""
+    )
+
+
+def _fresh(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a call whose function counts in a parameter that has a default."""
+    change = change_of(suspect, "fresh")
+    if change is not None:
+        words = {"number": change.form, "attribute": change.written, "line": str(change.at.lineno)}
+        found = suspect.finding("default_counts", change.at, name=change.name)
+        return replace(found, words={**found.words, **words, "start": str(suspect.output.start)})
+    change = change_of(suspect, "given")
+    if change is None:
+        return None
+    found = suspect.finding("default_counts", change.at, name=change.name, written=change.written)
+    return replace(found, words={**found.words, "number": change.form}, variant="given")
 
 
 def _next_twice(suspect: Suspect) -> RecognisedMistake | None:
@@ -118,7 +190,10 @@ KINDS = (
             "nowhere."
         ),
         INSTEAD,
-        behind={"run.constant_counter": _dropped, "run.wrong_text": _dropped},
+        behind={
+            "run.constant_counter": first_of(_dropped, _replace_dropped),
+            "run.wrong_text": _dropped,
+        },
         fixed_by=(node_worked_out.change("kept"),),
         examples=(
             example(
@@ -168,6 +243,109 @@ KINDS = (
                     "            self.get_logger().info(f'Hello time: {next(self.counter_)}')",
                 ),
                 Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "named_tuple_set",
+        "counter",
+        msg("A field of a named tuple is set"),
+        msg(
+            "{attribute} is a named tuple, and a tuple cannot be changed. _replace() makes a new one."
+        ),
+        INSTEAD,
+        raised={r"AttributeError: can't set attribute": _set_in_tuple},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "field_of_named_tuple_set",
+                Replace(NODE, IMPORTS, f"from collections import namedtuple\n\n{IMPORTS}"),
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "State = namedtuple('State', 'n')\n\n\nclass MyFirstNode",
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.state = State(0)"),
+                Replace(NODE, "str(self.counter_)", "str(self.state.n)"),
+                Replace(NODE, "self.counter_ += 1", "self.state.n += 1"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+        ),
+    ),
+    _node(
+        "number_taken",
+        "counter",
+        msg("A number is taken from the iterator before the first line"),
+        msg(
+            "next() does not only look: it takes the number out. The first line gets the one after it."
+        ),
+        msg("Delete this line: {name}"),
+        fixes={"uses": msg("Delete this line and what uses its number (lines {lines}): {name}")},
+        behind={"run.wrong_start": _taken},
+        fixed_by=(node_worked_out.change("taken"),),
+        examples=(
+            example(
+                "first_number_looked_at",
+                Replace(NODE, IMPORTS, f"import itertools\n\n{IMPORTS}"),
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "self.counter_ = itertools.count()\n"
+                    "        first = next(self.counter_)\n"
+                    "        if first != 0:\n"
+                    "            raise ValueError('has to start at 0')",
+                ),
+                Replace(NODE, "str(self.counter_)", "str(next(self.counter_))"),
+                Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "default_counts",
+        "counter",
+        msg("A parameter begins with its default value in each call"),
+        msg(
+            "The parameter {number} is a new variable in each call: a call that gives it no value "
+            "begins with the default again. What the function adds to it is gone when it ends."
+        ),
+        msg(
+            "Keep the count on the node. In __init__, write {attribute} = {start} below "
+            "super().__init__. In line {line}, write {attribute} instead of {name}. Below the statement "
+            "that logs, write {attribute} += {step}"
+        ),
+        fixes={"given": msg("Give the counter to the call: write {written} instead of {name}.")},
+        whys={
+            "given": msg(
+                "A call that gives the parameter {number} no value uses its default, each time the same."
+            )
+        },
+        behind=dict.fromkeys(("run.constant_counter", "run.wrong_step"), _fresh),
+        fixed_by=(node_worked_out.change("fresh", "given"),),
+        examples=(
+            example(
+                "default_as_counter",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "def counted(n=0):\n    now = n\n    n = n + 1\n    return now\n\n\n"
+                    "class MyFirstNode",
+                ),
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(NODE, "str(self.counter_)", "str(counted())"),
+                Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
+            ),
+            example(
+                "default_of_helper_used",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "def one_more(n=0):\n    return n + 1\n\n\nclass MyFirstNode",
+                ),
+                Replace(NODE, "self.counter_ += 1", "self.counter_ = one_more()"),
                 fails="run.output",
             ),
         ),

@@ -60,7 +60,10 @@ def _added_before(suspect: Suspect) -> RecognisedMistake | None:
     found = suspect.finding("adds_before_log", change.at, name=change.name)
     if change.sort == "before":
         words = {**found.words, "written": change.name, "line": change.written}
-        return replace(found, words=words)
+        module = suspect.source.module_of(change.at)
+        yields = any(isinstance(n, ast.Yield) and str(n.lineno) == change.written
+                     for n in module.nodes)  # fmt: skip
+        return replace(found, words=words, variant="yields" if yields else "")
     around = suspect.source.function_around(change.at)
     function = around.name if around is not None else ""
     words = {**found.words, "written": change.written, "function": function}
@@ -154,6 +157,10 @@ KINDS = (
                 "Move this line ({written}) below line {line}, which logs: log first, and then count. "
                 "In line {first}, write {start} as the first value of {name}."
             ),
+            "yields": msg(
+                "Move this line ({written}) below line {line}: yield the number first, and then count. "
+                "Then the first line shows {start}."
+            ),
             "returned": msg(
                 "{function} adds to {name} before it returns the number. Keep the old value "
                 "first, and return that: {written}"
@@ -161,7 +168,7 @@ KINDS = (
         },
         behind={"run.wrong_start": first_of(_adds_before_log, _added_before)},
         fixed_by=(node_count.start, node_worked_out.change("before", "returned")),
-        deletes=("", "other"),
+        deletes=("", "other", "yields"),
         examples=(
             example(
                 "adds_before_logging",

@@ -12,7 +12,7 @@ from grader.base.i18n.message import msg
 from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, example
-from grader.mistakes.fixes import lines
+from grader.mistakes.fixes import lines, node_words
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
@@ -25,6 +25,7 @@ from grader.package.source.readable import is_readable
 NO_KEY = r"KeyError: (?P<name>'[^'\n]{1,120}'|\"[^\"\n]{1,120}\")"
 NO_INDEX = r"IndexError: Replacement index \d{1,9} out of range"
 TEXT = "'Hello time: ' + str(self.counter_)"
+MOST_CODE = 80  # characters of a piece of code that a text shows
 
 
 @dataclass(frozen=True)
@@ -145,6 +146,33 @@ def _of_percent(raised: Raised, name: str) -> RecognisedMistake | None:
             )
             words = {**found.words, "place": f"%({name})"}
             return replace(found, words=words, variant="key")
+    return _of_mapping(raised, name)
+
+
+def _of_mapping(raised: Raised, name: str) -> RecognisedMistake | None:
+    """A text with %(name)d, or one for format_map(), gets values of which none has this name."""
+    statement = statement_at(raised.module, raised.line)
+    for part in ast.walk(statement) if statement is not None else ():
+        made, given, place = None, None, f"{{{name}}}"
+        if isinstance(part, ast.BinOp) and isinstance(part.op, ast.Mod):
+            made, given, place = part.left, part.right, f"%({name})"
+        elif isinstance(part, ast.Call) and called_name(part) == "format_map" and part.args:
+            made = part.func.value if isinstance(part.func, ast.Attribute) else None
+            given = part.args[0]
+        if made is None or given is None or not isinstance(part, ast.expr):
+            continue
+        texts = [getattr(v, "value", None) for v in node_words.values_of(raised.source, made)]
+        code = raised.module.text.code(given)
+        pattern = rf"%\({re.escape(name)}\)|\{{{re.escape(name)}[}}!:.\[]"
+        is_text = len(texts) == 1 and isinstance(texts[0], str) and re.search(pattern, texts[0])
+        if not is_text or "\n" in code or len(code) > MOST_CODE:
+            continue
+        found = raised.finding("format_value_missing", at=part, name=code)
+        words = {**found.words, "place": place, "key": repr(name)}
+        known = [v for v in node_words.values_of(raised.source, given) if isinstance(v, ast.Dict)]
+        keys = _keys(raised.module, known[0]) if len(known) == 1 else None
+        words["found"] = keys[0] if keys is not None and len(keys) == 1 else ""
+        return replace(found, words=words, variant="one_key" if words["found"] else "mapping")
     return None
 
 
@@ -170,11 +198,12 @@ OF_FORMAT = msg(
     "format() puts the values of its () in the places of the text. A place with a name needs "
     "name=value in the (), and {{}} takes the next value."
 )
+MAPPING = msg("{place} takes the value that {name} has under this name. It has none.")
 KINDS = (
     _node(
         "format_value_missing",
         "text",
-        msg("format() has no value for a place of the text"),
+        msg("A place of the text gets no value"),
         OF_FORMAT,
         msg("Give a value for this place in the () of format: {place}"),
         whys={
@@ -186,6 +215,8 @@ KINDS = (
             "highest": msg("format() counts its values from 0: {{0}} is the first one."),
             "too_many": msg("Each {{}} of the text takes one value of the () of format."),
             "key": msg("{place} takes the value that the dict has under this name."),
+            "mapping": MAPPING,
+            "one_key": MAPPING,
         },
         fixes={
             "f_string": msg("Write an f-string: {written} instead of {name}"),
@@ -207,6 +238,14 @@ KINDS = (
                 "format for each place, or delete the places that are too many."
             ),
             "key": msg("Write {written} instead of {name} in the dict."),
+            "one_key": msg(
+                "{name} has only the key {found}. Write this name in {place} of the text; or use the key "
+                "{key} wherever {found} is used."
+            ),
+            "mapping": msg(
+                "Write in {place} of the text a name that {name} has; or give {name} a value under the "
+                "name {key} before this line."
+            ),
         },
         raised={NO_KEY: _named, NO_INDEX: _numbered},
         fixed_by=(lines.written,),
@@ -232,6 +271,21 @@ KINDS = (
             example(
                 "format_with_name_and_no_keyword",
                 Replace(NODE, TEXT, "'Hello time: {counter}'.format(self.counter_)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "percent_of_other_key",
+                Replace(
+                    NODE, "class MyFirstNode", "FORM = 'Hello time: %(n)d'\n\n\nclass MyFirstNode"
+                ),
+                Replace(NODE, TEXT, "FORM % {'count': self.counter_}"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "format_map_of_other_key",
+                Replace(NODE, TEXT, "'Hello time: {n}'.format_map(vars(self))"),
                 fails="run.output",
                 blocks=DEAD,
             ),

@@ -199,7 +199,5 @@ KINDS = (
             )
         },
         raised={MISSING: _missing, ATTRIBUTE: _attribute},
-        examples=(
-        ),
     ),
 )

@@ -168,6 +168,8 @@ def _next(source: NodeSource) -> ast.Call | None:
 
 def _used_up(suspect: Suspect) -> RecognisedMistake | None:
     call = _next(suspect.source)
+    if call is not None and len(call.args) > 1:
+        return None  # (with a second value, next() raises no StopIteration)
     return suspect.finding("iterator_ended", call) if call is not None else None
 
 
@@ -175,6 +177,20 @@ def _used_up_raised(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
     del match
     call = _next(raised.source)
     return raised.finding("iterator_ended", at=call) if call is not None else None
+
+
+def _used_up_default(suspect: Suspect) -> RecognisedMistake | None:
+    """The line has the second value of next(), which stands for a number that is not there."""
+    head, tail = suspect.output.text.split("{n}")
+    calls = [c for c in suspect.source.calls_of("next") if len(c.args) == 2]
+    given = calls[0].args[1] if len(calls) == 1 else None
+    if not isinstance(given, ast.Constant) or isinstance(given.value, bytes):
+        return None
+    if suspect.text != f"{head}{given.value}{tail}":
+        return None
+    found = suspect.finding("iterator_ended", calls[0])
+    words = {**found.words, "value": repr(given.value)}
+    return replace(found, words=words, variant="default")
 
 
 def _elsewhere(suspect: Suspect) -> RecognisedMistake | None:
@@ -522,7 +538,16 @@ KINDS = (
         msg("next() raises StopIteration when the iterator has no more values, and the node ends."),
         msg("Count with a number: begin with {start}, and add {step} after each line."),
         raised={r"StopIteration": _used_up_raised},
-        behind={"run.stops": _used_up, "run.ended_early": _used_up},
+        behind={
+            "run.stops": _used_up,
+            "run.ended_early": _used_up,
+            "run.wrong_text": _used_up_default,
+        },
+        whys={
+            "default": msg(
+                "When the iterator has no more values, next() gives its second value instead: {value}."
+            )
+        },
         examples=(
             example(
                 "iterator_ended",

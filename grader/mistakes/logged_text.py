@@ -16,7 +16,8 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.mistakes.worked_out import first_of, worked_out
 from grader.package.edit.tree import Replace
-from grader.package.source.one_change import logged_lines
+from grader.package.source.names import dotted
+from grader.package.source.one_change import SEVERAL, logged_lines
 
 ALIKE = 0.7
 
@@ -60,7 +61,8 @@ def _worked_out(suspect: Suspect) -> RecognisedMistake | None:
         plain = isinstance(given.left, ast.Constant | ast.BinOp) and bool(ends)
     found = worked_out("text_elsewhere", "text")(suspect)
     at = found.where.line if found is not None and found.where is not None else None
-    if found is not None and "\\n" in str(found.params["name"]):
+    name = str(found.params["name"]) if found is not None else ""
+    if "\\n" in name or SEVERAL.fullmatch(name):
         return found
     return None if plain and call is not None and at == call.lineno else found
 
@@ -73,6 +75,28 @@ def _kept(suspect: Suspect) -> RecognisedMistake | None:
     found = suspect.finding("text_kept", suspect.place)
     line = suspect.place.line if suspect.place is not None else None
     return replace(found, words={**found.words, "line": str(line)}, variant="line" if line else "")
+
+
+def _made_anew(suspect: Suspect) -> RecognisedMistake | None:
+    """Write the whole text anew where more than the text around one plain value is wrong."""
+    call = suspect.source.log_call
+    given = call.args[0] if call is not None else None
+    if given is None or not _has_other_parts(given):
+        return None
+    return worked_out("line_made_anew", "whole")(suspect)
+
+
+def _has_other_parts(given: ast.expr) -> bool:
+    """Whether a text is made of more than a string and one value behind it."""
+    if isinstance(given, ast.JoinedStr):
+        values = [part for part in given.values if isinstance(part, ast.FormattedValue)]
+        plain = len(values) == 1 and dotted(values[0].value) and values[0] is given.values[-1]
+        return not plain
+    if not isinstance(given, ast.BinOp):
+        return False
+    parts = list(ast.walk(given))
+    made = [n for n in parts if isinstance(n, ast.Call) and dotted(n.func) == "str"]
+    return len(made) > 1 or any(isinstance(n, ast.Mult) for n in parts)
 
 
 def _near(suspect: Suspect, wanted: str) -> Iterator[ast.Constant]:
@@ -138,6 +162,29 @@ KINDS = (
                     "self.counter_ = 0\n        self.prefix_ = 'Hello time:'",
                 ),
                 Replace(NODE, LOG, "self.get_logger().info(self.prefix_ + str(self.counter_))"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "line_made_anew",
+        "text",
+        msg("The text that is logged has other parts than the required ones"),
+        msg("The required line has one number, and no other part that changes."),
+        msg("Write {written} instead of {name}."),
+        behind=dict.fromkeys(
+            ("run.wrong_text", "run.wrong_start", "run.wrong_step"),
+            _made_anew,
+        ),
+        fixed_by=(node_worked_out.change("whole"),),
+        examples=(
+            example(
+                "two_numbers_in_line",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "f'Hello time: {self.counter_} {self.counter_ + 1}'",
+                ),
                 fails="run.output",
             ),
         ),

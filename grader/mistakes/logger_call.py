@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from dataclasses import replace
 
@@ -9,11 +10,13 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, LOG, NODE, example
-from grader.mistakes.fixes import lines, node_log_call
+from grader.mistakes.fixes import lines, node_log_call, node_words
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
+from grader.package.source.names import called_name, dotted
 from grader.package.source.node import LOG_METHODS
+from grader.package.source.place import statement_at
 
 OTHERS = ("get_child", "set_level", "get_effective_level", "is_enabled_for")
 """Methods of the logger that log nothing; one of them may be meant."""
@@ -51,6 +54,52 @@ def _swapped(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     severity, message = (text.code(argument) for argument in call.args)
     written = f"{text.code(call.func)}({message}, {severity})"
     return raised.finding("log_order", at=call, name=text.code(call), written=written)
+
+
+def _called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The logger itself is called on the line, as in self.get_logger()(…)."""
+    del match
+    statement = statement_at(raised.module, raised.line)
+    calls = [n for n in ast.walk(statement) if isinstance(n, ast.Call)] if statement else []
+    found = [
+        call
+        for call in calls
+        if isinstance(call.func, ast.Call) and called_name(call.func) == "get_logger"
+    ]
+    if not found:
+        found = [c for c in calls if _is_logger(raised, c.func)]
+    code = raised.module.text.code(found[0].func) if len(found) == 1 else ""
+    if not code or "\n" in code:
+        return None
+    return raised.finding("logger_called", at=found[0].func, name=code, written=f"{code}.info")
+
+
+def _result_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """What is called on the line is the result of a call of info(), not the method."""
+    del match
+    statement = statement_at(raised.module, raised.line)
+    for call in ast.walk(statement) if statement is not None else ():
+        if not isinstance(call, ast.Call) or not dotted(call.func):
+            continue
+        values = node_words.values_of(raised.source, call.func)
+        value = values[0] if len(values) == 1 else None
+        if not isinstance(value, ast.Call) or called_name(value) not in LOG_METHODS:
+            continue
+        text = raised.source.module_of(value).text
+        code = text.code(value)
+        if "\n" in code or "get_logger" not in code:
+            continue
+        found = raised.finding("logger_called", at=value, name=code, written=text.code(value.func))
+        return replace(found, variant="result")
+    return None
+
+
+def _is_logger(raised: Raised, value: ast.expr) -> bool:
+    """Whether a name has only a logger as its value."""
+    values = node_words.values_of(raised.source, value) if dotted(value) else []
+    return bool(values) and all(
+        isinstance(v, ast.Call) and called_name(v) == "get_logger" for v in values
+    )
 
 
 _node = Family("node", links.LOGGING)
@@ -152,6 +201,33 @@ KINDS = (
                     "import rclpy\nfrom rclpy.logging import LoggingSeverity\nfrom",
                 ),
                 Replace(NODE, LOG, f"self.get_logger().log(LoggingSeverity.INFO, {TEXT})"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "logger_called",
+        "logger",
+        msg("What is called is no method of the logger"),
+        msg("A logger is an object. One of its methods, such as info, logs the text that it gets."),
+        msg("Write {written}(…) instead of {name}(…)."),
+        raised={
+            r"'RcutilsLogger' object is not callable": _called,
+            r"'(?:bool|NoneType)' object is not callable": _result_called,
+        },
+        whys={
+            "result": msg(
+                "{name} logs a line and gives back no function. The name of a method without () is the "
+                "method itself, which can be called later."
+            )
+        },
+        fixes={"result": msg("Write {written} instead of {name}.")},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "logger_called",
+                Replace(NODE, "get_logger().info(", "get_logger()("),
                 fails="run.output",
                 blocks=DEAD,
             ),

@@ -41,6 +41,11 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     statement = statement_at(raised.module, raised.line)
     if isinstance(statement, ast.Assign) and text_added(statement):
         return None
+    kept = _kept_as_text(raised, statement)
+    if kept is not None:
+        return kept
+    if number_first and statement is not None and _sums(statement):
+        return _summed(raised, statement)
     for node in raised.module.nodes:
         if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Add):
             continue
@@ -64,6 +69,43 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
         return None
     name = raised.module.text.code(added)
     return raised.finding("str_plus_int", at=statement, name=name, written=f"str({name})")
+
+
+def _kept_as_text(raised: Raised, statement: ast.stmt | None) -> RecognisedMistake | None:
+    """A counter that is kept as a text gets a number: `self.n = str(self.n + 1)`."""
+    value = statement.value if isinstance(statement, ast.Assign) else None
+    made = isinstance(value, ast.Call) and dotted(value.func) == "str" and len(value.args) == 1
+    total = value.args[0] if isinstance(value, ast.Call) and made else None
+    if not isinstance(statement, ast.Assign) or not isinstance(total, ast.BinOp):
+        return None
+    name = dotted(total.left)
+    if not isinstance(total.op, ast.Add) or name not in targets_of(statement):
+        return None
+    if not _is_literal(total.right):
+        return None
+    code, added = raised.module.text.code(total), raised.module.text.code(total.right)
+    if "\n" in code:
+        return None
+    found = raised.finding("str_plus_int", at=total, name=code, written=f"int({name}) + {added}")
+    return replace(found, words={**found.words, "attribute": name}, variant="kept_text")
+
+
+def _sums(statement: ast.stmt) -> list[ast.Call]:
+    """Return the calls of sum() in a statement."""
+    return [n for n in ast.walk(statement) if isinstance(n, ast.Call) and dotted(n.func) == "sum"]
+
+
+def _summed(raised: Raised, statement: ast.stmt) -> RecognisedMistake | None:
+    """sum() adds a text to a number; None if another + of the statement can be the one that fails."""
+    calls = _sums(statement)
+    added = [
+        n for n in ast.walk(statement) if isinstance(n, ast.BinOp) and isinstance(n.op, ast.Add)
+    ]
+    code = raised.module.text.code(calls[0])
+    if len(calls) > 1 or any(_may_be_number(n.left) for n in added) or "\n" in code:
+        return None
+    found = raised.finding("str_plus_int", name=code, written="''.join(…)")
+    return replace(found, variant="summed")
 
 
 def _number_added_last(node: ast.BinOp, text: SourceText) -> tuple[str, str, str] | None:
@@ -127,7 +169,7 @@ def _f_prefix(suspect: Suspect) -> RecognisedMistake | None:
     values = re.findall(r"\{([^{}!:=]{1,80})[!:=]?[^{}]{0,20}\}", suspect.text)
     if all(is_readable(source, module, source.function_around(string), v) for v in values):
         if code[:1] not in ("'", '"'):
-            return suspect.finding("f_prefix", string)
+            return _f_of_part(suspect, string)
         found = suspect.finding("f_prefix", string, name=code, written=f"f{code}")
         return replace(found, variant="written" if len(code) <= MOST_CODE else "")
     given = _given(suspect, string)
@@ -155,6 +197,24 @@ def _double_braces(suspect: Suspect) -> RecognisedMistake | None:
             finding = suspect.finding("counter_in_text", string, name=found[1], written=written)
             return replace(finding, variant="doubled_at")
     return None
+
+
+def _f_of_part(suspect: Suspect, string: ast.Constant) -> RecognisedMistake | None:
+    """Name the only string with braces that has no f, of several beside each other."""
+    module = suspect.source.module_of(string)
+    last = string.end_lineno or string.lineno
+    found = [
+        (row, part)
+        for row in range(string.lineno, last + 1)
+        for part in re.findall(r"(?<![\w'\"])(?:'[^'\\]*'|\"[^\"\\]*\")", module.line(row))
+        if re.search(r"\{[^{}]+\}", part)
+    ]
+    if len(found) != 1:
+        return None
+    row, part = found[0]
+    place = Where(file=module.path, line=row)
+    mistake = suspect.finding("f_prefix", place, name=part, written=f"f{part}")
+    return replace(mistake, variant="part")
 
 
 def _given(suspect: Suspect, string: ast.Constant) -> ast.expr | None:
@@ -464,9 +524,25 @@ KINDS = (
         msg("Python's + joins a string only with another string."),
         msg("Write {written} instead of {name}: str() makes a string of a number."),
         links.PYTHON_STRINGS,
-        whys={"late": msg("Python makes the string first, and then adds a number to it.")},
+        whys={
+            "late": msg("Python makes the string first, and then adds a number to it."),
+            "kept_text": msg(
+                "{attribute} is a string here: Python's + joins a string only with another one."
+            ),
+            "summed": msg(
+                "sum() begins with the number 0 and adds each part to it, so it cannot add a string."
+            ),
+        },
         fixes={
-            "late": msg("Write {written} instead of {name}, so that the numbers are added first.")
+            "late": msg("Write {written} instead of {name}, so that the numbers are added first."),
+            "kept_text": msg(
+                "Write {written} instead of {name}: int() makes a number of the string."
+            ),
+            "summed": msg(
+                "{name} gets a string. To join strings, use ''.join() instead of sum(): all its parts "
+                "must be strings, and str() makes one of a number. To add numbers, give sum() only "
+                "numbers: int() makes one of a string."
+            ),
         },
         seen=r'TypeError: can only concatenate str \(not "(?P<type>\w{1,40})"\) to str'
         r"|TypeError: unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'",
@@ -602,8 +678,14 @@ KINDS = (
         msg("Python replaces {{…}} with a value only in a string that begins with f."),
         msg("Write an f before the first quote: {f_string}"),
         links.PYTHON_STRINGS,
+        whys={
+            "part": msg(
+                "Of several strings beside each other, each one with {{…}} needs an f of its own."
+            )
+        },
         fixes={
             "written": msg("Write an f before the first quote: {written}"),
+            "part": msg("Write {written} instead of {name}."),
             "elsewhere": msg(
                 "Write {written} instead of {name} in this line: an f-string reads its values where it "
                 "is written."

@@ -181,10 +181,15 @@ KINDS = (
             "line that logs it, and at each place where a part of its text is made."
         ),
         fixes={
+            "lines": msg(
+                "The line has to be exactly '{line}', with the counter's value as the number. These lines "
+                "make a part of what the log line shows: {lines}. Compare what they and the log line "
+                "write with it, character by character."
+            ),
             "later": msg(
                 "The lines before this one were right ({count}). It has to be exactly '{line}'. Look at "
                 "what makes its text different from theirs."
-            )
+            ),
         },
         fixed_by=(
             node_log.right_text(node_log.f_prefix),

@@ -29,12 +29,15 @@ def _start_is_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
     """The line that fails adds to a counter that starts with a number in quotes."""
     del match
     statement = statement_at(raised.module, raised.line)
+    value = statement.value if isinstance(statement, ast.Assign) else None
+    if isinstance(value, ast.Call) and dotted(value.func) == "str":
+        return None  # (the counter is kept as a text)
     starts = starts_of(raised.source, str)
     for part in ast.walk(statement) if statement is not None else ():
         start = starts.get(dotted(part))
         if start is not None and node_values.number_in(start):
-            value = node_values.number_in(start)
-            return raised.finding("start_is_text", at=start, name=dotted(part), value=value)
+            number = node_values.number_in(start)
+            return raised.finding("start_is_text", at=start, name=dotted(part), value=number)
     return None
 
 

@@ -11,9 +11,10 @@ from grader.mistakes.fixes import node_worked_out
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromSource, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
-from grader.package.source.one_change import Change, changes, logged_lines, wanted_lines
+from grader.package.source.change import Change
+from grader.package.source.one_change import changes, logged_lines, wanted_lines
 
-LONGEST = 120  # characters of a piece of code that a text shows
+LONGEST = 200  # characters of a piece of code that a text shows
 INSTEAD = msg("Write {written} instead of {name}.")
 
 
@@ -56,6 +57,13 @@ def first_of(*looks: FromSource) -> FromSource:
         return next(filter(None, (look(suspect) for look in looks)), None)
 
     return found
+
+
+def _joined(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for parts of join() to put together, if no other text of a string is enough."""
+    if change_of(suspect, "text") is not None:
+        return None
+    return worked_out("join_between", "joined")(suspect)
 
 
 _node = Family("node", links.PYTHON_STRINGS)
@@ -141,6 +149,84 @@ KINDS = (
             example(
                 "one_more_in_text",
                 Replace(NODE, "str(self.counter_)", "str(self.counter_ + 1)"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "join_between",
+        "text",
+        msg("join() puts its text between the wrong parts"),
+        msg("join() puts the text that it is called on between all the parts that it gets."),
+        INSTEAD,
+        behind={"run.wrong_text": _joined},
+        fixed_by=(node_worked_out.change("joined"),),
+        examples=(
+            example(
+                "colon_as_a_word",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "' '.join(['Hello', 'time', ':', str(self.counter_)])",
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "other_name_shown",
+        "counter",
+        msg("The line shows another value than the one that counts"),
+        msg("Line {form} changes {written}. What is logged is {name}."),
+        INSTEAD,
+        behind=dict.fromkeys(
+            ("run.constant_counter", "run.wrong_start", "run.wrong_text"),
+            worked_out("other_name_shown", "name"),
+        ),
+        fixed_by=(node_worked_out.change("name"),),
+        examples=(
+            example(
+                "period_shown",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.period = 1.0"),
+                Replace(NODE, "str(self.counter_)", "str(self.period)"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "other_key",
+        "counter",
+        msg("A value is set under one key and read under another"),
+        msg("A dict keeps a value of its own under each key: {name} and {written} are two keys."),
+        INSTEAD,
+        behind=dict.fromkeys(
+            ("run.constant_counter", "run.wrong_step"), worked_out("other_key", "key")
+        ),
+        fixed_by=(node_worked_out.change("key"),),
+        examples=(
+            example(
+                "counts_under_other_key",
+                Replace(NODE, "self.counter_ = 0", "self.data_ = {'n': 0}"),
+                Replace(NODE, "str(self.counter_)", "str(self.data_['n'])"),
+                Replace(NODE, "self.counter_ += 1", "self.data_['N'] = self.data_['n'] + 1"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "part_of_number",
+        "text",
+        msg("Only a part of the number is logged"),
+        msg("{form} takes only a part of a text. From 10 on, a number has more than one digit."),
+        INSTEAD,
+        behind=dict.fromkeys(
+            ("run.wrong_step", "run.wrong_text"), worked_out("part_of_number", "character")
+        ),
+        fixed_by=(node_worked_out.change("character"),),
+        examples=(
+            example(
+                "first_digit_only",
+                Replace(NODE, "str(self.counter_)", "str(self.counter_)[0]"),
                 fails="run.output",
             ),
         ),

@@ -20,7 +20,7 @@ from grader.package.source.counter import (
     targets_of,
 )
 from grader.package.source.node import NodeSource
-from grader.package.source.place import block_of, heads_without, statement_at
+from grader.package.source.place import block_of, function_at, heads_without, statement_at
 
 
 def plus(case: Case) -> Files | None:
@@ -203,7 +203,7 @@ def kept(case: Case) -> Files | None:
     if node is None or call is None:
         return None
     if not name:
-        return _made_attribute(case, call)
+        return _kept_in_file(case) or _made_attribute(case, call)
     changes = changes_of(node, name)
     resets = [s for s in changes if isinstance(s, ast.Assign)]
     if len(changes) != 2 or len(resets) != 1:
@@ -217,6 +217,20 @@ def kept(case: Case) -> Files | None:
     if not plain or not inside or row != module.text.code(resets[0]):
         return None
     return case.changed(module, module.text.without(resets[0].lineno))
+
+
+def _kept_in_file(case: Case) -> Files | None:
+    """Remove the line that resets a variable of the file, which its function declares."""
+    module, name = case.module, str(case.finding.params.get("name", ""))
+    function = function_at(module, case.finding.line) if module is not None else None
+    if module is None or function is None or not declares(function, name):
+        return None
+    line = case.finding.line or 0
+    first = any(name in targets_of(n) for n in module.tree.body)
+    alone = [s for s in function.body if s.lineno == line and s.end_lineno == line]
+    if not first or len(alone) != 1 or len(function.body) < 2:
+        return None
+    return case.changed(module, module.text.without(line))
 
 
 def moved(case: Case) -> Files | None:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 
 from grader.package.edit.text import Splice, indent_of
+from grader.package.source.change import Change, Wanted, additions, of_piece
+from grader.package.source.change_sorts import MORE_SORTS
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function, Module
 from grader.package.source.names import called_name, calls_in, dotted
@@ -18,31 +19,11 @@ from grader.package.source.played import played
 TICKS = 12
 MOST_TRIED = 150
 PLACES = re.compile(r"%[-+ 0-9.]*[a-zA-Z]|\{[^{}]*\}")
+SEVERAL = re.compile(r"(?:'[^'\\\n]*'|\"[^\"\\\n]*\")(?: +(?:'[^'\\\n]*'|\"[^\"\\\n]*\"))+")
 SHORTEST = 3  # characters of a part of an f-string that is looked for in a line
 LETTER_METHODS = ("capitalize", "lower", "lstrip", "rstrip", "strip", "title", "upper")
 AS_CODE = ("repr", "ascii")
 SUM = ast.Add | ast.Sub
-
-
-@dataclass(frozen=True)
-class Change:
-    """A change: of which sort, at which piece, what is written there, and what instead of it."""
-
-    sort: str
-    at: ast.stmt | ast.expr
-    name: str
-    written: str
-    splices: tuple[Splice, ...]
-    form: str = ""
-
-
-@dataclass(frozen=True)
-class Wanted:
-    """The lines that the node has to log, and its counter's first value and step."""
-
-    lines: Sequence[str]
-    start: int
-    step: int
 
 
 def wanted_lines(line: Callable[[int], str], start: int, step: int) -> Wanted:
@@ -86,11 +67,6 @@ def _gives(module: Module, main: str, change: Change, wanted: Wanted) -> bool:
     return lines is not None and [line.text for line in lines] == list(wanted.lines)
 
 
-def _of(module: Module, sort: str, node: ast.stmt | ast.expr, new: str, form: str = "") -> Change:
-    """Return the change of a piece of syntax."""
-    return Change(sort, node, module.text.code(node), new, (module.text.swap(node, new),), form)
-
-
 def _within(
     module: Module, sort: str, whole: ast.stmt | ast.expr, part: ast.expr, new: str
 ) -> Change:
@@ -115,8 +91,9 @@ def _texts(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Ch
         value = str(node.value)
         at = old.find(value)
         if value.endswith("\n") and module.text.code(node).count("\\n") == 1:
-            yield _of(module, "text", node, module.text.code(node).replace("\\n", ""))
-        if not value or module.text.plain_string(node) is None:
+            yield of_piece(module, "text", node, module.text.code(node).replace("\\n", ""))
+        plain = module.text.plain_string(node) is not None
+        if not value or not (plain or SEVERAL.fullmatch(module.text.code(node))):
             continue
         for part in PLACES.split(value) if PLACES.search(value) else ():
             yield from _in_format(module, node, part, old, new)
@@ -129,7 +106,7 @@ def _texts(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Ch
                 text = value[: start - at] + put + value[end - at :]
                 quote = module.text.code(node)[-1]
                 if quote not in text and "\\" not in text and text.isprintable():
-                    yield _of(module, "text", node, f"{quote}{text}{quote}")
+                    yield of_piece(module, "text", node, f"{quote}{text}{quote}")
 
 
 def _in_format(
@@ -143,7 +120,7 @@ def _in_format(
         text = part[: max(start - at, 0)] + put + part[end - at :]
         fits = at <= start and end <= at + len(part)
         if fits and not set(text) & set("'\"{}%\\") and text.isprintable():
-            yield _of(module, "text", node, code.replace(part, text))
+            yield of_piece(module, "text", node, code.replace(part, text))
 
 
 def _in_f_string(module: Module, part: ast.Constant, old: str, new: str) -> Iterator[Change]:
@@ -153,7 +130,7 @@ def _in_f_string(module: Module, part: ast.Constant, old: str, new: str) -> Iter
         return
     code, at = module.text.code(whole), old.find(value)
     if value.endswith("\n") and code.count("\\n") == 1:
-        yield _of(module, "text", whole, code.replace("\\n", ""))
+        yield of_piece(module, "text", whole, code.replace("\\n", ""))
     if len(value) < SHORTEST or old.count(value) != 1:
         return
     if code.count(value) != 1 or "\\" in code:
@@ -162,7 +139,7 @@ def _in_f_string(module: Module, part: ast.Constant, old: str, new: str) -> Iter
         text = value[: max(start - at, 0)] + put + value[end - at :]
         fits = at <= start and end <= at + len(value)
         if fits and not set(text) & set("'\"{}\\") and text.isprintable():
-            yield _of(module, "text", whole, code.replace(value, text))
+            yield of_piece(module, "text", whole, code.replace(value, text))
 
 
 def _differences(old: str, new: str) -> list[tuple[int, int, str]]:
@@ -188,8 +165,8 @@ def _code_forms(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterat
     for node in module.nodes:
         if isinstance(node, ast.Call) and dotted(node.func) in AS_CODE and len(node.args) == 1:
             inside, form = text.code(node.args[0]), f"{dotted(node.func)}()"
-            yield _of(module, "code", node, inside, form)
-            yield _of(module, "code", node, f"str({inside})", form)
+            yield of_piece(module, "code", node, inside, form)
+            yield of_piece(module, "code", node, f"str({inside})", form)
         elif isinstance(node, ast.JoinedStr):
             code, first = text.code(node), text.span(node)[0]
             for match in re.finditer(r"\{([^{}=!]{1,60}?)(\s*=\s*)?(![ra])?\}", code):
@@ -212,7 +189,17 @@ def _firsts(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[C
         if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
             inside = node.value.values if isinstance(node.value, ast.Dict) else [node.value]
             inside = node.value.elts if isinstance(node.value, ast.List) else inside
+            if isinstance(node.value, ast.Call) and dotted(node.value.func) == "dict":
+                inside = [keyword.value for keyword in node.value.keywords]
+            if isinstance(node.value, ast.List) and wanted.start == 0 and node.value.elts:
+                yield _within(module, "first", node, node.value, "[]")
             for part in (part for part in inside if _number(part) is not None):
+                yield _within(module, "first", node, part, str(wanted.start))
+        elif isinstance(node, ast.Return) and node.value is not None:
+            if _number(node.value) is not None:
+                yield _within(module, "first", node, node.value, str(wanted.start))
+        elif isinstance(node, ast.Call) and called_name(node) == "declare_parameter":
+            for part in (part for part in node.args[1:2] if _number(part) is not None):
                 yield _within(module, "first", node, part, str(wanted.start))
         elif isinstance(node, ast.Call) and called_name(node) == "count":
             for part in [*node.args[:1], *(k.value for k in node.keywords if k.arg == "start")]:
@@ -225,7 +212,7 @@ def _steps(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Ch
     for node in module.nodes:
         if isinstance(node, ast.AugAssign) and isinstance(node.op, SUM):
             code = f"{module.text.code(node.target)} += {wanted.step}"
-            yield _of(module, "step", node, code)
+            yield of_piece(module, "step", node, code)
         elif isinstance(node, ast.Assign) and len(node.targets) == 1:
             name, value = dotted(node.targets[0]), node.value
             total = isinstance(value, ast.BinOp) and isinstance(value.op, SUM)
@@ -233,7 +220,7 @@ def _steps(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Ch
             if name and dotted(old) == name:
                 code = module.text.code(node.targets[0])
                 new = f"{code} = {code} + {wanted.step}"
-                yield _of(module, "step", node, new)
+                yield of_piece(module, "step", node, new)
         elif isinstance(node, ast.Call) and called_name(node) == "count":
             for part in [*node.args[1:2], *(k.value for k in node.keywords if k.arg == "step")]:
                 yield _within(module, "step", node, part, str(wanted.step))
@@ -250,20 +237,10 @@ def _number(value: ast.AST) -> int | None:
     return number if type(number) is int else None
 
 
-def _additions(module: Module) -> Iterator[ast.AugAssign | ast.Assign]:
-    for node in module.nodes:
-        if isinstance(node, ast.AugAssign) and isinstance(node.op, SUM):
-            yield node
-        elif isinstance(node, ast.Assign) and isinstance(node.value, ast.BinOp):
-            name = dotted(node.value.left)
-            if name and name in set(targets_of(node)):
-                yield node
-
-
 def _doubled(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
     """Yield the file without one of the statements that add."""
     del wanted, before
-    for node in _additions(module):
+    for node in additions(module):
         yield from _without(module, "doubled", node)
 
 
@@ -278,13 +255,13 @@ def _before(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[C
     """Yield the file with an addition below each of the calls that follow it in its block."""
     del wanted, before
     text = module.text
-    for node in _additions(module):
+    for node in additions(module):
         block = block_of(module, node)
         row = text.line(node.lineno)
         if row.partition("#")[0].strip() != text.code(node):
             continue
         for other in block[block.index(node) + 1 :]:
-            if isinstance(other, ast.Expr) and isinstance(other.value, ast.Call):
+            if isinstance(other, ast.Expr) and isinstance(other.value, ast.Call | ast.Yield):
                 below = text.before((other.end_lineno or other.lineno) + 1, row)
                 splices = (text.without(node.lineno), below)
                 yield Change("before", node, text.code(node), str(other.lineno), splices)
@@ -294,7 +271,7 @@ def _returned(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator
     """Yield the old value in place of the new one, where a function adds and returns the sum."""
     del wanted, before
     text = module.text
-    for node in _additions(module):
+    for node in additions(module):
         block, name = block_of(module, node), next(targets_of(node), "")
         after = block[block.index(node) + 1 :]
         back = after[0] if len(after) == 1 and isinstance(after[0], ast.Return) else None
@@ -304,8 +281,12 @@ def _returned(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator
         if text.line(node.lineno).partition("#")[0].strip() != text.code(node):
             continue
         kept = "number" if "number" not in module.names else "before"
+        target = node.target if isinstance(node, ast.AugAssign) else None
+        name = text.code(target) if isinstance(target, ast.Subscript) else name
         spans = [
-            text.span(n) for n in ast.walk(value) if isinstance(n, ast.expr) and dotted(n) == name
+            text.span(n)
+            for n in ast.walk(value)
+            if isinstance(n, ast.expr) and text.code(n) == name
         ]
         code, first = text.code(value), text.span(value)[0]
         if (
@@ -334,9 +315,9 @@ def _operations(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterat
             counts = _number(node.right) is not None and not _is_in_addition(module, node)
             left, right = module.text.code(node.left), module.text.code(node.right)
             if counts:
-                yield _of(module, "operation", node, left)
+                yield of_piece(module, "operation", node, left)
             if isinstance(node.op, ast.Div):
-                yield _of(module, "operation", node, f"{left} // {right}")
+                yield of_piece(module, "operation", node, f"{left} // {right}")
 
 
 def _is_in_addition(module: Module, node: ast.BinOp) -> bool:
@@ -368,7 +349,7 @@ def _digits(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[C
             continue
         if isinstance(given, ast.BinOp) and isinstance(given.op, ast.Add):
             for part in (given.left, given.right):
-                yield _of(module, "digit", node, f"str({text.code(part)})")
+                yield of_piece(module, "digit", node, f"str({text.code(part)})")
 
 
 def _conditions(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
@@ -398,7 +379,7 @@ def _modulos(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mod):
             if isinstance(node.right, ast.Constant | ast.Name | ast.Attribute):
                 form = text.code(node.right)
-                yield _of(module, "modulo", node, text.code(node.left), form)
+                yield of_piece(module, "modulo", node, text.code(node.left), form)
         elif isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Mod):
             for change in _without(module, "modulo", node):
                 form = text.code(node.value)
@@ -427,7 +408,7 @@ def _kept(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Cha
             name = dotted(part)
             if name and name != "self" and "(" not in name and called_name(call) != "__init__":
                 code = module.text.code(node)
-                yield _of(module, "kept", node, f"{name} = {code}")
+                yield of_piece(module, "kept", node, f"{name} = {code}")
 
 
 def _next_once(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
@@ -479,4 +460,5 @@ SORTS: dict[str, Callable[[Module, Wanted, Sequence[str]], Iterator[Change]]] = 
     "kept": _kept,
     "next": _next_once,
     "next_line": _next_lines,
+    **MORE_SORTS,
 }

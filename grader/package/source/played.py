@@ -6,17 +6,22 @@ Whatever is not known stands for itself (`UNKNOWN`), and makes what is built wit
 from __future__ import annotations
 
 import ast
+import collections
+import contextlib
 import itertools
 import operator
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from grader.package.source.generators import is_plain_generator
 from grader.package.source.module import Function
+from grader.package.source.named_tuples import is_named_tuple, named_tuple
 from grader.package.source.names import dotted, last_part
 from grader.package.source.node import LOG_METHODS
 
 MOST_STEPS = 4000
+MOST_YIELDED = 16  # values of a generator
 MOST_CALLS = 25  # calls inside each other
 LONGEST = 500  # characters of a text
 LARGEST = 10**9
@@ -64,6 +69,8 @@ BUILTINS: Mapping[str, Callable[..., object]] = {
     "ord": ord,
     "sorted": sorted,
 }
+COUNTING = ("Counter", "collections.Counter")
+ITERATORS = (itertools.count, Iterator)
 Scope = tuple[dict[str, object], ...]  # the names, the innermost first
 ERRORS = (TypeError, ValueError, ArithmeticError, LookupError, AttributeError, StopIteration)
 
@@ -74,6 +81,10 @@ class UnplayableError(Exception):
 
 class _SpunError(Exception):
     """The node is spun."""
+
+
+class _EnoughError(Exception):
+    """A generator has given enough values."""
 
 
 class _ReturnedError(Exception):
@@ -124,6 +135,11 @@ class _Logger:
 
 
 @dataclass(frozen=True)
+class _Parameter:
+    value: object
+
+
+@dataclass(frozen=True)
 class _Log:
     level: str
 
@@ -170,6 +186,8 @@ class _Player:
         self.ticking = False
         self.classes = {n.name: n for n in module.body if isinstance(n, ast.ClassDef)}
         self.of_class: dict[ast.ClassDef, dict[str, object]] = {}
+        self.defaults: dict[ast.expr, object] = {}
+        self.parameters: dict[str, object] = {}
 
     def lines(self, function: str, ticks: int) -> list[Line]:
         for statement in self.module.body:
@@ -207,6 +225,7 @@ class _Player:
     def defines(self, node: ast.stmt, scope: Scope) -> bool:
         """Run a statement that defines a name; return whether it is one."""
         if isinstance(node, Function):
+            self.keep_defaults(node.args, scope)
             scope[0][node.name] = _Code(node, scope)
         elif isinstance(node, ast.ClassDef):
             scope[0][node.name] = _Class(node)
@@ -253,14 +272,27 @@ class _Player:
             if not _is_plain_or_list(met):
                 raise UnplayableError
             self.run(node.body if met else node.orelse, scope)
+        elif isinstance(node, ast.While) and " values" in scope[0]:
+            while self.met(node.test, scope):
+                self.run(node.body, scope)
         elif isinstance(node, ast.While) and not self.ticking:
             self.run(node.body, scope)  # (a loop that spins ends this)
         elif isinstance(node, ast.Try):
             self.run([*node.body, *node.orelse, *node.finalbody], scope)
         elif isinstance(node, ast.With):
             self.run(node.body, scope)
+        elif isinstance(node, ast.Assert):
+            met = self.value(node.test, scope)
+            if not _is_plain_or_list(met) or not met:
+                raise UnplayableError
         elif not isinstance(node, ast.Pass | ast.Delete):
             raise UnplayableError
+
+    def met(self, test: ast.expr, scope: Scope) -> bool:
+        value = self.value(test, scope)
+        if not _is_plain_or_list(value):
+            raise UnplayableError
+        return bool(value)
 
     def assign(self, target: ast.expr, value: object, scope: Scope) -> None:
         if isinstance(target, ast.Name):
@@ -303,6 +335,7 @@ class _Player:
         if isinstance(node, ast.Call):
             return self.called(node, scope)
         if isinstance(node, ast.Lambda):
+            self.keep_defaults(node.args, scope)
             return _Code(node, scope)
         if isinstance(node, ast.IfExp):
             met = self.value(node.test, scope)
@@ -333,6 +366,8 @@ class _Player:
             return self.container(node, scope)
         if isinstance(node, ast.GeneratorExp | ast.ListComp):
             return self.comprehended(node, scope)
+        if isinstance(node, ast.Yield):
+            return self.yielded(node, scope)
         return UNKNOWN
 
     def container(
@@ -343,6 +378,10 @@ class _Player:
             return self.several(node, scope)
         if isinstance(node, ast.Subscript):
             of, key = self.value(node.value, scope), self.value(node.slice, scope)
+            if isinstance(node.slice, ast.Slice) and isinstance(of, str):
+                ends = [self.value(v, scope) if v else None for v in _ends(node.slice)]
+                plain = all(v is None or type(v) is int for v in ends)
+                return self.python(operator.getitem, of, slice(*ends)) if plain else UNKNOWN
             known = isinstance(of, list | tuple | dict | str) and isinstance(key, int | str)
             return self.python(operator.getitem, of, key) if known else UNKNOWN
         keys = [self.value(key, scope) if key is not None else UNKNOWN for key in node.keys]
@@ -415,6 +454,8 @@ class _Player:
         if isinstance(of, _Made):
             if name in of.attributes:
                 return of.attributes[name]
+            if name == "_replace" and is_named_tuple(of.of):
+                return _Method(of, name)
             return self.of_object(of, self.line_of(of.of), name)
         if isinstance(of, _Super):
             line = self.line_of(of.of.of)
@@ -424,6 +465,8 @@ class _Player:
                 if name in self.of_class.get(found, {}):
                     return self.of_class[found][name]
             return UNKNOWN
+        if isinstance(of, _Parameter):
+            return of.value if name == "value" else UNKNOWN
         if isinstance(of, _Logger):
             return _Log(name) if name in LOG_METHODS else UNKNOWN
         if isinstance(of, _Named):
@@ -472,7 +515,13 @@ class _Player:
             return self.base_of(scope)
         function = self.value(node.func, scope)
         given = self.several(ast.List(node.args), scope)
-        named = {k.arg or "": self.value(k.value, scope) for k in node.keywords}
+        named: dict[str, object] = {}
+        for keyword in node.keywords:
+            value = self.value(keyword.value, scope)
+            if keyword.arg is None and isinstance(value, dict):
+                named |= value if all(isinstance(key, str) for key in value) else {"": value}
+            else:
+                named[keyword.arg or ""] = value
         if not isinstance(given, list) or "" in named:
             return UNKNOWN
         if isinstance(function, _Log):
@@ -516,7 +565,7 @@ class _Player:
             init = self.of_object(made, self.line_of(function.found), "__init__")
             if isinstance(init, _Code):
                 self.call(init, given, named)
-            elif function.found.decorator_list:
+            elif function.found.decorator_list or is_named_tuple(function.found):
                 made.attributes |= self.fields(function.found, given, named)
             elif (given or named) and not function.found.bases:
                 raise UnplayableError
@@ -536,7 +585,11 @@ class _Player:
         """Return the attributes of a new object of a dataclass."""
         own = {n.name for n in found.body if isinstance(n, Function)}
         plain = len(found.decorator_list) == 1 and not found.bases and "__post_init__" not in own
-        if not plain or last_part(dotted(found.decorator_list[0])).rstrip("()") != "dataclass":
+        if is_named_tuple(found):
+            plain = not found.decorator_list
+        elif not plain or last_part(dotted(found.decorator_list[0])).rstrip("()") != "dataclass":
+            plain = False
+        if not plain:
             raise UnplayableError
         values: dict[str, object] = {}
         fields = [n for n in found.body if isinstance(n, ast.AnnAssign)]
@@ -565,16 +618,9 @@ class _Player:
             if named:
                 return UNKNOWN
             return _Code(first.found, first.around, (*first.given, *given[1:]), first.owner)
-        if name in ("itertools.count", "count"):
-            plain = [v for v in (*given, *named.values()) if isinstance(v, int)]
-            if len(plain) != len(given) + len(named) or not set(named) <= {"start", "step"}:
-                return UNKNOWN
-            begin, by = [*plain[: len(given)], *(0, 1)[len(given) :]]
-            return itertools.count(
-                int(str(named.get("start", begin))), int(str(named.get("step", by)))
-            )
-        if name == "next" and len(given) == 1:
-            return next(given[0]) if isinstance(given[0], itertools.count) else UNKNOWN
+        of_several = self.of_several(name, given, named)
+        if of_several is not None:
+            return of_several
         done = BUILTINS.get(name)
         if done is None:
             return _Named(f"{name}()")
@@ -584,8 +630,54 @@ class _Player:
             return UNKNOWN
         return self.python(done, *given, **named)
 
+    def of_several(self, name: str, given: list[object], named: dict[str, object]) -> object | None:
+        """Return what functions of several values give; None for other functions."""
+        first = given[0] if given else None
+        if name in ("itertools.count", "count"):
+            return self.counting(given, named)
+        if name == "iter" and len(given) == 1 and isinstance(first, list | tuple):
+            return iter(first)
+        if name == "next" and len(given) == 1:
+            return next(first) if isinstance(first, ITERATORS) else UNKNOWN
+        if name in COUNTING:
+            return UNKNOWN if given or named else collections.Counter()
+        if name == "map" and len(given) == 2 and isinstance(first, _Named):
+            done, values = BUILTINS.get(first.name), given[1]
+            if (
+                done is None
+                or not isinstance(values, list | tuple)
+                or not _is_plain_or_list(values)
+            ):
+                return UNKNOWN
+            return [self.python(done, value) for value in values]
+        if name == "range" and given and all(type(v) is int for v in given):
+            return self.python(lambda *ends: list(range(*ends)[: LONGEST + 1]), *given)
+        if name == "dict" and not given:
+            return dict(named)
+        if name == "self.declare_parameter" and len(given) == 2 and isinstance(first, str):
+            self.parameters[first] = given[1]
+            return UNKNOWN
+        if name == "self.get_parameter" and first in self.parameters:
+            return _Parameter(self.parameters[str(first)])
+        if name.rpartition(".")[2] == "namedtuple" and not named:
+            made = named_tuple(given)
+            return _Class(made) if made is not None else UNKNOWN
+        return None
+
+    def counting(self, given: list[object], named: dict[str, object]) -> object:
+        """Return what itertools.count() gives."""
+        plain = [v for v in (*given, *named.values()) if isinstance(v, int)]
+        if len(plain) != len(given) + len(named) or not set(named) <= {"start", "step"}:
+            return UNKNOWN
+        begin, by = [*plain[: len(given)], *(0, 1)[len(given) :]]
+        return itertools.count(int(str(named.get("start", begin))), int(str(named.get("step", by))))
+
     def method(self, method: _Method, given: list[object], named: dict[str, object]) -> object:
         of, name = method.of, method.name
+        if isinstance(of, _Made) and not given and set(named) <= set(of.attributes):
+            return _Made(of.of, {**of.attributes, **named})  # (_replace of a named tuple)
+        if isinstance(of, dict) and name in ("get", "update") and not named:
+            return self.python(getattr(of, name), *given)
         if isinstance(of, list) and name == "append" and len(given) == 1:
             of.append(given[0])
             return None
@@ -609,18 +701,21 @@ class _Player:
 
     def code(self, code: _Code, given: list[object], named: dict[str, object]) -> object:
         found, values = code.found, [*code.given, *given]
-        if any(isinstance(n, ast.Yield | ast.YieldFrom | ast.Await) for n in ast.walk(found)):
+        yields = any(isinstance(n, ast.Yield | ast.YieldFrom | ast.Await) for n in ast.walk(found))
+        if yields and not is_plain_generator(found):
             raise UnplayableError
         own: dict[str, object] = {}
         if code.owner is not None:
             own[" self"], own[" owner"] = code.given[0], code.owner
-        self.bind(found.args, values, named, own, code.around)
+        self.bind(found.args, values, named, own)
         self.depth += 1
         if self.depth > MOST_CALLS:
             raise UnplayableError
         try:
             if isinstance(found, ast.Lambda):
                 return self.value(found.body, (own, *code.around))
+            if yields:
+                return self.generated(found, (own, *code.around))
             self.run(found.body, (own, *code.around))
         except _ReturnedError as end:
             return end.value
@@ -628,13 +723,36 @@ class _Player:
             self.depth -= 1
         return None
 
+    def generated(self, found: Function, scope: Scope) -> object:
+        """Return an iterator over the first values of a generator that only uses its own variables."""
+        values: list[object] = []
+        scope[0][" values"] = values
+        with contextlib.suppress(_EnoughError, _ReturnedError):
+            self.run(found.body, scope)
+        return iter(values)
+
+    def yielded(self, node: ast.Yield, scope: Scope) -> object:
+        values = scope[0].get(" values")
+        if not isinstance(values, list):
+            raise UnplayableError
+        values.append(self.value(node.value, scope) if node.value is not None else None)
+        if len(values) >= MOST_YIELDED:
+            raise _EnoughError
+        return None
+
+    def keep_defaults(self, parameters: ast.arguments, scope: Scope) -> None:
+        """Work out the defaults of parameters, as Python does: once, when it reads the function."""
+        for default in (*parameters.defaults, *filter(None, parameters.kw_defaults)):
+            value = self.value(default, scope)
+            same = self.defaults.get(default, value) in (value,)
+            self.defaults[default] = value if same else UNKNOWN
+
     def bind(
         self,
         parameters: ast.arguments,
         values: list[object],
         named: dict[str, object],
         own: dict[str, object],
-        around: Scope,
     ) -> None:
         places = [*parameters.posonlyargs, *parameters.args]
         if parameters.kwarg is not None or (len(values) > len(places) and not parameters.vararg):
@@ -647,11 +765,15 @@ class _Player:
             elif place.arg in named:
                 own[place.arg] = named[place.arg]
             elif place in defaults:
-                own[place.arg] = self.value(defaults[place], around or (self.names,))
+                own[place.arg] = self.defaults.get(defaults[place], UNKNOWN)
             else:
                 raise UnplayableError
         if parameters.vararg is not None:
             own[parameters.vararg.arg] = tuple(values[len(places) :])
+
+
+def _ends(of: ast.Slice) -> tuple[ast.expr | None, ...]:
+    return of.lower, of.upper, of.step
 
 
 def _is_plain(value: object) -> bool:

@@ -13,6 +13,7 @@ from grader.package.source.node import LOG_METHODS, NodeSource
 MOST_ROUNDS = 8  # steps from the logged value back to what makes it
 SET = ast.Assign | ast.AugAssign | ast.AnnAssign | ast.For
 NO_CHANGE = ("print", "create_timer")
+TAKING = ("__next__", "pop", "popitem", "popleft", "send")
 NOT_VALUES = ("self", "cls", "get_logger", "get_clock", *LOG_METHODS)
 
 
@@ -31,7 +32,8 @@ def traced(source: NodeSource, call: ast.Call) -> list[ast.stmt]:
         trace.look()
         if len(trace.found) == before:
             break
-    own = {n for n in trace.found if any(part is call for part in ast.walk(n))}
+    statements = (n for n in trace.found if not isinstance(n, Function))
+    own = {n for n in statements if any(part is call for part in ast.walk(n))}
     order = {module: at for at, module in enumerate(source.modules)}
     found = trace.found - own
     return sorted(found, key=lambda n: (order[source.module_of(n)], n.lineno, n.col_offset))
@@ -84,10 +86,13 @@ class _Trace:
         """Find the statements that set or change what is known."""
         for statement in self.statements:
             around = self.source.function_around(statement)
+            self.gives(statement, around)
             if isinstance(statement, SET):
                 if statement not in self.found and self.sets(statement, around):
                     self.found.add(statement)
                     self.read(_value_of(statement), around)
+                elif statement not in self.found and self.takes(statement, around):
+                    self.found.add(statement)
             elif statement not in self.found and self.changes(statement, around):
                 self.found.add(statement)
 
@@ -110,6 +115,35 @@ class _Trace:
             if given and any(self.knows(part, around) for part in call.args):
                 return True
         return False
+
+    def takes(self, statement: ast.stmt, around: Function | None) -> bool:
+        """Whether a statement takes a value out of a known object: `y = next(x)`, `y = x.pop()`."""
+        for call in (n for n in _head(statement) if isinstance(n, ast.Call)):
+            on = call.func.value if isinstance(call.func, ast.Attribute) else None
+            parts = call.args if called_name(call) == "next" else [on]
+            if called_name(call) not in ("next", *TAKING):
+                continue
+            if any(part is not None and self.knows(part, around) for part in parts):
+                return True
+        return False
+
+    def gives(self, statement: ast.stmt, around: Function | None) -> None:
+        """Note a call that gives a known parameter of a function its value, and read that value."""
+        for call in (n for n in _head(statement) if isinstance(n, ast.Call)):
+            for function in self.functions.get(called_name(call), ()):
+                names = [a.arg for a in function.args.args if a.arg not in ("self", "cls")]
+                known = [name for name in names if (function, name) in self.variables]
+                if not known or function is around:
+                    continue
+                for at, given in enumerate(call.args):
+                    if at < len(names) and names[at] in known:
+                        self.read(given, around)
+                for keyword in call.keywords:
+                    if keyword.arg in known:
+                        self.read(keyword.value, around)
+                self.found.add(statement)
+                if len(call.args) + len(call.keywords) < len(names):
+                    self.found.add(function)  # (it has a default)
 
     def knows(self, target: ast.AST, around: Function | None) -> bool:
         """Whether a target, or the object of which it is a part, is one of the known values."""

@@ -102,13 +102,15 @@ def _line_by_line(evidence: Evidence, wanted: Count, expected: str) -> Passed:
     shown = ", ".join(event.text[:80] for event in events[first : first + 4])
     numbers = [event.n for event in events if event.n is not None]
     if not numbers or events[0].n is None:
+        made = _made_by(evidence, only_texts=True)
         raise Failed(
             "run.wrong_text",
             expected=expected,
             actual=_difference(wanted.line(0), events[0].text),
             where=line_of(evidence, events[0].record),
             params={"text": events[0].text[:200]},
-            words=words(evidence),
+            variant="lines" if made else "",
+            words={**words(evidence), "lines": made} if made else words(evidence),
             advice=[*_changes_nothing(evidence), *_begins_again(evidence)],
         )
     mistake, text = _count_fault(run, wanted, numbers)
@@ -380,14 +382,16 @@ def _logs(evidence: Evidence) -> bool:
     return source is not None and bool(source.own_logs)
 
 
-def _made_by(evidence: Evidence) -> Message | None:
+def _made_by(evidence: Evidence, *, only_texts: bool = False) -> Message | None:
     """Return the lines that make or change what the first line of the count shows, with their code.
 
     None if they are not known, or if they are too many.
     """
     source = source_of_node(evidence)
     where = line_of(evidence, evidence.run.watch.counted[0].record)
-    return lines_that_make(source, where) if source is not None else None
+    if source is None:
+        return None
+    return lines_that_make(source, where, only_texts=only_texts)
 
 
 def _is_silent(evidence: Evidence) -> bool:
