@@ -43,7 +43,7 @@ def workers_of(parent: int) -> list[int]:
         if not entry.name.isdigit():
             continue
         try:
-            if stat_fields(int(entry.name))[1] != parent:
+            if int(stat_fields(int(entry.name))[1]) != parent:
                 continue
             command = _command_line(int(entry.name))
         except OSError:
