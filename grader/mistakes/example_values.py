@@ -666,8 +666,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "attribute": "self.state",
     },
     "node.line_made_anew": {
-        "name": "'Hello time: ' + str(n) + str(n)",
-        "written": "f'Hello time: {n}'",
+        "name": "'Count: ' + str(n) + str(n)",
+        "written": "f'Count: {n}'",
     },
     "node.number_taken": {"name": "first = next(self.numbers)", "lines": "13-15"},
     "node.join_between": {"name": "'time', ':'", "written": "'time:'", "form": "':'"},

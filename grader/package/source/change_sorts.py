@@ -13,7 +13,7 @@ from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import LOG_METHODS
 from grader.package.source.place import block_of
 
-NAMES = ("self.counter", "self.counter_", "self.count_of_lines")
+NAMES = ("self.counter", "self.count", "self.count_of_lines")
 LINES = ("next", "__next__")
 
 
