@@ -34,6 +34,19 @@ def _is_word(word: str, known: str) -> bool:
     return begins or SequenceMatcher(None, word, known).ratio() >= SAME
 
 
+def _is_swapped(name: str, other: str) -> bool:
+    """Whether two letters beside each other changed places: mgs is msg."""
+    places = [at for at, (a, b) in enumerate(zip(name, other, strict=False)) if a != b]
+    if len(name) != len(other) or len(name) < SHORTEST or len(places) != 2:
+        return False
+    first, second = places
+    return second == first + 1 and name[first] + name[second] == other[second] + other[first]
+
+
 def meant_by(name: str, known: Iterable[str], cutoff: float) -> str:
     """Return the known name of which a name is a misspelling; "" if there is none."""
+    known = list(known)
+    swapped = {other for other in known if _is_swapped(name, other)}
+    if len(swapped) == 1:
+        return swapped.pop()
     return nearest(name, [other for other in known if is_typo(name, other)], cutoff=cutoff)

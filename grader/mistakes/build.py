@@ -193,6 +193,10 @@ KINDS = (
                 "Move this entry up, above the ] in line {line}: entries are between the [ and the "
                 "] of 'console_scripts'."
             ),
+            "outside_empty": msg(
+                "Move this entry, without the comma behind it, between the [ and the ] in line {line}, "
+                "then build again."
+            ),
             "key": msg(
                 "Write quotes around {name}: '{name}'. A name without quotes is a variable."
             ),
@@ -533,6 +537,16 @@ KINDS = (
                     "package_name = 'my_robot_controller',\n",
                 ),
                 fails="build.colcon",
+            ),
+            example(
+                "entry_below_an_empty_list",
+                Replace(
+                    SETUP,
+                    "'console_scripts': [\n            'test_node = my_robot_controller.my_first_node:main',\n        ],",
+                    "'console_scripts': [],\n        'test_node = my_robot_controller.my_first_node:main',",
+                ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
             ),
             example(
                 "find_packages_in_list",

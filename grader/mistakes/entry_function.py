@@ -10,11 +10,11 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.base.shown import shown
 from grader.mistakes import links
-from grader.mistakes.example import BODY_OF_MAIN, NODE, example
+from grader.mistakes.example import BODY_OF_MAIN, INNER, NODE, example
 from grader.mistakes.fixes import lines, node_input, node_life, node_main, node_names
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect
-from grader.package.edit.tree import Replace
+from grader.package.edit.tree import Copy, Replace, Write
 from grader.package.source.guard import guarded_code
 from grader.package.source.names import calls_in, last_part
 from grader.package.source.sleeps import SLEEPS
@@ -162,6 +162,10 @@ KINDS = (
             ),
         },
         fixes={
+            "in_copy": msg(
+                "{there} has the node and {function}. Copy all of it into {path}, save, and delete "
+                "{there}."
+            ),
             "placeholder": msg(
                 "Write the lines that are left out in its place: def {function}(args=None): and, "
                 "indented below it, rclpy.init(args=args), node = {made}() and rclpy.spin(node)."
@@ -176,6 +180,12 @@ KINDS = (
         raised={NO_FUNCTION: _function_missing},
         fixed_by=(node_main.out_of_guard, node_names.main, node_main.appended),
         examples=(
+            example(
+                "node_in_a_copy",
+                Copy(NODE, f"{INNER}/my_first_node copy.py"),
+                Write(NODE, "#!/usr/bin/env python3\nimport rclpy\nfrom rclpy.node import Node\n"),
+                fails="run.starts",
+            ),
             example(
                 "main_under_guard",
                 Replace(NODE, "def main(args=None):", "if __name__ == '__main__':"),

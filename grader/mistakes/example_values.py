@@ -523,6 +523,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.text_operator": {"name": "&", "written": "+"},
     "node.name_taken": {"name": "timers", "line": "12"},
     "node.attribute_set_late": {"name": "self.counter", "line": "12"},
+    "node.inherited_method": {
+        "name": "self.count_clients",
+        "method": "count_clients",
+        "written": "self.count",
+    },
     "node.name_shared": {"name": "counter", "line": "12", "written": "on_timer"},
     "node.text_outside": {
         "name": "info",

@@ -13,7 +13,7 @@ from grader.mistakes.example import LOG_LINE, NODE, SILENT, STEP_LINE, example
 from grader.mistakes.fixes import node_try
 from grader.mistakes.hidden_error import attribute_corrected, corrected, hidden_bodies, hidden_error
 from grader.mistakes.kind import Family
-from grader.mistakes.objects import OF_NODE
+from grader.mistakes.objects import ALSO_OF_NODE, OF_NODE
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
@@ -24,19 +24,6 @@ from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
 from grader.package.source.node import LOG_METHODS, NodeSource
 
-ALSO_OF_NODE = (
-    *("timers", "clients", "services", "publishers", "subscriptions", "guards", "waitables"),
-    *("context", "handle", "default_callback_group", "get_parameters", "declare_parameters"),
-    *("get_parameter_or", "get_parameters_by_prefix", "set_parameters", "has_parameter"),
-    *("undeclare_parameter", "describe_parameter", "describe_parameters", "get_parameter_type"),
-    *("get_parameter_types", "destroy_publisher", "destroy_subscription", "destroy_client"),
-    *("destroy_service", "destroy_rate", "get_node_names", "get_fully_qualified_name"),
-    *("count_publishers", "count_subscribers", "count_clients", "count_services", "add_waitable"),
-    *("remove_waitable", "create_guard_condition", "destroy_guard_condition"),
-    *("set_parameters_atomically", "add_on_set_parameters_callback", "resolve_topic_name"),
-    *("resolve_service_name", "get_topic_names_and_types", "get_service_names_and_types"),
-)
-"""Attributes and methods of Node that a node seldom uses."""
 MISSPELT = 0.85  # how like two names are of which one is the other with a typing mistake
 OF_LOGGER = (
     *LOG_METHODS,

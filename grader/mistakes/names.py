@@ -26,8 +26,8 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
-from grader.package.source.place import statement_at
-from grader.package.source.scopes import bindings, visible_names
+from grader.package.source.place import function_at, statement_at
+from grader.package.source.scopes import bindings, has_self, visible_names
 
 MISSPELT = 0.85  # how like two names are of which one is the other with a typing mistake
 
@@ -155,12 +155,22 @@ def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return replace(raised.finding("argument_missing", params=params), variant="several")
     if (wanted := _wanted(raised, match)) is not None:
         return wanted
+    if match["function"] == "get_logger" and _in_method(raised):
+        found = raised.finding("argument_missing", name="get_logger()", written="self.get_logger()")
+        return replace(found, variant="logger", words={**found.words, "function": "get_logger"})
     foreign = match["function"].partition(".")[0] not in raised.source.known_classes
     if match["name"] == "self" and "." in match["function"]:
         return replace(found, variant="class")
     if function in own and not foreign:
         return _of_own_method(raised, match) or replace(found, variant="own")
     return found
+
+
+def _in_method(raised: Raised) -> bool:
+    """Whether the line is in a method of the node's class."""
+    function = function_at(raised.module, raised.line)
+    bodies = [s for c in raised.source.family for s in c.body]
+    return function is not None and function in bodies and has_self(function)
 
 
 def _of_own_method(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -430,11 +440,16 @@ KINDS = (
                 "Remove {name} from the parameters in this line: nothing in __init__ uses it, and "
                 "line {line} passes no value."
             ),
+            "logger": msg("Write {written} instead of {name}."),
             "spin": msg("Write rclpy.spin({node}): spin needs the node that was created."),
         },
         whys={
             "property": PROPERTY,
             "property_used": PROPERTY,
+            "logger": msg(
+                "Without self., get_logger is a function that this file imports, and it needs a name. "
+                "The node has a logger of its own."
+            ),
             "class": msg(
                 "{function} works on an object: Python passes the object as self. Nothing is passed "
                 "if the method is called on the class."
@@ -443,13 +458,29 @@ KINDS = (
         raised={
             r"TypeError: (?P<function>[\w.]{1,200})\(\) missing \d{1,3} required positional arguments?: (?P<names>'(?P<name>\w{1,120})'.{0,400})": _argument
         },
-        fixed_by=(node_life.spin, node_constructor.argument, node_brackets.without_parameter),
+        fixed_by=(
+            node_life.spin,
+            node_constructor.argument,
+            node_brackets.without_parameter,
+            lines.written,
+        ),
         examples=(
             example(
                 "init_wants_name",
                 Replace(NODE, "def __init__(self)", "def __init__(self, name)"),
                 Replace(NODE, "super().__init__('my_first_node')", "super().__init__(name)"),
                 fails="run.starts",
+            ),
+            example(
+                "logger_of_the_module",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "import rclpy\nfrom rclpy.logging import get_logger\nfrom",
+                ),
+                Replace(NODE, "self.get_logger()", "get_logger()"),
+                fails="run.output",
+                blocks=DEAD,
             ),
             example(
                 "init_wants_more",

@@ -15,7 +15,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, on_line
 from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import targets_of
+from grader.package.source.counter import starts_of, targets_of
 from grader.package.source.imported import full_name, imports, name_of_node
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, last_part, module_name, own_name
@@ -39,6 +39,19 @@ OF_NODE = (
     *("_logger", "_clock", "_handle", "_context", "_parameters", "_default_callback_group"),
 )
 """What Node keeps for itself under names that a class can set."""
+ALSO_OF_NODE = (
+    *("timers", "clients", "services", "publishers", "subscriptions", "guards", "waitables"),
+    *("context", "handle", "default_callback_group", "get_parameters", "declare_parameters"),
+    *("get_parameter_or", "get_parameters_by_prefix", "set_parameters", "has_parameter"),
+    *("undeclare_parameter", "describe_parameter", "describe_parameters", "get_parameter_type"),
+    *("get_parameter_types", "destroy_publisher", "destroy_subscription", "destroy_client"),
+    *("destroy_service", "destroy_rate", "get_node_names", "get_fully_qualified_name"),
+    *("count_publishers", "count_subscribers", "count_clients", "count_services", "add_waitable"),
+    *("remove_waitable", "create_guard_condition", "destroy_guard_condition"),
+    *("set_parameters_atomically", "add_on_set_parameters_callback", "resolve_topic_name"),
+    *("resolve_service_name", "get_topic_names_and_types", "get_service_names_and_types"),
+)
+"""Attributes and methods of Node that a node seldom uses."""
 OWN_METHOD = r"TypeError: \w{1,120}\.(?P<name>\w{1,120})\(\) (?:takes|missing|got)"
 NOT_A_NODE = r"'(?P<type>\w{1,120})' object has no attribute '(?:executor|handle|context)'"
 NOT_AN_EXECUTOR = (
@@ -273,6 +286,27 @@ def _shares_name(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
         found = raised.finding("name_shared", at=method, name=name, line=line, written=new)
         return replace(found, variant="" if name in passed else "attribute")
     return None
+
+
+def _inherited(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The line works with a method of Node as if it were a value of the student's."""
+    del match
+    source, statement = raised.source, statement_at(raised.module, raised.line)
+    parts = [n for n in ast.walk(statement) if own_name(n)] if statement is not None else []
+    names = {own_name(n) for n in parts} & {*NODE_METHODS, *ALSO_OF_NODE}
+    set_here = {t for n in source.own_nodes if isinstance(n, ast.Assign) for t in targets_of(n)}
+    names -= {*source.methods, *(name.removeprefix("self.") for name in set_here)}
+    called = {
+        own_name(n.func) for n in ast.walk(statement or ast.Pass()) if isinstance(n, ast.Call)
+    }
+    if len(names - called) != 1:
+        return None
+    name = (names - called).pop()
+    counters = sorted(name for name in starts_of(source) if name.startswith("self."))
+    if len(counters) == 1:
+        found = raised.finding("inherited_method", name=f"self.{name}", written=counters[0])
+        return replace(found, variant="counter", words={**found.words, "method": name})
+    return raised.finding("inherited_method", params={"name": f"self.{name}", "method": name})
 
 
 def _explains(statement: ast.AST, kind: str | None) -> bool:
@@ -622,6 +656,27 @@ KINDS = (
                 ),
                 fails="run.output",
                 blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "inherited_method",
+        "counter",
+        msg("A method of Node stands where a value is needed"),
+        msg(
+            "{method} is a method that your class inherits from Node, and no value. An editor may "
+            "have completed the name so."
+        ),
+        msg("Write the name of your own attribute instead of {name}."),
+        fixes={"counter": msg("Write {written} instead of {name}.")},
+        raised={METHOD_AS_VALUE: on_line(_inherited)},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "completed_to_a_method",
+                Replace(NODE, "self.counter_ += 1", "self.count_publishers += 1"),
+                fails="run.output",
+                blocks=("run.interrupt",),
             ),
         ),
     ),

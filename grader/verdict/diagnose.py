@@ -28,7 +28,7 @@ from grader.verdict.follows import followed
 from grader.verdict.node_files import source_around, source_of_node
 from grader.verdict.other_version import other_version
 from grader.verdict.outcome import Failed
-from grader.verdict.own_modules import own_module
+from grader.verdict.own_modules import main_in_copy, own_module
 
 if TYPE_CHECKING:
     from grader.package.source.node import NodeSource
@@ -129,6 +129,7 @@ def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedM
                 _not_installed(error, evidence)
                 or own_module(error, where, evidence)
                 or circular_import(error, where, evidence)
+                or main_in_copy(error, evidence)
                 or _raised(error, where, evidence)
             )
     source = source_of_node(evidence)

@@ -302,6 +302,36 @@ def _file_as_name(
     )
 
 
+NO_MAIN = re.compile(
+    r"AttributeError: module '[\w.]{1,200}' has no attribute '(?P<name>\w{1,120})'"
+)
+
+
+def main_in_copy(error: str, evidence: Evidence) -> RecognisedMistake | None:
+    """Return that another file has the entry function, and the node's file has no code of a node."""
+    match, asked = NO_MAIN.match(error), evidence.assignment
+    path = f"{asked.folder}/{asked.node_file}"
+    module = read_module(partial(data_of, evidence), path)
+    if match is None or match["name"] != asked.function or module is None:
+        return None
+    if module.classes or module.functions:
+        return None
+    found = []
+    for file in evidence.submission.files:
+        is_python = file.kind == "file" and file.path.endswith(".py")
+        other = read_module(partial(data_of, evidence), file.path) if is_python else None
+        if other is not None and file.path != path and asked.function in other.functions:
+            found += [file.path] if other.uses_ros and other.classes else []
+    if len(found) != 1:
+        return None
+    return RecognisedMistake(
+        kind="node.main_missing",
+        words={"function": asked.function, "made": "", "there": shown(found[0]), "path": path},
+        variant="in_copy",
+        where=Where(file=path),
+    )
+
+
 def _is_bound(name: str, package: str, evidence: Evidence) -> bool:
     """Whether an import finds a name in a folder of the package, or whether this is not certain."""
     folder = package.replace(".", "/")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from grader.mistakes.alike import is_typo
+from grader.mistakes.alike import is_typo, meant_by
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.recognised import RecognisedMistake
 from tests.mistakes.test_from_source import RIGHT, line_of, raised
@@ -259,3 +259,19 @@ def test_a_name_of_another_module_of_rclpy_gets_its_import() -> None:
     found = raised(error, text, line_of(text, new))
     assert found is not None
     assert found.params["written"] == "from rclpy.executors import SingleThreadedExecutor"
+
+
+@pytest.mark.parametrize(
+    ("name", "known", "close"),
+    [
+        ("mgs", ["msg", "mag", "node"], "msg"),
+        ("mgs", ["node"], ""),
+        ("tiemr", ["timer", "tier"], "timer"),
+        ("ab", ["ba"], ""),
+        ("cba", ["abc"], ""),
+    ],
+)
+def test_two_letters_that_changed_places_are_a_typing_mistake(
+    name: str, known: list[str], close: str
+) -> None:
+    assert meant_by(name, known, 0.75) == close

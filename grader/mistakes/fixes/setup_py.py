@@ -12,7 +12,13 @@ from grader.package.edit.text import Splice, indent_of, read_source
 from grader.package.source.python import can_parse
 from grader.package.source.setup_faults import setup_fault
 from grader.package.source.setup_packages import packages_of
-from grader.package.source.setup_py import INDEX, called_value, entry_outside, missing_imports
+from grader.package.source.setup_py import (
+    EMPTY,
+    INDEX,
+    called_value,
+    entry_outside,
+    missing_imports,
+)
 
 IMPORTS = ast.Import | ast.ImportFrom
 
@@ -45,6 +51,12 @@ def entry_inside(case: Case) -> Files | None:
     if source is None or outside is None or can_parse(found or b""):
         return None
     entry = source.line(outside.line).strip().removesuffix(",")
+    empty = EMPTY.fullmatch(source.line(outside.above))
+    if empty is not None:
+        at = source.start_of(outside.above) + source.line(outside.above).index("[") + 1
+        inside = source.spliced([source.without(outside.line), Splice(at, at, entry)])
+        right = inside is not None and can_parse(inside)
+        return case.with_data(FILE, inside) if inside is not None and right else None
     row = f"{indent_of(source.line(outside.above))}    {entry},"
     before = source.line(outside.above - 1).rstrip()
     new = source.spliced([source.without(outside.line), source.before(outside.above, row)])

@@ -18,6 +18,8 @@ INDEX = "share/ament_index/resource_index/packages"
 """The folder into which `data_files` installs the package's marker."""
 
 MOST_COMMENTS = 200
+EMPTY = re.compile(r"[ \t]{0,80}(['\"])console_scripts\1 ?: ?\[[ \t]{0,20}\],?[ \t]*")
+"""A list of executables that is closed on its own line, and is empty."""
 ENTRY = re.compile(r"[ \t]{0,80}(['\"])[\w.-]{1,80} ?= ?[\w.]{1,200}:\w{1,80}\1,?[ \t]*")
 IMPORTS = {
     "os": "import os",
@@ -155,6 +157,7 @@ class OutsideEntry:
 
     line: int
     above: int
+    is_empty: bool = False
 
 
 def entry_outside(found: bytes) -> OutsideEntry | None:
@@ -162,8 +165,10 @@ def entry_outside(found: bytes) -> OutsideEntry | None:
     rows = found.decode("utf-8", "replace").splitlines()
     filled = [number for number, row in enumerate(rows, 1) if row.strip()]
     for above, line in pairwise(filled):
-        if rows[above - 1].strip() in ("]", "],") and ENTRY.fullmatch(rows[line - 1]):
-            return OutsideEntry(line, above)
+        is_empty = EMPTY.fullmatch(rows[above - 1]) is not None
+        closed = rows[above - 1].strip() in ("]", "],") or is_empty
+        if closed and ENTRY.fullmatch(rows[line - 1]):
+            return OutsideEntry(line, above, is_empty)
     return None
 
 

@@ -547,7 +547,8 @@ def _unreadable(evidence: Evidence, expected: str, error: str, where: Where) -> 
             if len(empty) == 1:
                 variant, where = "repeated_empty", Where(file="setup.py", line=empty[0].lineno)
     elif outside is not None:
-        variant, words = "outside", {"line": str(outside.above)}
+        variant = "outside_empty" if outside.is_empty else "outside"
+        words = {"line": str(outside.above)}
         where = Where(file="setup.py", line=outside.line)
     elif slip is not None:
         variant, words = slip.variant, words_of(slip)
