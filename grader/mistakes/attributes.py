@@ -34,6 +34,17 @@ ATTRIBUTE = (
 )
 
 
+ELSEWHERE = {
+    "create_wall_timer": "create_timer",
+    "createTimer": "create_timer",
+    "createWallTimer": "create_timer",
+    "add_timer": "create_timer",
+    "advertise": "create_publisher",
+    "create_subscriber": "create_subscription",
+    "getLogger": "get_logger",
+    "logger": "get_logger",
+}
+"""Methods of nodes in C++, in ROS 1 and in other libraries, and those of rclpy."""
 SET_ELSEWHERE = msg(
     "self.{name} does not exist until a line assigns to it. Line {lines} does so, but had not run "
     "for this object when Python came to this line."
@@ -53,6 +64,8 @@ def _close_attribute(raised: Raised, name: str) -> str:
 def _close_method(raised: Raised, match: re.Match[str]) -> str:
     """Return the method that is meant: of the node, of rclpy or of the logger."""
     name = match["name"]
+    if _is_of_node(raised, match["type"]) and name in ELSEWHERE:
+        return ELSEWHERE[name]
     if of_self(raised, match):
         if _close_attribute(raised, name) and not _is_only_called(raised, name):
             return ""

@@ -228,7 +228,7 @@ KINDS = (
                 "{name} is a function and must be called. Write: {wanted}, then build again."
             ),
             "comma_behind": msg(
-                "The comma at the end of this line makes {name} a tuple, and not a text. Write: "
+                "The comma at the end of this line makes {name} a tuple, not a text. Write: "
                 "{wanted}, then build again."
             ),
             "list_in_list": msg(

@@ -207,6 +207,9 @@ def _no_name_in_module(raised: Raised, match: re.Match[str]) -> RecognisedMistak
         params = {"name": code, "written": new} if alone else {"name": name, "statement": new}
         found = raised.finding("import_name", params={**params, "module": module})
         return replace(found, variant="home" if alone else "home_too")
+    if module == "rclpy.node" and name.endswith("Node") and name != "Node":
+        found = raised.finding("import_name", name=name, module=module, close="Node")
+        return replace(found, variant="node")
     known = (*RCLPY, "Node") if module.startswith("rclpy") else ("String", "Twist")
     close = meant_by(name, known, cutoff=0.75)
     return raised.finding("import_name", name=name, close=close, module=module)
@@ -533,6 +536,11 @@ KINDS = (
         whys={
             "own": OWN_NAME,
             "own_close": OWN_NAME,
+            "own_init": OWN_NAME,
+            "node": msg(
+                "rclpy.node has the class Node, and no {name}. Your own class can have any name, but "
+                "not the one of ROS."
+            ),
             "home": OTHER_HOME,
             "home_too": OTHER_HOME,
         },
@@ -541,7 +549,12 @@ KINDS = (
             "home_too": msg(
                 "Take {name} out of this line, and add the line {statement} at the top of the file."
             ),
+            "node": msg("Write Node instead of {name}, here and in brackets behind your class."),
             "own": msg("Define {name} in {path}, or import another name from it."),
+            "own_init": msg(
+                "Delete this line: {file} can be empty. setup.py names the node's file, and needs no "
+                "list of files here."
+            ),
             "own_close": msg(
                 "Write {close} instead of {name}, here and wherever this file uses it: {path} defines {close}."
             ),
@@ -552,6 +565,17 @@ KINDS = (
         },
         fixed_by=(lines.written, rename.imported, node_life.node_import),
         examples=(
+            example(
+                "node_of_rclpy_renamed",
+                Replace(NODE, "from rclpy.node import Node", "from rclpy.node import HelloNode"),
+                Replace(NODE, "(Node)", "(HelloNode)"),
+                fails="run.starts",
+            ),
+            example(
+                "init_imports_a_wrong_name",
+                Write(f"{INNER}/__init__.py", f"from {INNER}.my_first_node import helper\n"),
+                fails="run.starts",
+            ),
             example(
                 "executor_from_rclpy",
                 Replace(

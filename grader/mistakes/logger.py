@@ -183,6 +183,17 @@ def _print_beside(source: NodeSource, part: ast.AST) -> ast.Call | None:
     return None
 
 
+def _print_inside(suspect: Suspect, call: ast.Call, given: ast.Call) -> RecognisedMistake:
+    """Return that the logger gets what print returns; print joins its values with spaces."""
+    if len(given.args) == 1 and not given.keywords:
+        return replace(suspect.finding("print_used", given), variant="inside")
+    text, log = suspect.source.module_of(given).text, as_log(suspect.source, given)
+    if log is None or len(call.args) != 1:
+        return replace(suspect.finding("print_used", given), variant="inside_several")
+    found = suspect.finding("print_used", given, name=text.code(call), written=log)
+    return replace(found, variant="inside_written")
+
+
 def _printed(suspect: Suspect) -> RecognisedMistake | None:
     callback = suspect.source.callback
     prints = suspect.source.prints(callback) if callback is not None else []
@@ -190,7 +201,7 @@ def _printed(suspect: Suspect) -> RecognisedMistake | None:
     for call in suspect.source.own_logs:
         for given in call.args:
             if isinstance(given, ast.Call) and dotted(given.func) == "print":
-                return replace(suspect.finding("print_used", given), variant="inside")
+                return _print_inside(suspect, call, given)
     if not prints:
         return None
     beside = _print_beside(suspect.source, callback) if callback is not None else None
@@ -262,6 +273,10 @@ def _left_out(*options: str) -> FromSource:
     return found
 
 
+INSIDE = msg(
+    "print() writes the text to this terminal and returns None, so the logger gets None instead of "
+    "the text."
+)
 BESIDE = msg("Delete this print(…): the logger logs the same text.")
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
@@ -503,13 +518,15 @@ KINDS = (
         msg("Write self.get_logger().info(…) instead of print(…)."),
         links.LOGGING,
         whys={
-            "inside": msg(
-                "print() writes the text to this terminal and returns None, so the logger gets "
-                "None instead of the text."
-            ),
+            **dict.fromkeys(("inside", "inside_written", "inside_several"), INSIDE),
         },
         fixes={
             "inside": msg("Remove print( and its ): give the text itself to the logger."),
+            "inside_written": INSTEAD,
+            "inside_several": msg(
+                "Remove print( and its ), and give one text to the logger: join the values with +, or "
+                "write them into an f-string."
+            ),
             "beside": BESIDE,
             "written": INSTEAD,
             **print_elsewhere.FIXES,

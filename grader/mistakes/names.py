@@ -59,6 +59,8 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return replace(raised.finding("name_unknown", name=name), variant="alone")
     if name in TYPES and (types := _as_type(raised, name)) is not None:
         return types
+    if (guard := _guard(raised, name)) is not None:
+        return guard
     timers = [] if bindings(raised.module, name) else raised.source.timers
     if any(dotted(timer.period or timer.call) == name for timer in timers):
         period = repr(raised.assignment.output.period)
@@ -94,6 +96,22 @@ def _as_type(raised: Raised, name: str) -> RecognisedMistake | None:
     rows = ", ".join(str(row) for row in sorted({use.lineno for use in uses}))
     found = raised.finding("name_unknown", name=name, close=TYPES[name])
     return replace(found, variant="type", words={**found.words, "lines": rows})
+
+
+def _guard(raised: Raised, name: str) -> RecognisedMistake | None:
+    """The line is meant as if __name__ == '__main__':, and the underscores are missing."""
+    row = raised.module.line(raised.line or 0)
+    match = re.match(r"if\s+(?P<test>_?name_?\s*==\s*(['\"])_{0,2}main_{0,2}\2)\s*:", row)
+    if match is None or not re.fullmatch(r"_?name_?", name):
+        return None
+    rows = enumerate(raised.module.text.lines, 1)
+    bare = re.compile(r"\bdef _?init_?\(self|\bsuper\(\)\._?init_?\(")
+    others = [str(n) for n, _ in rows if bare.search(raised.module.line(n))]
+    found = raised.finding("name_unknown", name=match["test"], written="__name__ == '__main__'")
+    if not others:
+        return replace(found, variant="guard")
+    words = {**found.words, "lines": ", ".join(others)}
+    return replace(found, variant="guard_init", params={"name": name}, words=words)
 
 
 def _instead(found: RecognisedMistake) -> RecognisedMistake:
@@ -302,8 +320,22 @@ KINDS = (
             "period": msg("Write the period in seconds instead of {name}: {written}"),
             "instead": msg("Write {close} instead of {name}."),
             "type": msg("Write {close} instead of {name} in line {lines}."),
+            "guard": msg(
+                "Write {written} instead of {name}, with two underscores before and behind both words."
+            ),
+            "guard_init": msg(
+                "Write {written} instead of {name}, with two underscores before and behind both words. "
+                "Write __init__ so, too, in line {lines}."
+            ),
         },
         whys={
+            **dict.fromkeys(
+                ("guard", "guard_init"),
+                msg(
+                    "Python's own names have two underscores on both sides. Some programs take them "
+                    "for bold type and remove them."
+                ),
+            ),
             "type": msg("{name} is a type of other programming languages. Python has no {name}."),
         },
         seen=r"NameError: name '(?P<name>\w{1,120})' is not defined",
@@ -313,6 +345,13 @@ KINDS = (
             example(
                 "base_in_small_letters",
                 Replace(NODE, "class MyFirstNode(Node)", "class MyFirstNode(node)"),
+                fails="run.starts",
+            ),
+            example(
+                "underscores_of_the_guard_lost",
+                Replace(NODE, "if __name__ == '__main__':", "if name == 'main':"),
+                Replace(NODE, "def __init__(", "def init("),
+                Replace(NODE, "super().__init__(", "super().init("),
                 fails="run.starts",
             ),
             example(

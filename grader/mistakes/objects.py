@@ -438,8 +438,8 @@ KINDS = (
         links.EXECUTORS,
         whys={
             "second": msg(
-                "rclpy.spin takes the node. A second value is an executor, and no period and no "
-                "number: the timer has the period."
+                "rclpy.spin takes the node. A second value is an executor, not a period: "
+                "the timer has the period."
             )
         },
         raised={NOT_A_NODE: _not_spun, NOT_AN_EXECUTOR: _spin_with_more},
@@ -664,7 +664,7 @@ KINDS = (
         "counter",
         msg("A method of Node stands where a value is needed"),
         msg(
-            "{method} is a method that your class inherits from Node, and no value. An editor may "
+            "{method} is a method that your class inherits from Node, not a value. An editor may "
             "have completed the name so."
         ),
         msg("Write the name of your own attribute instead of {name}."),

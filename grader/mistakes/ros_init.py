@@ -78,6 +78,11 @@ def _init_late(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
         return None
     source = raised.source
     main = [c for c in inits if source.main and source.function_around(c) is source.main]
+    if (own := _own_context(inits)) is not None:
+        code = source.module_of(own[0]).text.code(own[0])
+        return replace(
+            raised.finding("init_late", at=own[0], name=code, written=own[1]), variant="context"
+        )
     if _ran_before(raised, main):
         return raised.finding("ros_not_running")
     moved = (main or inits) if len(main or inits) == 1 else []
@@ -85,6 +90,15 @@ def _init_late(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
         return raised.finding("init_late", written=node_init.new_call(source))
     written = node_init.moved_call(source, moved[0])
     return raised.finding("init_late", at=moved[0], written=written)
+
+
+def _own_context(inits: list[ast.Call]) -> tuple[ast.Call, str] | None:
+    """Return the only call of init with a context of its own, and the call without it."""
+    call = inits[0] if len(inits) == 1 else None
+    if call is None or not any(keyword.arg == "context" for keyword in call.keywords):
+        return None
+    kept = [keyword for keyword in call.keywords if keyword.arg != "context"]
+    return call, ast.unparse(ast.Call(call.func, call.args, kept))
 
 
 def _ran_before(raised: Raised, inits: list[ast.Call]) -> bool:
@@ -210,9 +224,27 @@ KINDS = (
         NODES_MADE,
         msg("Move {written} to the first line of {function}."),
         links.RCLPY,
+        whys={
+            "context": msg(
+                "context= gives rclpy.init a context of its own, and the node uses the usual one, in "
+                "which ROS is not running."
+            )
+        },
+        fixes={
+            "context": msg("Write {written} instead of {name}. A program needs no other context.")
+        },
         raised={NOT_INITIALIZED: _init_late},
-        fixed_by=(node_life.rclpy_init,),
+        fixed_by=(lines.written, node_life.rclpy_init),
         examples=(
+            example(
+                "init_with_another_context",
+                Replace(
+                    NODE,
+                    "rclpy.init(args=args)",
+                    "context = rclpy.Context()\n    rclpy.init(args=args, context=context)",
+                ),
+                fails="run.starts",
+            ),
             example(
                 "rclpy_init_after_node",
                 Replace(

@@ -159,7 +159,11 @@ KINDS = (
         title=msg("setup.cfg installs executables where ros2 run does not look"),
         why=OTHER_PLACE,
         whys={
-            **dict.fromkeys(("key", "misspelt", "heading", "section"), TWO_SECTIONS),
+            **dict.fromkeys(("key", "misspelt", "heading", "section", "swapped"), TWO_SECTIONS),
+            "indented": msg(
+                "In setup.cfg, a line that begins with a space continues the line above. So this "
+                "line, and those below it, belong to the value above, and begin no section."
+            ),
             "sections": TWO_SECTIONS,
             "comment": msg(
                 "setup.cfg sets where executables are installed, and ros2 run looks only in "
@@ -179,6 +183,13 @@ KINDS = (
         },
         fix=msg("Write {key}={wanted}, then build again."),
         fixes={
+            "indented": msg(
+                "Delete the spaces before this line and before the lines below it, then build again."
+            ),
+            "swapped": msg(
+                "Exchange the two keys: script_dir={wanted} belongs below [develop], and "
+                "install_scripts={wanted} below [install]. Then build again."
+            ),
             "quotes": msg(
                 "Delete the quotes around the path (lines: {line}), so that it is {wanted}. Then "
                 "build again."
@@ -250,6 +261,30 @@ KINDS = (
                         "script_dir=$base/lib/my_robot_controller  # for ros2 run\n"
                         "[install]\n"
                         "install_scripts=$base/lib/my_robot_controller  # for ros2 run\n"
+                    ),
+                ),
+                fails="package.setup_cfg",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "setup_cfg_keys_swapped",
+                Write(
+                    CFG,
+                    (
+                        "[develop]\ninstall_scripts=$base/lib/my_robot_controller\n"
+                        "[install]\nscript_dir=$base/lib/my_robot_controller\n"
+                    ),
+                ),
+                fails="package.setup_cfg",
+                blocks=UNBUILT,
+            ),
+            example(
+                "setup_cfg_section_indented",
+                Write(
+                    CFG,
+                    (
+                        "[develop]\nscript_dir=$base/lib/my_robot_controller\n"
+                        "  [install]\n  install_scripts=$base/lib/my_robot_controller\n"
                     ),
                 ),
                 fails="package.setup_cfg",

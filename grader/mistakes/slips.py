@@ -344,6 +344,17 @@ SIGNS = {
     "prefix_apart": msg("No space is between the letter and the quote. Write: {wanted}"),
     "dot_bracket": msg("No dot is between a name and its brackets. Write: {wanted}"),
     "parameter_outside": msg("The parameters of a def are inside its brackets. Write: {wanted}"),
+    "arrow_behind_colon": msg(
+        "The type that a function returns is before the colon, behind ->. Write: {wanted}"
+    ),
+    "quote_at_end": msg(
+        "The text ends with a quote, and the three quotes that end it follow directly: Python takes "
+        "the first three of the four. Write a space between them: {wanted}"
+    ),
+    "clauses_in_line": msg(
+        "try: and each except …: begin a line of their own. Write this as lines below each other, and "
+        "indent what belongs to each by 4 spaces more: {wanted}"
+    ),
     "editor_behind": msg(
         "The end of this line is a command for the editor, not code. Write: {wanted}"
     ),

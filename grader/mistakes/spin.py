@@ -187,7 +187,13 @@ def _under_guard(suspect: Suspect) -> RecognisedMistake | None:
     spins = source.calls_of("spin")
     if not spins or any(source.function_around(call) is not None for call in spins):
         return None
-    return replace(suspect.finding("spin_missing", spins[0]), variant="guard")
+    main = suspect.function
+    returns = [n for n in ast.walk(main) if isinstance(n, ast.Return)] if main is not None else []
+    found = suspect.finding("spin_missing", spins[0])
+    if len(returns) != 1 or returns[0].value is None:
+        return replace(found, variant="guard")
+    words = {**found.words, "line": str(returns[0].lineno)}
+    return replace(found, variant="guard_returns", words=words)
 
 
 def _missing(suspect: Suspect) -> RecognisedMistake | None:
@@ -621,6 +627,10 @@ KINDS = (
                 "ros2 run calls only {function}. Lines outside of it, such as those below if "
                 "__name__ == '__main__':, run only if you start the file itself."
             ),
+            "guard_returns": msg(
+                "ros2 run calls only {function}. Lines outside of it, such as those below if "
+                "__name__ == '__main__':, run only if you start the file itself."
+            ),
             "executor": msg(
                 "add_node only gives the node to the executor. {name}.spin() waits and calls the "
                 "callbacks when they are due."
@@ -628,6 +638,11 @@ KINDS = (
         },
         fixes={
             "guard": msg("Move the call of rclpy.spin into {function}, after creating the node."),
+            "guard_returns": msg(
+                "Write in {function}, instead of the return in line {line}, the lines that use the "
+                "node: try:, rclpy.spin and the clean-up, with the variable of {function} for the "
+                "node. Leave only {function}() outside."
+            ),
             "executor": msg("Write {name}.spin() below this line."),
             "loop": msg("Write rclpy.spin({node}) instead of this loop."),
             "loop_above": msg("Delete this loop: line {line} waits and calls the callbacks."),

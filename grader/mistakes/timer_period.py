@@ -17,6 +17,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.period import is_right, origin_of, seconds_of
 
 MOST_EXPONENT = 9
+MICRO = 1e5  # seconds: a period in microseconds is ten times as long
 LONG = 100.0  # seconds; a longer period was meant in milliseconds
 REAL_NUMBER = (
     r"float\(\) argument must be .{1,60}not '(?P<type>\w{1,120})'"
@@ -123,7 +124,8 @@ def _milliseconds(suspect: Suspect) -> RecognisedMistake | None:
     number = value.value if isinstance(value, ast.Constant) else None
     if not isinstance(number, int | float) or not number >= LONG > suspect.output.period:
         return None
-    return suspect.finding("period_milliseconds", value, written=f"{number:g}")
+    found = suspect.finding("period_milliseconds", value, written=f"{number:g}")
+    return found if number < MICRO else replace(found, variant="large")
 
 
 def _caret(suspect: Suspect) -> RecognisedMistake | None:
@@ -343,9 +345,15 @@ KINDS = (
     _node(
         "period_milliseconds",
         "timer",
-        msg("The period is written in milliseconds"),
-        msg("create_timer takes seconds: {written} is {written} seconds."),
+        msg("The period is not written in seconds"),
+        msg("create_timer takes seconds, not milliseconds: {written} is {written} seconds."),
         TIMER,
+        whys={
+            "large": msg(
+                "create_timer takes seconds, not micro- or nanoseconds: {written} is {written} "
+                "seconds, many days or years."
+            )
+        },
         behind={"run.no_lines": _milliseconds},
         fixed_by=(node_timer.period,),
         examples=(

@@ -370,7 +370,7 @@ def _not_handed_in(error: str, where: Where, evidence: Evidence) -> RecognisedMi
     close = nearest(name, modules, cutoff=0.75)
     elsewhere = [f.path for f in submission.files if f.path.rpartition("/")[2] == f"{name}.py"]
     there = shown(elsewhere[0]) if elsewhere else ""
-    init = "init" if where.file.endswith("/__init__.py") else ""
+    init = "init" if _is_init(where) else ""
     return RecognisedMistake(
         kind="node.own_module_missing",
         params={"name": name, "close": close, "written": close} if close else {"name": name},
@@ -378,6 +378,10 @@ def _not_handed_in(error: str, where: Where, evidence: Evidence) -> RecognisedMi
         variant="close" if close else "elsewhere" if there else init,
         where=where,
     )
+
+
+def _is_init(where: Where) -> bool:
+    return where.file.endswith("/__init__.py")
 
 
 def _not_in_file(error: str, where: Where, evidence: Evidence) -> RecognisedMistake | None:
@@ -393,7 +397,7 @@ def _not_in_file(error: str, where: Where, evidence: Evidence) -> RecognisedMist
     return RecognisedMistake(
         kind="node.import_name",
         params={"name": name, "close": close} if close else {"name": name},
-        words={"name": name, "close": close, "path": path},
-        variant="own_close" if close else "own",
+        words={"name": name, "close": close, "path": path, "file": where.file},
+        variant="own_close" if close else "own_init" if _is_init(where) else "own",
         where=where,
     )

@@ -40,8 +40,43 @@ def setting(case: Case) -> Files | None:
         cfg = read_setup_cfg(found)
     except SetupCfgFault:
         return None
+    rows = [re.match(r"[ \t]+(?=\[\w+\][ \t]*$)", text.line(n)) for n in _numbers(text)]
+    if any(rows):
+        return _unindented(case, text)
+    there = [{*cfg.sections.get(name, {})} for name in KEYS]
+    if there == [{key} for key in reversed(KEYS.values())]:
+        return _swapped(case, text)
     change = _change(cfg, text, section, f"{KEYS[section]}={wanted(case.package)}")
     return case.with_data(FILE, text.spliced([change])) if change else None
+
+
+def _numbers(text: SourceText) -> range:
+    return range(1, len(text.lines) + 1)
+
+
+def _unindented(case: Case, text: SourceText) -> Files | None:
+    """Move the headings and the keys to the margin."""
+    splices = []
+    for number in _numbers(text):
+        match = re.match(r"[ \t]+(?=\[\w+\]|[a-z_-]+[ \t]*=)", text.line(number))
+        start = text.start_of(number)
+        splices += [Splice(start, start + match.end(), "")] if match is not None else []
+    new = text.spliced(splices)
+    return case.with_data(FILE, new) if new and _is_read(new) else None
+
+
+def _swapped(case: Case, text: SourceText) -> Files | None:
+    """Exchange the keys of the two sections."""
+    names = {KEYS["install"]: KEYS["develop"], KEYS["develop"]: KEYS["install"]}
+    splices = []
+    for number in _numbers(text):
+        match = re.match(r"(install[_-]scripts|script[_-]dir)(?=[ \t]*[=:])", text.line(number))
+        if match is not None:
+            start = text.start_of(number)
+            new = names[match[1].replace("-", "_")]
+            splices.append(Splice(start, start + match.end(), new))
+    new_text = text.spliced(splices) if len(splices) == 2 else None
+    return case.with_data(FILE, new_text) if new_text else None
 
 
 def _change(cfg: SetupCfg, text: SourceText, section: str, row: str) -> Splice | None:

@@ -501,7 +501,8 @@ def _comma_behind(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
             continue
         target = dotted(node.targets[0]) if isinstance(node, ast.Assign) else ""
         code = text.code(value)
-        if target and not code.startswith("(") and code.endswith(","):
+        used = any(dotted(part) == target for part in ast.walk(reader.call))
+        if used and not code.startswith("(") and code.endswith(","):
             found.append((value, target, text.code(value.elts[0])))
     if len(found) != 1:
         return None

@@ -39,6 +39,9 @@ RULES = (
            r"\g<name>(\g<given>)"),
     _typed("import_comma", r"^(?P<all>[ \t]*(?:from[ \t].*|import[ \t].*?))[ \t]*,[ \t]*$", r"\g<all>"),
     _typed("colon_missing", rf"^(?P<all>[ \t]*(?:{BLOCK})\b.*?)[ \t]*[;,.][ \t]*$", r"\g<all>:"),
+    _typed("arrow_behind_colon",
+           r"^(?P<start>[ \t]*(?:async[ \t]+)?def[ \t]+\w+[ \t]*\([^()]*\))[ \t]*:[ \t]*->[ \t]*(?P<type>[\w.\[\], |]+?)[ \t]*:?[ \t]*$",
+           r"\g<start> -> \g<type>:"),
     _typed("editor_behind", r"[ \t]*:(?:wqa?|w|qa?|x)!?[ \t]*$", ""),
     _typed("backslash_end", r"\\[ \t]+$", "\\"),
 )  # fmt: skip
@@ -120,6 +123,43 @@ def _lambda(text: Broken) -> Slip | None:
     written = text.source.line(text.number)
     body = written[match.start("body") : end].strip()
     return Slip("signs", "lambda_statement", text.number, written.strip(), body)
+
+
+CLAUSES = re.compile(
+    r"^[ \t]*try[ \t]*:[ \t]*(?P<body>\S.*?)[ \t;]+(?P<clause>(?:except|finally)\b[^:]*:)[ \t]*(?P<rest>.*?)[ \t]*$"
+)
+
+
+def _clauses_in_line(text: Broken) -> Slip | None:
+    """Return a try with its except on one line."""
+    match = CLAUSES.match(text.line)
+    if match is None:
+        return None
+    indent, line, written = indent_of(text.line), text.source.newline, text.source.line(text.number)
+    body, clause, rest = (written[slice(*match.span(part))] for part in ("body", "clause", "rest"))
+    inside = f"{indent}    "
+    rows = [f"{indent}try:", f"{inside}{body}", f"{indent}{clause}", f"{inside}{rest or 'pass'}"]
+    start, end = text.source.start_of(text.number), text.source.end_of(text.number)
+    new = text.changed(Splice(start, end, line.join(rows)))
+    wanted = " / ".join(row.strip() for row in rows)
+    return (
+        Slip("signs", "clauses_in_line", text.number, written.strip(), wanted, new) if new else None
+    )
+
+
+AT_END = re.compile(r"(?:\"\"\"\"|'''')[ \t]*$")
+
+
+def _quote_at_end(text: Broken) -> Slip | None:
+    """Return a text in three quotes whose last sign is the same quote."""
+    written = text.source.line(text.number)
+    match = AT_END.search(written)
+    if match is None or "unterminated" not in text.fault.text:
+        return None
+    at = match.start() + 1
+    splice = text.within(at, at, " ")
+    new = text.changed(splice)
+    return text.slip("signs", "quote_at_end", written, splice, fixed=new) if new else None
 
 
 OPENED = re.compile(r"(?P<quote>['\"])_*$")
@@ -297,5 +337,5 @@ def _dedented(text: Broken, head: int, columns: int) -> Slip | None:
 TYPED_LOOKS: tuple[Look, ...] = (
     _character, _finally_first, _clause_deeper, _decorator, _imports_joined, _lambda, _by_rule,
 )  # fmt: skip
-QUOTE_LOOKS: tuple[Look, ...] = (_other_quote,)
+QUOTE_LOOKS: tuple[Look, ...] = (_quote_at_end, _clauses_in_line, _other_quote)
 LATE_LOOKS: tuple[Look, ...] = (_colon_inside,)

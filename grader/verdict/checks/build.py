@@ -103,6 +103,9 @@ def colcon_builds(evidence: Evidence) -> Passed:
     of_path = NOT_WRITTEN.search(build.log) or NO_VARIABLE.search(build.log)
     if evidence.has_failed("package.setup_cfg") and of_path is not None:
         raise Blocked(by="package.setup_cfg")
+    option = NO_OPTION.search(build.log)
+    if evidence.has_failed("package.setup_cfg") and option and option[2] in KEYS.values():
+        raise Blocked(by="package.setup_cfg")
     of_group = evidence.has_mistake("entry_point.mapping", "setup.group_misspelt")
     if of_group and BAD_GROUP in build.log:
         raise Blocked(by="entry_point.mapping")

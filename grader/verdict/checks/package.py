@@ -337,6 +337,21 @@ def _no_cfg(evidence: Evidence, reason: str) -> str:
     return with_difference(say("there is no setup.cfg") + there_is(close), close, "setup.cfg")
 
 
+def _indented_heading(cfg: SetupCfg) -> int:
+    """Return the line of the first heading behind spaces, 0 if there is none."""
+    rows = enumerate(cfg.text.splitlines(), 1)
+    return next((n for n, row in rows if re.match(r"[ \t]+\[\w+\][ \t]*$", row)), 0)
+
+
+def _is_swapped(cfg: SetupCfg) -> bool:
+    """Whether each of the two sections has only the key of the other one."""
+    there = {
+        section: {key.replace("-", "_") for key in cfg.sections.get(section, {})}
+        for section in KEYS
+    }
+    return there == {"develop": {KEYS["install"]}, "install": {KEYS["develop"]}}
+
+
 def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) -> list[str]:
     """Check one setting; return advice on its spelling. Raises Failed."""
     dashed = key.replace("_", "-")
@@ -354,13 +369,22 @@ def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) 
             )
         ]
     line, close, quoted, name = cfg.lines.get(section), "", list[int](), ""
-    if setting is not None:
+    indented = _indented_heading(cfg)
+    if indented:
+        line, variant = indented, "indented"
+        said: str = say("the heading of a section is indented")
+        actual = said
+    elif _is_swapped(cfg):
+        variant = "swapped"
+        said = say("[{section}] has the key of the other section", section=section)
+        actual = said
+    elif setting is not None:
         line, variant = setting.line, "both" if _both_are_wrong(cfg, wanted) else ""
         slip, name = slip_of_path(setting.value, wanted)
         quoted = _lines_of(cfg, slip, wanted) if slip else []
         variant = slip or variant
         value = shown(setting.value)
-        said: str = say("[{section}] has {key}={value}", section=section, key=key, value=value)
+        said = say("[{section}] has {key}={value}", section=section, key=key, value=value)
         actual = with_difference(said, setting.value, wanted)
     elif section in cfg.sections:
         variant, close = "key", nearest(key, settings)
