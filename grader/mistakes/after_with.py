@@ -101,6 +101,8 @@ def _always_shuts(function: Function) -> bool:
 def _not_running(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """Rclpy finds no running ROS when a line spins."""
     del match
+    if not any(last_part(name) == "init" for _, name in raised.source.calls):
+        return None
     statement = statement_at(raised.module, raised.line)
     calls = [last_part(name) for _, name in calls_in(statement)] if statement is not None else []
     spins = any(name in SPINS or name.endswith("Executor") for name in calls)

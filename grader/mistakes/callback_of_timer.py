@@ -115,6 +115,8 @@ def _callback_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistak
         found = raised.finding("callback_misspelt", at=methods[close], name=close, close=name)
         return replace(found, variant="definition")
     found = raised.finding("callback_misspelt", name=name, close=close)
+    if not close:
+        return replace(found, variant="no_method", words={**found.words, "callback": name})
     return replace(found, variant="", words={**found.words, "callback": close or name})
 
 
@@ -219,7 +221,14 @@ KINDS = (
         msg("The callback's name is misspelt"),
         msg("create_timer needs the method's exact name."),
         TIMER,
-        fixes={"definition": msg("Write def {close}(self): instead of def {name}(self):")},
+        fixes={
+            "definition": msg("Write def {close}(self): instead of def {name}(self):"),
+            "no_method": msg(
+                "The class has no method {name}. Write def {name}(self): above the lines that the timer "
+                "is to run, indented like the other methods, or pass the name of the method that is "
+                "meant."
+            ),
+        },
         raised={OWN_ATTRIBUTE: _callback_misspelt},
         fixed_by=(node_scope.definition, node_timer.callback),
         examples=(
@@ -230,6 +239,11 @@ KINDS = (
                     "self.create_timer(1.0, self.timer_callback)",
                     "self.create_timer(1.0, self.timer_calback)",
                 ),
+                fails="run.starts",
+            ),
+            example(
+                "callback_of_nothing",
+                Replace(NODE, "self.timer_callback)", "self.on_update)"),
                 fails="run.starts",
             ),
             example(

@@ -210,6 +210,9 @@ def _no_name_in_module(raised: Raised, match: re.Match[str]) -> RecognisedMistak
     if module == "rclpy.node" and name.endswith("Node") and name != "Node":
         found = raised.finding("import_name", name=name, module=module, close="Node")
         return replace(found, variant="node")
+    there = [known for known, place in HOMES.items() if place == module]
+    if close := meant_by(name, there, cutoff=0.75):
+        return raised.finding("import_name", name=name, close=close, module=module)
     known = (*RCLPY, "Node") if module.startswith("rclpy") else ("String", "Twist")
     close = meant_by(name, known, cutoff=0.75)
     return raised.finding("import_name", name=name, close=close, module=module)
@@ -565,6 +568,15 @@ KINDS = (
         },
         fixed_by=(lines.written, rename.imported, node_life.node_import),
         examples=(
+            example(
+                "exception_of_rclpy_misspelt",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "import rclpy\nfrom rclpy.executors import ExternalShutdownExcepton\nfrom",
+                ),
+                fails="run.starts",
+            ),
             example(
                 "node_of_rclpy_renamed",
                 Replace(NODE, "from rclpy.node import Node", "from rclpy.node import HelloNode"),

@@ -32,6 +32,8 @@ from grader.package.source.scopes import bindings, has_self, visible_names
 MISSPELT = 0.85  # how like two names are of which one is the other with a typing mistake
 
 
+ALONE = ("pass", "return", "break", "continue")
+"""Words that are a statement by themselves."""
 TYPES = {
     "void": "None",
     **dict.fromkeys(("boolean", "Boolean"), "bool"),
@@ -56,7 +58,12 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     name = match["name"]
     statement = statement_at(raised.module, raised.line)
     if isinstance(statement, ast.Expr) and dotted(statement.value) == name:
+        word = nearest(name.lower(), ALONE, cutoff=0.7)
+        if word:
+            return _instead(raised.finding("name_unknown", name=name, close=word, written=word))
         return replace(raised.finding("name_unknown", name=name), variant="alone")
+    if (joined := _joined(raised, name)) is not None:
+        return joined
     if name in TYPES and (types := _as_type(raised, name)) is not None:
         return types
     if (guard := _guard(raised, name)) is not None:
@@ -80,6 +87,18 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return _instead(raised.finding("name_unknown", name=name, close=min(variables)))
     found = raised.finding("name_unknown", name=name, close=close)
     return _instead(found) if close and nearest(name, [close], cutoff=MISSPELT) else found
+
+
+def _joined(raised: Raised, name: str) -> RecognisedMistake | None:
+    """The name is an object and its part, with no dot between them: selfcounter."""
+    for at in range(1, len(name)):
+        owner, part = name[:at], name[at:]
+        uses = [n for n in raised.module.nodes if isinstance(n, ast.Attribute) and n.attr == part]
+        known = any(dotted(use) == f"{owner}.{part}" for use in uses)
+        known = known or (owner == "self" and part in {*raised.source.methods, *NODE_METHODS})
+        if known and (owner == "self" or owner in visible_names(raised.module, raised.line, name)):
+            return _instead(raised.finding("name_unknown", name=name, close=f"{owner}.{part}"))
+    return None
 
 
 def _as_type(raised: Raised, name: str) -> RecognisedMistake | None:
@@ -346,6 +365,21 @@ KINDS = (
                 "base_in_small_letters",
                 Replace(NODE, "class MyFirstNode(Node)", "class MyFirstNode(node)"),
                 fails="run.starts",
+            ),
+            example(
+                "dot_behind_self_lost",
+                Replace(NODE, "str(self.counter_)", "str(selfcounter_)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "pass_misspelt",
+                Replace(
+                    NODE,
+                    "    except KeyboardInterrupt:\n        pass",
+                    "    except KeyboardInterrupt:\n        pas",
+                ),
+                fails="run.interrupt",
             ),
             example(
                 "underscores_of_the_guard_lost",

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
+from grader.mistakes.after_with import NO_CONTEXT
 from grader.mistakes.example import INIT, NODE, example
 from grader.mistakes.fixes import lines, node_init, node_life
 from grader.mistakes.kind import Family
@@ -40,6 +41,11 @@ def _init_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
             found = raised.finding("init_missing", at=node, written=written)
             return replace(found, variant="not_called")
     return raised.finding("init_missing", written=written)
+
+
+def _without_init(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Look for a program without rclpy.init(), whose executor finds no running ROS."""
+    return _init_missing(raised, match) if raised.inside == "rclpy" else None
 
 
 def _made_on_import(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -176,12 +182,24 @@ KINDS = (
         links.RCLPY,
         fixes={"not_called": msg("Write () after rclpy.init: without them it is not called.")},
         seen=r"NotInitializedException",
-        raised={NOT_INITIALIZED: _init_missing},
+        raised={NOT_INITIALIZED: _init_missing, NO_CONTEXT: _without_init},
         fixed_by=(node_life.called_init, node_life.rclpy_init),
         examples=(
             example(
                 "rclpy_init_not_called",
                 Replace(NODE, "rclpy.init(args=args)", "rclpy.init"),
+                fails="run.starts",
+            ),
+            example(
+                "init_missing_before_an_executor",
+                Replace(
+                    NODE,
+                    "    rclpy.init(args=args)\n",
+                    "    executor = rclpy.executors.SingleThreadedExecutor()\n",
+                ),
+                Replace(
+                    NODE, "rclpy.spin(node)", "executor.add_node(node)\n        executor.spin()"
+                ),
                 fails="run.starts",
             ),
             example(

@@ -344,6 +344,16 @@ SIGNS = {
     "prefix_apart": msg("No space is between the letter and the quote. Write: {wanted}"),
     "dot_bracket": msg("No dot is between a name and its brackets. Write: {wanted}"),
     "parameter_outside": msg("The parameters of a def are inside its brackets. Write: {wanted}"),
+    "equals_missing": msg("Between a name and its value is an =. Write: {wanted}"),
+    "bracket_first": msg("The ) closes a bracket that the line does not open. Write: {wanted}"),
+    "try_gone": msg(
+        "This line and those below it belong to a try:, as line {wanted} shows, and the line with try: is "
+        "missing. Write try: above this line, in the same column as line {line}."
+    ),
+    "head_deeper": msg(
+        "This line is indented too far: line {line} below it is in the same column, and belongs to its "
+        "block. Delete {wanted} spaces before this line."
+    ),
     "arrow_behind_colon": msg(
         "The type that a function returns is before the colon, behind ->. Write: {wanted}"
     ),
@@ -452,6 +462,10 @@ SIGNS = {
         "Move this line up: it comes before all lines of the function that use the name."
     ),
     "global_parameter": msg("{wanted} is a parameter of the function already. Delete this line."),
+    "nonlocal_unbound": msg(
+        "No function around this one gives a value to a variable {wanted}. Compare the name, letter "
+        "by letter, with the line above that sets the variable."
+    ),
     "nonlocal": msg(
         "nonlocal is for a function inside a function. Write self. before the name of a variable "
         "of the node, and global for a variable of the file."

@@ -15,10 +15,12 @@ FUNCTION = re.compile(
     r"[ \t]*(?P<name>[a-z_]\w{0,80})[ \t]*\((?:|(?:self|args)\b.*)\)[ \t]*:[ \t]*"
 )
 WORD = re.compile(
-    rf"[ \t]*(?P<word>(?i:{BLOCK}|import|from|return|pass|break|continue|raise|global))\b"
+    rf"[ \t]*(?P<word>(?i:{BLOCK}|import|from|return|pass|break|continue|raise|global|nonlocal|assert))\b"
 )
 CLAUSE = re.compile(r"[ \t]*(?:except|finally|else|elif)\b")
 AFTER_COLON = re.compile(r"expected an indented block after .{0,60} on line (?P<line>\d{1,6})")
+EXTRA = "unexpected indent"
+UNMATCHED = "unindent does not match"
 TRIPLE = re.compile(r"\"\"\"|'''")
 EQUALS = re.compile(r"(?<![=!<>:+*/%-])=(?!=)")
 CONDITION = re.compile(r"[ \t]*(?:if|elif|while|assert|and|or|not)\b")
@@ -127,6 +129,9 @@ def _not_indented(text: Broken) -> Slip | None:
         code = text.source.line(head).strip()
         return Slip("signs", "block_comment", head, code, "", new, other=text.number)
     own = len(indent_of(text.source.line(text.number)))
+    deeper = _head_deeper(text, head) or _def_of_class(text, head)
+    if deeper is not None:
+        return deeper
     for lines in _lines_of_block(text, head) if own <= width else ():
         columns = " " * (width + 4 - own)
         starts = [text.source.start_of(n) for n in lines if text.source.line(n).strip()]
@@ -138,6 +143,41 @@ def _not_indented(text: Broken) -> Slip | None:
         return Slip("signs", "block_empty", head, text.source.line(head).strip(), other=text.number)
     alone = own == width and (_next_indent(text) > own or _ends_after(text))
     new = text.changed(text.within(0, 0, " " * 4)) if alone else None
+    return Slip("signs", "not_indented", text.number, shown, "", new, other=head)
+
+
+def _head_deeper(text: Broken, head: int) -> Slip | None:
+    """Return a def or class that is indented further than the others, unlike its block."""
+    row, width = text.code.line(head), len(indent_of(text.code.line(head)))
+    match = re.match(r"[ \t]+(?:async[ \t]+)?(?P<word>def|class)\b", row)
+    if match is None or len(indent_of(text.line)) != width or width < 4:
+        return None
+    same = re.compile(rf"(?P<indent>[ \t]*)(?:async[ \t]+)?{match['word']}\b")
+    heads = [n for n, _ in enumerate(text.code.lines, 1) if n != head]
+    columns = {len(m["indent"]) for n in heads if (m := same.match(text.code.line(n)))}
+    if width in columns or (match["word"] == "def" and width - 4 not in columns):
+        return None
+    start = text.source.start_of(head)
+    new = text.source.spliced([Splice(start, start + 4, "")])
+    if new is None or not can_parse(new):
+        return None
+    shown = text.source.line(head).strip()
+    return Slip("signs", "head_deeper", head, shown, "4", new, other=text.number)
+
+
+def _def_of_class(text: Broken, head: int) -> Slip | None:
+    """Return the first def of a class that is not indented, unlike the lines below it."""
+    is_class = re.match(r"[ \t]*class\b", text.code.line(head)) is not None
+    if (
+        not is_class
+        or re.match(r"[ \t]*(?:async[ \t]+)?def\b[^()]*\([ \t]*self\b", text.line) is None
+    ):
+        return None
+    start = text.source.start_of(text.number)
+    new = text.source.spliced([Splice(start, start, "    ")])
+    if new is None or not can_parse(new):
+        return None
+    shown = text.source.line(text.number).strip()
     return Slip("signs", "not_indented", text.number, shown, "", new, other=head)
 
 
@@ -190,14 +230,17 @@ def _ends_after(text: Broken) -> bool:
 
 def _line_above(text: Broken) -> Slip | None:
     """Return a line that is indented less than the other lines of its block."""
-    if text.fault.kind != "indentation" or "unexpected indent" not in text.fault.text:
+    told = text.fault.text
+    if text.fault.kind != "indentation" or not (EXTRA in told or UNMATCHED in told):
         return None
     lines = [n for n in range(1, text.number) if text.code.line(n).strip()]
     if len(lines) < 2:
         return None
     before, above = lines[-2:]
     wanted, written = indent_of(text.source.line(text.number)), indent_of(text.source.line(above))
-    like_before = indent_of(text.source.line(before)) == wanted
+    head = indent_of(text.source.line(before))
+    opens = text.code.line(before).rstrip().endswith(":") and len(wanted) == len(head) + 4
+    like_before = head == wanted if EXTRA in told else opens
     if not like_before or _reads(text, text.number, wanted, written):
         return None
     start = text.source.start_of(above)

@@ -163,6 +163,9 @@ def _too_far(text: Broken, above: Above) -> Slip | None:
     """Return a line that is indented further than the statement above it, which opens no block."""
     wanted = indent_of(text.source.line(above.line))
     shown = text.source.line(text.number).strip()
+    gone = _try_gone(text, above, wanted)
+    if gone is not None:
+        return gone
     if _is_like_earlier(text, above.line):
         return Slip("signs", "too_far_either", text.number, shown, "", other=above.line)
     columns = len(indent_of(text.source.line(text.number))) - len(wanted)
@@ -176,6 +179,20 @@ def _too_far(text: Broken, above: Above) -> Slip | None:
         return None
     variant = "too_far" if wanted else "too_far_margin"
     return Slip("signs", variant, text.number, shown, str(len(wanted)), new, other=above.line)
+
+
+def _try_gone(text: Broken, above: Above, indent: str) -> Slip | None:
+    """Return a block that an except or finally follows, and above which no try: is."""
+    for number in range(text.number + 1, len(text.code.lines) + 1):
+        row = text.code.line(number)
+        if not row.strip() or len(indent_of(row)) > len(indent):
+            continue
+        if indent_of(row) != indent or re.match(r"[ \t]*(?:except|finally)\b", row) is None:
+            return None
+        new = text.changed(text.source.before(text.number, f"{indent}try:"))
+        shown = text.source.line(text.number).strip()
+        return Slip("signs", "try_gone", text.number, shown, str(number), new, other=above.line)
+    return None
 
 
 def first_of_block(text: Broken) -> Slip | None:

@@ -373,10 +373,25 @@ def _list_with_keys(text: Broken) -> Slip | None:
     return Slip("signs", "dict_braces", text.number, shown, "", new) if new is not None else None
 
 
+def _unbound(text: Broken) -> Slip | None:
+    """Return a nonlocal in a function inside a function, of a name that the outer one lacks."""
+    match = re.search(r"no binding for nonlocal '(?P<name>\w+)'", text.fault.text)
+    width, outer = len(indent_of(text.line)), 0
+    for number in range(text.number - 1, 0, -1):
+        row = text.code.line(number)
+        if row.strip() and len(indent_of(row)) < width and re.match(r"[ \t]*(?:def|class)\b", row):
+            width, outer = len(indent_of(row)), outer + ("def" in row)
+    if match is None or outer < 2:
+        return None
+    shown = text.source.line(text.number).strip()
+    return Slip("signs", "nonlocal_unbound", text.number, shown, match["name"])
+
+
 STATEMENT_LOOKS: tuple[Look, ...] = (
     _entry_parts, _assigned, _word, _name_parts, _parameters, _import, _handler, _between, _colon, _call,
     _loop_word, _global_late, _backslash, _list_with_keys,
     _says(r"name '(\w+)' is parameter and (?:global|nonlocal)", "global_parameter"),
+    _unbound,
     _says(r"(?:no binding for nonlocal '\w+'|nonlocal declaration not allowed)", "nonlocal"),
     _says(r"'(return|yield)' outside function", "outside_function"),
     _says(r"'(?:await|async \w+)' outside", "await_outside"),
@@ -388,6 +403,8 @@ STATEMENT_LOOKS: tuple[Look, ...] = (
     _says(r"leading zeros in decimal", "number_zeros"),
     _word_as_name,
 )  # fmt: skip
+
+
 MESSAGE_LOOKS: tuple[Look, ...] = (
     _says(r"Missing parentheses in call to '(\w+)'", "call_of_word"),
     _says(r"cannot contain assignment", "call_assigns"),

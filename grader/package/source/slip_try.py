@@ -22,7 +22,7 @@ def try_block(text: Broken) -> Slip | None:
     """Return what is wrong with the except or finally that a try: needs."""
     head = try_above(text) if any(known in text.fault.text for known in FAULTS) else None
     if head is None:
-        return None
+        return _after_clause(text)
     clause = CLAUSE.match(text.line) is not None
     width, own = (len(indent_of(text.source.line(n))) for n in (head, text.number))
     if clause and own != width:
@@ -59,6 +59,21 @@ def try_above(text: Broken) -> int | None:
                 return number
             widths.discard(width)
         elif re.match(r"[ \t]*(?:def|class)\b", row) and width < len(indent_of(text.line)):
+            return None
+    return None
+
+
+def _after_clause(text: Broken) -> Slip | None:
+    """Return a finally that begins in another column than its try:, which has an except."""
+    if CLAUSE.match(text.line) is None or "invalid syntax" not in text.fault.text:
+        return None
+    own = len(indent_of(text.line))
+    for number in range(text.number - 1, 0, -1):
+        row = text.code.line(number)
+        if TRY.match(row):
+            found = _in_other_column(text, number) if len(indent_of(row)) != own else None
+            return found if found is not None and found.fixed is not None else None
+        if re.match(r"[ \t]*(?:def|class)\b", row):
             return None
     return None
 

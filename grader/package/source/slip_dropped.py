@@ -1,0 +1,95 @@
+"""One sign that was dropped while typing: an =, a dot, a bracket, a comma, the last quote."""
+
+from __future__ import annotations
+
+import keyword
+import re
+from collections.abc import Callable
+
+from grader.base.nearest import nearest
+from grader.package.source.broken_python import BLOCK, MOST_TRIES, Broken, Slip
+
+Look = Callable[[Broken], Slip | None]
+ASSIGNED = re.compile(
+    r"^[ \t]*(?P<name>[A-Za-z_][\w.]*)(?P<type>[ \t]*:[ \t]*[A-Za-z_][\w.\[\]]*)?"
+    r"(?P<blank>[ \t]+)(?=[\w'\"\[{(-])"
+)
+COMMANDS = frozenset({"print", "raise", "return", "yield", "assert", "del", "exec", "echo"})
+CALLED = re.compile(r"\)(?=[A-Za-z_]\w*[ \t]*\()")
+LONE_CLOSER = re.compile(
+    r"^[ \t]*(?:(?:[\w.]+[ \t]*=|return|yield)[ \t]*(?=[\w.]*(?:\.|[A-Z])))?[A-Za-z_][\w.]*(?P<at>\))[ \t]*$"
+)
+SELF_BESIDE = re.compile(
+    r"^[ \t]*(?:async[ \t]+)?def[ \t]+\w+[ \t]*\([ \t]*self(?P<blank>[ \t]+)(?=[A-Za-z_*])"
+)
+FROM = re.compile(r"^[ \t]*from[ \t]+[\w.]+[ \t]+(?P<word>[A-Za-z]+)[ \t]+[A-Za-z_*]")
+HEAD = re.compile(rf"[ \t]*(?:{BLOCK})\b")
+SINGLE = re.compile(r"(?<!['\"])['\"](?!['\"])")
+
+
+def _equals(text: Broken) -> Slip | None:
+    """Return a name and a value beside each other, without the = between them."""
+    match = ASSIGNED.match(text.line)
+    if match is None or keyword.iskeyword(match["name"]) or match["name"] in COMMANDS:
+        return None
+    name, code = re.escape(match["name"]), text.code.text
+    called = re.search(rf"(?<![\w.]){name}[ \t]*\(", code) is not None
+    attribute = "." in match["name"] and re.search(rf"(?<![\w.]){name}\b(?![ \t]+[\w'\"])", code)
+    if called or not (match["type"] or len(match["blank"]) > 1 or attribute):
+        return None
+    if re.match(r"(?:and|or|in|is|not|if|else|for|import|as)\b", text.line[match.end() :]):
+        return None
+    return _changed(text, "equals_missing", *match.span("blank"), " = ")
+
+
+def _dot(text: Broken) -> Slip | None:
+    """Return a call behind a call, without the dot between them."""
+    for match in list(CALLED.finditer(text.line))[:MOST_TRIES]:
+        found = _changed(text, "dot_missing", match.end(), match.end(), ".")
+        if found is not None:
+            return found
+    return None
+
+
+def _opening(text: Broken) -> Slip | None:
+    """Return a call whose only bracket is the closing one."""
+    match = LONE_CLOSER.match(text.line)
+    if match is None or "unmatched ')'" not in text.fault.text:
+        return None
+    return _changed(text, "bracket_first", match.start("at"), match.start("at"), "(")
+
+
+def _comma(text: Broken) -> Slip | None:
+    """Return a def whose first parameter has no comma behind it."""
+    match = SELF_BESIDE.match(text.line)
+    return _changed(text, "comma_missing", *match.span("blank"), ", ") if match else None
+
+
+def _import(text: Broken) -> Slip | None:
+    """Return a from with a misspelt import."""
+    match = FROM.match(text.line)
+    if match is None or not nearest(match["word"], ["import"], cutoff=0.7):
+        return None
+    return _changed(text, "word_misspelt", *match.span("word"), "import")
+
+
+def _quote(text: Broken) -> Slip | None:
+    """Return a line that opens a block, whose text has no second quote before the colon."""
+    written = text.source.line(text.number)
+    told = text.fault.text
+    if HEAD.match(text.line) is None or not ("unterminated" in told or "EOL while" in told):
+        return None
+    at, quotes = len(written.rstrip()) - 1, SINGLE.findall(written)
+    if at < 0 or written[at] != ":" or len(quotes) % 2 == 0:
+        return None
+    return _changed(text, "quote_exact", at, at, quotes[-1])
+
+
+def _changed(text: Broken, variant: str, start: int, end: int, new: str) -> Slip | None:
+    splice = text.within(start, end, new)
+    fixed = text.changed(splice)
+    written = text.source.line(text.number)
+    return text.slip("signs", variant, written, splice, fixed=fixed) if fixed is not None else None
+
+
+DROPPED_LOOKS: tuple[Look, ...] = (_quote, _equals, _dot, _opening, _comma, _import)
