@@ -17,7 +17,7 @@ from grader.mistakes.alike import meant_by
 from grader.mistakes.constructor import lines_of
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import lines, node_brackets, node_constructor, node_life, rename
-from grader.mistakes.imports import IMPORTS
+from grader.mistakes.imports import IMPORTS, RCLPY
 from grader.mistakes.kind import Family
 from grader.mistakes.order import spun_names
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
@@ -96,6 +96,7 @@ def _joined(raised: Raised, name: str) -> RecognisedMistake | None:
         uses = [n for n in raised.module.nodes if isinstance(n, ast.Attribute) and n.attr == part]
         known = any(dotted(use) == f"{owner}.{part}" for use in uses)
         known = known or (owner == "self" and part in {*raised.source.methods, *NODE_METHODS})
+        known = known or (owner == "rclpy" and part in RCLPY)
         if known and (owner == "self" or owner in visible_names(raised.module, raised.line, name)):
             return _instead(raised.finding("name_unknown", name=name, close=f"{owner}.{part}"))
     return None

@@ -492,6 +492,16 @@ KINDS = (
         },
         fixed_by=(node_timer.period,),
         examples=(
+            example(
+                "period_of_a_base_class",
+                Replace(
+                    NODE,
+                    "class MyFirstNode(Node):",
+                    "class Base(Node):\n    PERIOD = 10\n\n\nclass MyFirstNode(Base):",
+                ),
+                Replace(NODE, "(1.0,", "(self.PERIOD,"),
+                fails="run.period",
+            ),
             example("period_half", Replace(NODE, "(1.0,", "(0.5,"), fails="run.period"),
             example("period_two", Replace(NODE, "(1.0,", "(2.0,"), fails="run.period"),
             example("period_tenth", Replace(NODE, "(1.0,", "(0.1,"), fails="run.period"),

@@ -73,6 +73,7 @@ LINES = [
     ("A  1.0\n", "equals_missing", 1, "A = 1.0"),
     ("a.b()c('d')\n", "dot_missing", 1, "a.b().c('d')"),
     ("a.b)\n", "bracket_first", 1, "a.b()"),
+    ("def f(): pass\na(b + str(f)))\n", "bracket_first", 2, "a(b + str(f()))"),
     ("a = B)\n", "bracket_first", 1, "a = B()"),
     ("class A:\n    def f(self b):\n        c()\n", "comma_missing", 2, "def f(self, b):"),
     ("from a impot b\n", "word_misspelt", 1, "from a import b"),

@@ -35,7 +35,8 @@ def _equals(text: Broken) -> Slip | None:
     name, code = re.escape(match["name"]), text.code.text
     called = re.search(rf"(?<![\w.]){name}[ \t]*\(", code) is not None
     attribute = "." in match["name"] and re.search(rf"(?<![\w.]){name}\b(?![ \t]+[\w'\"])", code)
-    if called or not (match["type"] or len(match["blank"]) > 1 or attribute):
+    wide = len(match["blank"]) > 1 and not re.search(rf"\bdef[ \t]+{name}\b", code)
+    if not wide and (called or not (match["type"] or attribute)):
         return None
     if re.match(r"(?:and|or|in|is|not|if|else|for|import|as)\b", text.line[match.end() :]):
         return None
@@ -54,9 +55,21 @@ def _dot(text: Broken) -> Slip | None:
 def _opening(text: Broken) -> Slip | None:
     """Return a call whose only bracket is the closing one."""
     match = LONE_CLOSER.match(text.line)
-    if match is None or "unmatched ')'" not in text.fault.text:
+    if "unmatched ')'" not in text.fault.text:
         return None
+    if match is None:
+        return _of_method(text)
     return _changed(text, "bracket_first", match.start("at"), match.start("at"), "(")
+
+
+def _of_method(text: Broken) -> Slip | None:
+    """Return a call of a function of the file in a longer line, with only the closing bracket."""
+    found = []
+    for match in list(re.finditer(r"(?<=\w)\)", text.line))[:MOST_TRIES]:
+        name = re.search(r"\w+$", text.line[: match.start()])
+        if name and re.search(rf"\bdef[ \t]+{name[0]}[ \t]*\(", text.code.text):
+            found.append(_changed(text, "bracket_first", match.start(), match.start(), "("))
+    return found[0] if len(found) == 1 else None
 
 
 def _comma(text: Broken) -> Slip | None:

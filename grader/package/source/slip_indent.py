@@ -137,7 +137,8 @@ def _without_def(text: Broken, above: Above) -> Slip | None:
     """Return a line of a method whose def is not there."""
     if not isinstance(above.around, ast.ClassDef) or DEF.match(text.line):
         return None
-    if not re.search(r"\bself\.|\bsuper\(\)\.", text.line):
+    written = text.source.line(text.number)
+    if not re.search(r"^[ \t]*return\b|\bself\.|\bsuper\(\)\.", written):
         return None
     name = _missing_method(text)
     head = f"def {name}(self):"

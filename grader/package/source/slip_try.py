@@ -7,6 +7,7 @@ import re
 from grader.base.nearest import nearest
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.broken_python import Broken, Slip
+from grader.package.source.python import can_parse
 
 EXPECTED = "expected 'except' or 'finally' block"
 FAULTS = (EXPECTED, "invalid syntax", "unexpected indent", "unindent does not match")
@@ -81,6 +82,8 @@ def _after_clause(text: Broken) -> Slip | None:
 def _in_other_column(text: Broken, head: int) -> Slip | None:
     """Return an except or finally that begins in another column than its try:."""
     wanted, written = (indent_of(text.source.line(n)) for n in (head, text.number))
+    start = text.source.start_of(head)
+    moved = text.source.spliced([Splice(start, start + len(wanted), written)])
     splices = []
     for number in range(text.number, len(text.source.lines) + 1):
         row = text.source.line(number)
@@ -91,6 +94,9 @@ def _in_other_column(text: Broken, head: int) -> Slip | None:
             start = text.source.start_of(number)
             splices.append(Splice(start, start + len(written), wanted))
     new = text.changed(*splices)
+    if moved is not None and can_parse(moved) and (new is None or not can_parse(new)):
+        shown = text.source.line(head).strip()
+        return Slip("signs", "line_above", head, shown, "", moved, other=text.number)
     shown = text.source.line(text.number).strip()
     return Slip("signs", "clause_column", text.number, shown, "", new, other=head)
 

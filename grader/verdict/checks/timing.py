@@ -15,6 +15,7 @@ from pydantic import Field
 from grader.base.i18n.message import Value, say
 from grader.mistakes.fixes.node_pace import throttled
 from grader.mistakes.fixes.node_timer import value_of
+from grader.package.source.counter import targets_of
 from grader.package.source.names import dotted
 from grader.package.source.node import NodeSource
 from grader.package.source.period import (
@@ -282,6 +283,18 @@ def _period_told(evidence: Evidence) -> Told:
     return told_of_period(source, evidence.assignment.output.period)
 
 
+def _of_class(source: NodeSource, name: str) -> ast.expr | None:
+    """Return the only value that a class of the node gives to an attribute, as in PERIOD = 1.0."""
+    attribute = name.removeprefix("self.")
+    found = [
+        statement.value
+        for each in source.family
+        for statement in each.body
+        if isinstance(statement, ast.Assign | ast.AnnAssign) and attribute in targets_of(statement)
+    ]
+    return found[0] if len(found) == 1 and name.startswith("self.") else None
+
+
 def told_of_period(source: NodeSource, wanted: float) -> Told:
     """Return what to say of the period of the timer whose callback logs.
 
@@ -291,6 +304,8 @@ def told_of_period(source: NodeSource, wanted: float) -> Told:
     timer = timers[0]
     name = dotted(timer.period) if timer.period is not None else ""
     value = value_of(source, timer.period) if timer.period is not None and name else None
+    if value is None and (value := _of_class(source, name)) is not None:
+        name = name.removeprefix("self.")
     seconds = number_in(value)
     if value is not None and seconds is not None and not is_right(seconds, wanted):
         return Told(place_of(source, value), "named", {"value": name})
