@@ -546,7 +546,7 @@ KINDS = (
                 fails="run.starts",
             ),
             example(
-                "logger_of_the_module",
+                "get_logger_of_the_library",
                 Replace(
                     NODE,
                     "import rclpy\nfrom",

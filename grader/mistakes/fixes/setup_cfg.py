@@ -8,7 +8,14 @@ from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import SourceText, Splice, indent_of, read_text
-from grader.package.source.setup_cfg import COMMENT, KEYS, SetupCfg, SetupCfgFault, read_setup_cfg
+from grader.package.source.setup_cfg import (
+    COMMENT,
+    KEYS,
+    SetupCfg,
+    SetupCfgFault,
+    indented_heading,
+    read_setup_cfg,
+)
 
 FILE = "setup.cfg"
 
@@ -40,8 +47,7 @@ def setting(case: Case) -> Files | None:
         cfg = read_setup_cfg(found)
     except SetupCfgFault:
         return None
-    rows = [re.match(r"[ \t]+(?=\[\w+\][ \t]*$)", text.line(n)) for n in _numbers(text)]
-    if any(rows):
+    if indented_heading(text.text):
         return _unindented(case, text)
     there = [{*cfg.sections.get(name, {})} for name in KEYS]
     if there == [{key} for key in reversed(KEYS.values())]:
@@ -62,7 +68,11 @@ def _unindented(case: Case, text: SourceText) -> Files | None:
         start = text.start_of(number)
         splices += [Splice(start, start + match.end(), "")] if match is not None else []
     new = text.spliced(splices)
-    return case.with_data(FILE, new) if new and _is_read(new) else None
+    if new is None or not _is_read(new):
+        return None
+    there = read_setup_cfg(new).sections
+    right = all(key in there.get(section, {}) for section, key in KEYS.items())
+    return case.with_data(FILE, new) if right else None
 
 
 def _swapped(case: Case, text: SourceText) -> Files | None:

@@ -137,6 +137,16 @@ def _without_section(text: str, line: int) -> SetupCfgFault:
     return SetupCfgFault(reason, line, "below" if there else "heading_above", section, there)
 
 
+def indented_heading(text: str) -> int:
+    """Return the line of the first heading that continues the value above it; 0 if there is none."""
+    has_value = False
+    for number, row in enumerate(text.splitlines(), 1):
+        if re.match(r"[ \t]+\[\w+\][ \t]*$", row) and has_value:
+            return number
+        has_value = has_value or re.match(r"[\w-]+[ \t]*[=:]", row) is not None
+    return 0
+
+
 def slip_of_path(value: str, wanted: str) -> tuple[str, str]:
     """Return how a path differs from the right one, and a name that setup.cfg does not know.
 

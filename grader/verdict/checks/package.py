@@ -14,6 +14,7 @@ from grader.package.source.setup_cfg import (
     KEYS,
     SetupCfg,
     SetupCfgFault,
+    indented_heading,
     read_setup_cfg,
     slip_of_path,
 )
@@ -337,12 +338,6 @@ def _no_cfg(evidence: Evidence, reason: str) -> str:
     return with_difference(say("there is no setup.cfg") + there_is(close), close, "setup.cfg")
 
 
-def _indented_heading(cfg: SetupCfg) -> int:
-    """Return the line of the first heading behind spaces, 0 if there is none."""
-    rows = enumerate(cfg.text.splitlines(), 1)
-    return next((n for n, row in rows if re.match(r"[ \t]+\[\w+\][ \t]*$", row)), 0)
-
-
 def _is_swapped(cfg: SetupCfg) -> bool:
     """Whether each of the two sections has only the key of the other one."""
     there = {
@@ -369,7 +364,7 @@ def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) 
             )
         ]
     line, close, quoted, name = cfg.lines.get(section), "", list[int](), ""
-    indented = _indented_heading(cfg)
+    indented = indented_heading(cfg.text)
     if indented:
         line, variant = indented, "indented"
         said: str = say("the heading of a section is indented")
