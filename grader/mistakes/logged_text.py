@@ -81,17 +81,18 @@ def _made_anew(suspect: Suspect) -> RecognisedMistake | None:
     """Write the whole text anew where more than the text around one plain value is wrong."""
     call = suspect.source.log_call
     given = call.args[0] if call is not None else None
-    if given is None or not _has_other_parts(given):
+    tail = suspect.output.text.split("{n}")[-1]
+    if given is None or not _has_other_parts(given, tail):
         return None
     return worked_out("line_made_anew", "whole")(suspect)
 
 
-def _has_other_parts(given: ast.expr) -> bool:
-    """Whether a text is made of more than a string and one value behind it."""
+def _has_other_parts(given: ast.expr, tail: str) -> bool:
+    """Whether a text is made of more than a string, one value, and a string for the wanted tail."""
     if isinstance(given, ast.JoinedStr):
         values = [part for part in given.values if isinstance(part, ast.FormattedValue)]
-        plain = len(values) == 1 and dotted(values[0].value) and values[0] is given.values[-1]
-        return not plain
+        last = bool(tail) or (bool(values) and values[0] is given.values[-1])
+        return not (len(values) == 1 and dotted(values[0].value) and last)
     if not isinstance(given, ast.BinOp):
         return False
     parts = list(ast.walk(given))

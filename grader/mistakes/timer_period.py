@@ -66,7 +66,9 @@ def _dot_for_comma(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
 
 def _swapped(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     kind = match.groupdict().get("type")
-    if not raised.source.timers or kind not in (None, *CALLABLE):
+    timers = [timer.call for timer in raised.source.timers]
+    here = [call for call in timers if raised.line is None or raised.line in lines_of(call)]
+    if not here or kind not in (None, *CALLABLE):
         return None
     return raised.finding("timer_arguments_swapped")
 

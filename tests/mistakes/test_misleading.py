@@ -262,3 +262,12 @@ def test_the_lines_around_the_wrong_step_are_shown() -> None:
     events = [Event(f"n: {n}", wall=n, virtual=n, source="logger", n=n) for n in numbers]
     assert _first_wrong(events, 1) == 3
     assert _first_wrong(events[:5], 1) == 0
+
+
+def test_only_a_line_with_create_timer_swaps_its_arguments() -> None:
+    error = "TypeError: float() argument must be a string or a real number, not 'method'"
+    text = changed("str(self.counter_)", "str(float(self.get_name))")
+    found = raised(error, text, line_of(text, "float("))
+    assert found is None or found.kind != "node.timer_arguments_swapped"
+    timer = raised(error, RIGHT, line_of(RIGHT, "create_timer"))
+    assert timer is not None and timer.kind == "node.timer_arguments_swapped"

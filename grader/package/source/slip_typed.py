@@ -59,12 +59,20 @@ def _by_rule(text: Broken) -> Slip | None:
                 and not COMPARES.match(text.line)
             ):
                 continue
+            if rule.variant == "editor_behind" and _is_name(text, match[0]):
+                continue
             splice = text.within(*match.span(), text.expanded(match, rule.new))
             new = text.changed(splice)
             if new is not None:
                 written = text.source.line(text.number)
                 return text.slip("signs", rule.variant, written, splice, fixed=new)
     return None
+
+
+def _is_name(text: Broken, end: str) -> bool:
+    """Whether the letters behind the colon are a name that the file uses elsewhere."""
+    name = end.strip(" \t:!")
+    return len(re.findall(rf"(?<![\w:]){re.escape(name)}\b", text.code.text)) > 0
 
 
 def _colon_inside(text: Broken) -> Slip | None:
@@ -133,7 +141,7 @@ CLAUSES = re.compile(
 def _clauses_in_line(text: Broken) -> Slip | None:
     """Return a try with its except on one line."""
     match = CLAUSES.match(text.line)
-    if match is None:
+    if match is None or re.search(r"\b(?:except|finally|else)\b", match["rest"]):
         return None
     indent, line, written = indent_of(text.line), text.source.newline, text.source.line(text.number)
     body, clause, rest = (written[slice(*match.span(part))] for part in ("body", "clause", "rest"))
