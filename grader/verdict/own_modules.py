@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from grader.base.nearest import nearest
 from grader.base.shown import shown
+from grader.mistakes.entry_function import NO_FUNCTION
 from grader.mistakes.imports import MODULES, OTHER_PACKAGES
 from grader.mistakes.recognised import NAME_ERROR, RecognisedMistake
 from grader.package.source.counter import targets_of
@@ -302,17 +303,12 @@ def _file_as_name(
     )
 
 
-NO_MAIN = re.compile(
-    r"AttributeError: module '[\w.]{1,200}' has no attribute '(?P<name>\w{1,120})'"
-)
-
-
 def main_in_copy(error: str, evidence: Evidence) -> RecognisedMistake | None:
     """Return that another file has the entry function, and the node's file has no code of a node."""
-    match, asked = NO_MAIN.match(error), evidence.assignment
+    match, asked = re.match(NO_FUNCTION, error), evidence.assignment
     path = f"{asked.folder}/{asked.node_file}"
     module = read_module(partial(data_of, evidence), path)
-    if match is None or match["name"] != asked.function or module is None:
+    if match is None or match["function"] != asked.function or module is None:
         return None
     if module.classes or module.functions:
         return None

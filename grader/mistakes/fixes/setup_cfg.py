@@ -14,6 +14,7 @@ from grader.package.source.setup_cfg import (
     SetupCfg,
     SetupCfgFault,
     indented_heading,
+    is_swapped,
     read_setup_cfg,
 )
 
@@ -49,8 +50,7 @@ def setting(case: Case) -> Files | None:
         return None
     if indented_heading(text.text):
         return _unindented(case, text)
-    there = [{*cfg.sections.get(name, {})} for name in KEYS]
-    if there == [{key} for key in reversed(KEYS.values())]:
+    if is_swapped(cfg):
         return _swapped(case, text)
     change = _change(cfg, text, section, f"{KEYS[section]}={wanted(case.package)}")
     return case.with_data(FILE, text.spliced([change])) if change else None

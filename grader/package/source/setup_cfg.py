@@ -147,6 +147,15 @@ def indented_heading(text: str) -> int:
     return 0
 
 
+def is_swapped(cfg: SetupCfg) -> bool:
+    """Whether each of the two sections has only the key of the other one."""
+    there = {
+        section: {key.replace("-", "_") for key in cfg.sections.get(section, {})}
+        for section in KEYS
+    }
+    return there == {"develop": {KEYS["install"]}, "install": {KEYS["develop"]}}
+
+
 def slip_of_path(value: str, wanted: str) -> tuple[str, str]:
     """Return how a path differs from the right one, and a name that setup.cfg does not know.
 

@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 from grader.base.nearest import nearest
 from grader.package.source.broken_python import BLOCK, MOST_TRIES, Broken, Slip
+from grader.package.source.slip_forms import as_written
 
 Look = Callable[[Broken], Slip | None]
 ASSIGNED = re.compile(
@@ -99,10 +100,7 @@ def _quote(text: Broken) -> Slip | None:
 
 
 def _changed(text: Broken, variant: str, start: int, end: int, new: str) -> Slip | None:
-    splice = text.within(start, end, new)
-    fixed = text.changed(splice)
-    written = text.source.line(text.number)
-    return text.slip("signs", variant, written, splice, fixed=fixed) if fixed is not None else None
+    return as_written(text, variant, text.within(start, end, new))
 
 
 DROPPED_LOOKS: tuple[Look, ...] = (_quote, _equals, _dot, _opening, _comma, _import)

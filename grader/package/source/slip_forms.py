@@ -95,7 +95,8 @@ def _around(text: Broken, column: int) -> str:
     return innermost(text.code.text[: text.code.start_of(text.number) + column])
 
 
-def _written(text: Broken, variant: str, *splices: Splice) -> Slip | None:
+def as_written(text: Broken, variant: str, *splices: Splice) -> Slip | None:
+    """Return a slip with the line as it should be; None if Python then reads no further."""
     fixed = text.changed(*splices)
     if fixed is None:
         return None
@@ -117,14 +118,14 @@ def _import(text: Broken) -> Slip | None:
         new = re.sub(r"(?<=\S)[ \t]{2,}", " ", new)
         if new == written.rstrip():
             continue
-        found = _written(text, "import_written", text.within(*match.span(), new))
+        found = as_written(text, "import_written", text.within(*match.span(), new))
         if found is not None:
             return found
     match = SLASHES.match(text.line)
     if match is None:
         return None
     name = re.sub(r"/|::|->|\\", ".", match["module"])
-    return _written(text, "import_dot", text.within(*match.span("module"), name))
+    return as_written(text, "import_dot", text.within(*match.span("module"), name))
 
 
 def _import_form(text: Broken) -> Slip | None:
@@ -149,15 +150,15 @@ def _handler(text: Broken) -> Slip | None:
     match = HANDLER.match(text.line)
     if match is not None and hasattr(builtins, match["type"] + match["name"]):
         name = match["type"] + match["name"]
-        return _written(text, "name_blank", text.within(*match.span("all"), name))
+        return as_written(text, "name_blank", text.within(*match.span("all"), name))
     if match is not None and not {match["name"], match["type"]} & set(keyword.kwlist):
-        return _written(
+        return as_written(
             text,
             "handler_as",
             text.within(*match.span("all"), f"{match['type']} as {match['name']}"),
         )
     match = AS_FIRST.match(text.line)
-    return _written(text, "handler_class", text.within(*match.span("all"), "")) if match else None
+    return as_written(text, "handler_class", text.within(*match.span("all"), "")) if match else None
 
 
 def _for(text: Broken) -> Slip | None:
@@ -166,13 +167,13 @@ def _for(text: Broken) -> Slip | None:
         return None
     match = FOR_EACH.match(text.line)
     if match is not None:
-        found = _written(text, "for_in", text.within(*match.span("sign"), "for"))
+        found = as_written(text, "for_in", text.within(*match.span("sign"), "for"))
         if found is not None:
             return found
     for pattern in FORS:
         match = pattern.match(text.line)
         found = (
-            _written(text, "for_in", text.within(*match.span("sign"), " in ")) if match else None
+            as_written(text, "for_in", text.within(*match.span("sign"), " in ")) if match else None
         )
         if found is not None:
             return found
@@ -185,7 +186,7 @@ def _condition(text: Broken) -> Slip | None:
     """Return an else with a condition, or an if without one, or an elif below an else."""
     match = ELSE_IF.match(text.line)
     if match is not None:
-        return _written(text, "else_condition", text.within(*match.span("word"), "elif"))
+        return as_written(text, "else_condition", text.within(*match.span("word"), "elif"))
     match = NO_CONDITION.match(text.line)
     if match is not None:
         return Slip("signs", "condition_missing", text.number, _shown(text), match["word"])
@@ -214,7 +215,7 @@ def _lambda(text: Broken) -> Slip | None:
     if match is not None:
         given = match["given"].strip()
         head = f"lambda {given}: " if given else "lambda: "
-        return _written(text, "lambda_brackets", text.within(*match.span(), head))
+        return as_written(text, "lambda_brackets", text.within(*match.span(), head))
     above = text.code.line(text.number - 1) if text.number > 1 else ""
     if re.search(r"\blambda\b[^:()]*:[ \t]*$", above) and innermost(
         text.code.text[: text.code.start_of(text.number)]
@@ -258,7 +259,7 @@ def _entries(text: Broken) -> Slip | None:
             at = match.start("blank")
             if _around(text, at) == "{":
                 end = at if variant == "comma_missing" or pattern is BESIDE else match.end("blank")
-                found = _written(text, variant, text.within(at, end, sign))
+                found = as_written(text, variant, text.within(at, end, sign))
                 if found is not None:
                     return found
     return None
@@ -270,7 +271,7 @@ def _call(text: Broken) -> Slip | None:
         return None
     for match in list(NAMED.finditer(text.line))[:MOST_TRIES]:
         if _around(text, match.start("sign")) == "(":
-            found = _written(text, "equals_written", text.within(*match.span("sign"), "="))
+            found = as_written(text, "equals_written", text.within(*match.span("sign"), "="))
             if found is not None:
                 return found
     return _changed_inside(text)
@@ -323,7 +324,7 @@ def _raise(text: Broken) -> Slip | None:
     if match is None:
         return None
     end = match.end("text")
-    return _written(
+    return as_written(
         text, "raise_brackets", text.within(*match.span("comma"), "("), text.within(end, end, ")")
     )
 
@@ -334,7 +335,7 @@ def _inner_quotes(text: Broken) -> Slip | None:
     places = [m.start() for m in re.finditer('"', written)]
     if len(places) != 4 or "'" in written or re.search(r"\"\"\"|\bf\"", written):
         return None
-    return _written(
+    return as_written(
         text, "quotes_other", *(text.within(at, at + 1, "'") for at in (places[0], places[-1]))
     )
 

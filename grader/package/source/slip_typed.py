@@ -72,7 +72,7 @@ def _by_rule(text: Broken) -> Slip | None:
 def _is_name(text: Broken, end: str) -> bool:
     """Whether the letters behind the colon are a name that the file uses elsewhere."""
     name = end.strip(" \t:!")
-    return len(re.findall(rf"(?<![\w:]){re.escape(name)}\b", text.code.text)) > 0
+    return re.search(rf"(?<![\w:]){re.escape(name)}\b", text.code.text) is not None
 
 
 def _colon_inside(text: Broken) -> Slip | None:

@@ -15,6 +15,7 @@ from grader.package.source.setup_cfg import (
     SetupCfg,
     SetupCfgFault,
     indented_heading,
+    is_swapped,
     read_setup_cfg,
     slip_of_path,
 )
@@ -338,15 +339,6 @@ def _no_cfg(evidence: Evidence, reason: str) -> str:
     return with_difference(say("there is no setup.cfg") + there_is(close), close, "setup.cfg")
 
 
-def _is_swapped(cfg: SetupCfg) -> bool:
-    """Whether each of the two sections has only the key of the other one."""
-    there = {
-        section: {key.replace("-", "_") for key in cfg.sections.get(section, {})}
-        for section in KEYS
-    }
-    return there == {"develop": {KEYS["install"]}, "install": {KEYS["develop"]}}
-
-
 def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) -> list[str]:
     """Check one setting; return advice on its spelling. Raises Failed."""
     dashed = key.replace("_", "-")
@@ -369,7 +361,7 @@ def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) 
         line, variant = indented, "indented"
         said: str = say("the heading of a section is indented")
         actual = said
-    elif _is_swapped(cfg):
+    elif is_swapped(cfg):
         variant = "swapped"
         said = say("[{section}] has the key of the other section", section=section)
         actual = said
