@@ -14,6 +14,7 @@ from grader.package.source.node import LOG_METHODS
 from grader.package.source.place import block_of
 
 NAMES = ("self.counter", "self.count", "self.count_of_lines")
+ITERATORS = ("self.numbers", "self.numbers_", "self.count_up")
 LINES = ("next", "__next__")
 
 
@@ -22,7 +23,7 @@ def _taken(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Ch
     del wanted, before
     text = module.text
     for node in (n for n in module.nodes if isinstance(n, ast.stmt)):
-        if isinstance(node, Function | ast.ClassDef | ast.Return) or node.lineno < 1:
+        if isinstance(node, Function | ast.ClassDef | ast.Return):
             continue
         head = [n for n in _head(node) if isinstance(n, ast.Call)]
         if not any(last_part(dotted(call.func)) in LINES for call in head):
@@ -90,16 +91,16 @@ def _separator(module: Module, whole: ast.expr, made: ast.expr, new: str) -> Cha
     return Change("joined", whole, text.code(whole), f"{new}{rest}", splices)
 
 
-def _kept_name(module: Module) -> str | None:
-    """Return an attribute for the counter that the file does not use."""
+def _unused(module: Module, names: Sequence[str]) -> str:
+    """Return the first of some attributes that the file does not use; "" if it uses them all."""
     used = {dotted(n) for n in module.nodes if isinstance(n, ast.Attribute)}
-    return next((name for name in NAMES if name not in used), None)
+    return next((name for name in names if name not in used), "")
 
 
 def _fresh(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
     """Yield an attribute in place of a call without arguments, whose function counts in a parameter."""
     del before
-    text, name = module.text, _kept_name(module)
+    text, name = module.text, _unused(module, NAMES)
     functions = {n.name: n for n in module.nodes if isinstance(n, Function)}
     for method in (n for n in module.nodes if isinstance(n, Function)):
         init = _init_beside(module, method)
@@ -116,11 +117,11 @@ def _fresh(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Ch
             first = init.body[-1]
             start = f"{indent_of(text.line(init.body[0].lineno))}{name} = {wanted.start}"
             splices = (
-                text.swap(call, str(name)),
+                text.swap(call, name),
                 text.before((statement.end_lineno or statement.lineno) + 1, below),
                 text.before(_first_own(init, first), start),
             )
-            yield Change("fresh", call, text.code(call), str(name), splices, parameter)
+            yield Change("fresh", call, text.code(call), name, splices, parameter)
 
 
 def _first_own(init: Function, last: ast.stmt) -> int:
@@ -159,10 +160,7 @@ def _counted_parameter(function: Function) -> str | None:
 def _anew(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
     """Yield an attribute that is set once in place of an iterator that each call of next() makes."""
     del wanted, before
-    text, used = module.text, {dotted(n) for n in module.nodes if isinstance(n, ast.Attribute)}
-    name = next(
-        (n for n in ("self.numbers", "self.numbers_", "self.count_up") if n not in used), ""
-    )
+    text, name = module.text, _unused(module, ITERATORS)
     for method in (n for n in module.nodes if isinstance(n, Function)):
         init = _init_beside(module, method)
         for call, called in calls_in(method) if init is not None else ():
@@ -179,7 +177,7 @@ def _given(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Ch
     del wanted, before
     text = module.text
     functions = {n.name: n for n in module.nodes if isinstance(n, Function)}
-    counted = {name: None for n in additions(module) for name in targets_of(n)}
+    counted = dict.fromkeys(name for n in additions(module) for name in targets_of(n))
     for node in module.nodes:
         if not isinstance(node, ast.Call) or node.args or node.keywords:
             continue
