@@ -21,7 +21,7 @@ from grader.mistakes.recognised import OWN_ATTRIBUTE, Raised, RecognisedMistake,
 from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import starts_of
+from grader.package.source.counter import starts_of, targets_of
 from grader.package.source.module import Module
 from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS
@@ -126,6 +126,11 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
                 "attribute_not_set", at=node, name=value, written=_assigned(raised, node)
             )
             return replace(found, variant="annotated", words={**found.words, "attribute": name})
+    for node in raised.source.own_nodes:
+        if isinstance(node, ast.stmt) and f"self{name}" in targets_of(node):
+            params = {"name": f"self{name}", "written": f"self.{name}"}
+            found = raised.finding("attribute_not_set", at=node, params=params)
+            return replace(found, variant="dot", words={**found.words, "attribute": name})
     called = _called(raised, name)
     if called is not None:
         return called
@@ -188,6 +193,18 @@ def _set_elsewhere(raised: Raised, name: str) -> RecognisedMistake | None:
         return replace(found, variant="set_here")
     if method is here[1]:
         return replace(found, variant="set_again", words=words)
+    only_named = [
+        n
+        for n in raised.source.own_nodes
+        if isinstance(n, ast.Expr) and dotted(n.value) == f"self.{method.name}"
+    ]
+    if len(only_named) == 1:
+        code = f"self.{method.name}"
+        found = raised.finding(
+            "attribute_not_set", at=only_named[0], name=code, written=f"{code}()"
+        )
+        words = {**found.words, "attribute": name, "method": method.name}
+        return replace(found, variant="set_by_named", words=words)
     named = {n.attr for n in raised.source.all_nodes if isinstance(n, ast.Attribute)}
     plain = len(method.args.args) == 1 and not method.decorator_list
     uncalled = method.name not in named and plain and here[0] is raised.source.node_class
@@ -263,9 +280,9 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     made = _from_its_making(raised, match)
     if made is not None:
         return made
-    if match["type"] in ("int", "float") and (plain := _number(raised, match["name"])):
-        found = raised.finding("attribute_unknown", name=f"{plain}.{match['name']}", written=plain)
-        return replace(found, variant="number")
+    if match["type"] in ("int", "float") and (number := _number(raised, match["name"])):
+        found = raised.finding("attribute_unknown", name=number[0], written=number[1])
+        return replace(found, variant="number", words={**found.words, "number": number[2]})
     if match["type"] in raised.source.class_names and match["name"] in raised.source.attributes:
         code = f"{match['type']}.{match['name']}"
         found = raised.finding("attribute_unknown", name=code, written=own)
@@ -349,13 +366,24 @@ def _of_parameter(raised: Raised, name: str) -> RecognisedMistake:
     return replace(found, variant="parameter")
 
 
-def _number(raised: Raised, attribute: str) -> str:
-    """Return what the line reads an attribute of, if it is an attribute of self that counts."""
-    statement = statement_at(raised.module, raised.line)
+def _number(raised: Raised, attribute: str) -> tuple[str, str, str] | None:
+    """Return what the line reads from an attribute that counts, what it should say, and its name."""
+    module = raised.module
+    statement = statement_at(module, raised.line)
     parts = [n for n in ast.walk(statement) if isinstance(n, ast.Attribute)] if statement else []
-    found = {dotted(part.value) for part in parts if part.attr == attribute}
-    name = found.pop() if len(found) == 1 else ""
-    return name if name in starts_of(raised.source) else ""
+    found = [part for part in parts if part.attr == attribute]
+    name = dotted(found[0].value) if len(found) == 1 else ""
+    if not name or name not in starts_of(raised.source):
+        return None
+    read: ast.expr = found[0]
+    outer = module.parents.get(read)
+    if isinstance(outer, ast.Call) and outer.func is read:
+        read, outer = outer, module.parents.get(outer)
+    if isinstance(outer, ast.Expr):
+        return module.text.code(read), f"{name} += 1", name
+    in_text = isinstance(outer, ast.BinOp) and isinstance(outer.op, ast.Add)
+    value = f"str({name})" if in_text and read is not found[0] else name
+    return module.text.code(read), value, name
 
 
 def _of_rclpy(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -435,6 +463,7 @@ KINDS = (
                 "Write self.{close} on that line: the other lines use this name, not self.{name}."
             ),
             "annotated": msg("Write {written} instead of {name}."),
+            "dot": msg("A dot is missing. Write {written} instead of {name}."),
             "period": msg(
                 "Write the period in seconds instead of self.{name}: {written}. Or write self.{name} "
                 "= {written} above this line."
@@ -456,6 +485,10 @@ KINDS = (
                 "Set self.{name} in __init__ too, before this line can run, or call {method} "
                 "before this line can run."
             ),
+            "set_by_named": msg(
+                "This line only names the method, and does not call it. Write {written} instead of "
+                "{name}."
+            ),
             "set_by_uncalled": msg(
                 "Write self.{method}() in __init__, before the line that creates the timer, or move "
                 "line {lines} to __init__."
@@ -472,6 +505,9 @@ KINDS = (
             ),
         },
         whys={
+            "dot": msg(
+                "{name} is a name of its own, and no attribute, so self.{attribute} does not exist."
+            ),
             "annotated": msg(
                 "A colon after a name only states a type. A value is assigned with =, so "
                 "self.{attribute} does not exist yet."
@@ -479,6 +515,10 @@ KINDS = (
             "set_here": SET_ELSEWHERE,
             "set_again": SET_ELSEWHERE,
             "set_later": SET_IN_METHOD,
+            "set_by_named": msg(
+                "self.{attribute} does not exist until a line assigns to it. The method {method} does so, "
+                "and only a call with () runs it."
+            ),
             "set_by_uncalled": msg(
                 "self.{name} does not exist until a line assigns to it. Line {lines} does so, in the "
                 "method {method}, which no line calls."
@@ -520,6 +560,23 @@ KINDS = (
                     "    def timer_callback",
                     "    def setup(self):\n        self.counter_ = 0\n\n    def timer_callback",
                 ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "counter_set_by_named_method",
+                Replace(NODE, "self.counter_ = 0", "self.start_from_zero"),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def start_from_zero(self):\n        self.counter_ = 0\n\n    def timer_callback",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "counter_set_without_a_dot",
+                Replace(NODE, "self.counter_ = 0", "selfcounter_ = 0"),
                 fails="run.output",
                 blocks=DEAD,
             ),
@@ -583,7 +640,7 @@ KINDS = (
                 "get_parameter returns an object of the type Parameter. Its value is in .value, or in "
                 "get_parameter_value()."
             ),
-            "number": msg("{written} is a number, and a number has no such attribute."),
+            "number": msg("{number} is a number, and a number has no such attribute."),
             "none": msg(
                 "A value on that line is None: nothing was assigned to it, or a function returned "
                 "nothing."
@@ -641,6 +698,18 @@ KINDS = (
             example(
                 "class_for_self",
                 Replace(NODE, "self.counter_ += 1", "MyFirstNode.counter_ += 1"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+            example(
+                "number_to_text_as_a_column",
+                Replace(NODE, "str(self.counter_)", "self.counter_.astype(str)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "number_adds_by_a_method",
+                Replace(NODE, "self.counter_ += 1", "self.counter_.increment()"),
                 fails="run.output",
                 blocks=("run.interrupt",),
             ),

@@ -40,6 +40,10 @@ def _returns(suspect: Suspect) -> RecognisedMistake | None:
 def _return(suspect: Suspect, found: ast.Return) -> RecognisedMistake:
     """A return that always runs: only its word is deleted, if it returns what a call does."""
     mistake = suspect.finding("return_early", found)
+    above = node_order.block_above(suspect.source.module_of(found), found)
+    if above is not None:
+        words = {**mistake.words, "line": str(above.lineno)}
+        return replace(mistake, variant="block", words=words)
     return replace(mistake, variant="word" if node_order.does_something(found) else "")
 
 
@@ -303,6 +307,10 @@ KINDS = (
         },
         fixes={
             "word": msg("Delete only the word return in this line: what follows it stays."),
+            "block": msg(
+                "If this return belongs to the if in line {line}, indent it by 4 more spaces, like the "
+                "line above it. If not, delete it: a function without it returns at its end."
+            ),
             "if": msg("Remove that return, or move it below the lines that must run."),
             "pass": msg("Write pass instead of return in this line."),
             "choice": msg(
@@ -353,6 +361,16 @@ KINDS = (
                 "returns_before_spin",
                 Replace(
                     NODE, "    node = MyFirstNode()\n", "    node = MyFirstNode()\n    return\n"
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "return_out_of_its_if",
+                Replace(
+                    NODE,
+                    "    rclpy.init(args=args)\n",
+                    "    rclpy.init(args=args)\n    if not rclpy.ok():\n        print('no ROS')\n"
+                    "    return\n",
                 ),
                 fails="run.starts",
             ),

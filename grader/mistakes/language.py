@@ -176,7 +176,23 @@ def _used_up(suspect: Suspect) -> RecognisedMistake | None:
 def _used_up_raised(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     del match
     call = _next(raised.source)
-    return raised.finding("iterator_ended", at=call) if call is not None else None
+    if call is None:
+        return None
+    found = raised.finding("iterator_ended", at=call)
+    once = [f for f in raised.module.functions.values() if _yields_once(f)]
+    made = [f for f in once if any(called == f.name for _, called in raised.source.calls)]
+    if len(made) != 1:
+        return found
+    lines = ", ".join(str(n.lineno) for n in ast.walk(made[0]) if isinstance(n, ast.Yield))
+    words = {**found.words, "function": made[0].name, "lines": lines}
+    return replace(found, words=words, variant="generator")
+
+
+def _yields_once(function: Function) -> bool:
+    """Whether a function has a yield and no loop."""
+    parts = list(ast.walk(function))
+    loops = any(isinstance(n, ast.While | ast.For | ast.YieldFrom) for n in parts)
+    return any(isinstance(n, ast.Yield) for n in parts) and not loops
 
 
 def _used_up_default(suspect: Suspect) -> RecognisedMistake | None:
@@ -243,7 +259,9 @@ def _frozen(suspect: Suspect) -> RecognisedMistake | None:
     source, callback = suspect.source, suspect.source.callback
     if callback is None:
         return None
-    given = {arg.arg for arg in (*callback.args.args, *callback.args.kwonlyargs)} - {"self"}
+    own = callback.args.args[:1] if callback in source.methods.values() else []
+    parameters = [a for a in (*callback.args.args, *callback.args.kwonlyargs) if a not in own]
+    given = {parameter.arg for parameter in parameters}
     logged = {dotted(n) for text in _logged(source, callback) for n in ast.walk(text)}
     for name in sorted(given & logged - _set_in(callback)):
         return suspect.finding(
@@ -546,6 +564,16 @@ KINDS = (
         whys={
             "default": msg(
                 "When the iterator has no more values, next() gives its second value instead: {value}."
+            ),
+            "generator": msg(
+                "Each yield of {function} gives one value. There is no loop around the yield of line "
+                "{lines}, so {function} ends after it, and next() then raises StopIteration."
+            ),
+        },
+        fixes={
+            "generator": msg(
+                "Write while True: above the yield in {function}, and indent the yield and the lines "
+                "below it that count by 4 more spaces."
             )
         },
         examples=(
@@ -556,6 +584,19 @@ KINDS = (
                 Replace(NODE, STEP_LINE, ""),
                 fails="run.output",
                 blocks=("run.interrupt",),
+            ),
+            example(
+                "generator_without_loop",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "def numbers():\n    n = 0\n    yield n\n    n += 1\n\n\nclass MyFirstNode",
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.numbers_ = numbers()"),
+                Replace(NODE, "str(self.counter_)", "str(next(self.numbers_))"),
+                Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
+                blocks=("run.period", "run.interrupt"),
             ),
         ),
     ),

@@ -220,6 +220,24 @@ KINDS = (
                 blocks=("source.shebang", *UNSTARTED),
             ),
             example(
+                "notebook_below_a_shebang",
+                Write(NODE, f"#!/usr/bin/env python3\n{NOTEBOOK}"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "command_of_a_notebook",
+                Replace(NODE, "import rclpy\n", "%load_ext autoreload\nimport rclpy\n"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "shell_line_of_a_notebook",
+                Replace(NODE, "import rclpy\n", "!pip install rclpy\nimport rclpy\n"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
                 "python_prompt",
                 Replace(NODE, "import rclpy\n", ">>> import rclpy\n"),
                 fails="source.node_file",

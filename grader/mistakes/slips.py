@@ -25,6 +25,9 @@ TYPED = msg(
     "What was typed for another program is now a line of this file. Python reads each line."
 )
 NO_CODE = msg("Python reads the whole file, and stops at the first line that is not Python code.")
+IN_JSON = msg(
+    "A notebook holds the code of its cells as texts. Python reads these texts, and runs none of them."
+)
 NO_TEXT = msg(
     "A Python file contains plain text: its code, and nothing else. Another name does not make a "
     "file one of another kind."
@@ -32,11 +35,10 @@ NO_TEXT = msg(
 PASTED_WHYS = {
     "sign": KEYBOARD,
     **dict.fromkeys(("command", "heredoc", "editor"), TYPED),
-    **dict.fromkeys(
-        ("page", "markup", "notebook", "word", "conflict", "numbers", "prose", "around"), NO_CODE
-    ),
+    **dict.fromkeys(("page", "markup", "word", "conflict", "numbers", "prose", "around"), NO_CODE),
     **dict.fromkeys(("office", "pdf", "compiled", "archive"), NO_TEXT),
-    **dict.fromkeys(("output", "note", "patch", "number_lines"), NO_CODE),
+    **dict.fromkeys(("output", "note", "patch", "number_lines", "jupyter"), NO_CODE),
+    **dict.fromkeys(("notebook", "notebook_below"), IN_JSON),
 }
 PASTED = {
     "quotes": msg("Type the quotes of that line again: ' or \" on the keyboard."),
@@ -56,6 +58,9 @@ PASTED = {
     ),
     "heredoc": msg("Delete the line '{found}': it ends a command of the shell, and is not code."),
     "editor": msg("Delete the line '{found}': it is a command for the editor, not code."),
+    "jupyter": msg(
+        "Delete the line '{found}': it is a command of a Jupyter notebook, and Python does not know it."
+    ),
     "prose": msg("Delete that line: it is a sentence and not code."),
     "around": msg(
         "Keep only the code, lines {line} to {wanted}. Delete everything above and below it, the "
@@ -84,6 +89,13 @@ DOCUMENTS = {
         "file (on GitHub: the button Raw)."
     ),
     "markup": msg("This file contains XML, as package.xml does. Write the Python code into it."),
+    "notebook_below": msg(
+        "The lines from line {line} on are a Jupyter notebook: the code is in it as texts. Delete the "
+        "lines above line {line}, rename the file so that its name ends with .ipynb, and open it in "
+        "Jupyter or VS Code. Copy the code of its cells, without lines that begin with ! or %, into a "
+        "new file with the name of this one. Write #!/usr/bin/env python3 as its first line, and make "
+        "it executable with chmod +x."
+    ),
     "notebook": msg(
         "This file is a Jupyter notebook: the code is in it as texts, and Python runs none of them. "
         "Rename the file so that its name ends with .ipynb, and open it in Jupyter or VS Code. Copy "
@@ -416,6 +428,10 @@ SIGNS = {
     "assign_left": msg(
         "Only the name that gets the value is on the left of the =: one word, or self. and one word."
     ),
+    "name_minus": msg(
+        "A name cannot contain -, because Python reads it as a minus. Write _ instead, in all lines "
+        "that use this name: {wanted}"
+    ),
     "name_parts": msg("A name is one word, without spaces and without -. Write: {wanted}"),
     "word_as_name": msg(
         "{wanted} is a word of Python and cannot be a name. Write another name in all lines that "
@@ -522,6 +538,7 @@ KINDS = {
 
 NO_PYTHON = {
     "notebook": say("the file is a Jupyter notebook"),
+    "notebook_below": say("the file is a Jupyter notebook"),
     "office": say("the file is a document of a word processor"),
     "pdf": say("the file is a PDF document"),
     "compiled": say("the file is a compiled program"),
@@ -565,6 +582,7 @@ def description(slip: Slip | Pasted) -> Message:
         "command": say("a command for the terminal: {found}", found=found),
         "heredoc": say("the end of a command of the shell: {found}", found=found),
         "editor": say("a command for the editor: {found}", found=found),
+        "jupyter": say("a command of a Jupyter notebook: {found}", found=found),
         "prose": say("a sentence: {found}", found=found),
         "output": say("a line of a terminal's output: {found}", found=found),
         "note": say("a line of a document: {found}", found=found),

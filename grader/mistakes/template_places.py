@@ -9,13 +9,17 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import DEAD, NODE, example
+from grader.mistakes.example import DEAD, LOG_LINE, NODE, example
 from grader.mistakes.fixes import lines, node_words
+from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
+from grader.package.source.counter import parts_of_callback
+from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted
-from grader.package.source.place import statement_at
+from grader.package.source.place import function_at, statement_at
 
 PLACE = re.compile(r"\$(?:\{(\w{1,80})\}|(\w{1,80}))")
 ANY_PLACE = re.compile(r"\{\w{0,80}\}|\$\{?\w{1,80}\}?|%\w|<\w{1,80}>|\[\w{1,80}\]")
@@ -94,6 +98,59 @@ def _replaced(suspect: Suspect) -> RecognisedMistake | None:
     return suspect.finding("replaced_nothing", old, name=name, written=written)
 
 
+def _overwritten(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a line that keeps the filled text in the attribute that had the places."""
+    for function in parts_of_callback(suspect.source):
+        for node in ast.walk(function):
+            target = _filled(node)
+            if isinstance(node, ast.stmt) and target:
+                return _keeps(suspect.finding("template_overwritten", node), target, function)
+    return None
+
+
+def _overwritten_raised(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The text that % fills on the line is the one of the last call."""
+    del match
+    node = statement_at(raised.module, raised.line)
+    function = function_at(raised.module, raised.line)
+    target = _filled(node) if node is not None else ""
+    if not target or function is None:
+        return None
+    return _keeps(raised.finding("template_overwritten", at=node), target, function)
+
+
+def _keeps(mistake: RecognisedMistake, target: str, function: Function) -> RecognisedMistake:
+    used = {n.id for n in ast.walk(function) if isinstance(n, ast.Name)}
+    name = next(name for name in ("line", "filled", "filled_text") if name not in used)
+    words = {**mistake.words, "name": target, "written": name}
+    return replace(mistake, params={"name": target, "written": name}, words=words)
+
+
+def _filled(node: ast.AST) -> str:
+    """Return the attribute that an assignment fills and keeps: `self.a = self.a.replace(…)`."""
+    if not isinstance(node, ast.Assign) or len(node.targets) != 1:
+        return ""
+    target, value = dotted(node.targets[0]), node.value
+    filled: ast.expr | None = None
+    if isinstance(value, ast.Call) and isinstance(value.func, ast.Attribute):
+        filled = value.func.value if value.func.attr in ("replace", "format", *FILLS) else None
+    elif isinstance(value, ast.BinOp) and isinstance(value.op, ast.Mod):
+        filled = value.left
+    return target if target.startswith("self.") and filled and dotted(filled) == target else ""
+
+
+def _kept_apart(case: Case) -> Files | None:
+    """Give the filled text a name of its own, in the line that fills it and in those below it."""
+    module, line = case.module, case.finding.line
+    target, name = (str(case.finding.params.get(key, "")) for key in ("name", "written"))
+    function = function_at(module, line) if module is not None else None
+    if module is None or line is None or function is None:
+        return None
+    uses = [n for n in ast.walk(function) if isinstance(n, ast.Attribute) and dotted(n) == target]
+    changed = [n for n in uses if n.lineno > line or isinstance(n.ctx, ast.Store)]
+    return case.changed(module, *(module.text.swap(use, name) for use in changed))
+
+
 _node = Family("node", links.PYTHON_STRINGS)
 KINDS = (
     _node(
@@ -132,6 +189,56 @@ KINDS = (
                 fails="run.output",
                 blocks=DEAD,
             ),
+        ),
+    ),
+    _node(
+        "template_overwritten",
+        "text",
+        msg("The text loses the place for the number when it is filled"),
+        msg(
+            "{name} has a place for the number. This line puts the number there and keeps the result "
+            "in {name}, so that the next call finds no place in it."
+        ),
+        msg(
+            "Keep the result under another name: write {written} instead of {name} left of the =, and "
+            "in the lines below that use the result."
+        ),
+        behind={"run.constant_counter": _overwritten},
+        raised={
+            r"TypeError: not all arguments converted during string formatting": _overwritten_raised
+        },
+        fixed_by=(_kept_apart,),
+        examples=tuple(
+            example(
+                name,
+                Replace(
+                    NODE, "self.counter_ = 0", f"self.text = {template}\n        self.counter_ = 0"
+                ),
+                Replace(NODE, LOG_LINE, f"        self.text = {fill}\n{LOG_LINE}"),
+                Replace(NODE, TEXT, "self.text"),
+                fails="run.output",
+                blocks=blocks,
+            )
+            for name, template, fill, blocks in (
+                (
+                    "template_overwritten",
+                    "'Hello time: NN'",
+                    "self.text.replace('NN', str(self.counter_))",
+                    (),
+                ),
+                (
+                    "format_overwritten",
+                    "'Hello time: {}'",
+                    "self.text.format(self.counter_)",
+                    (),
+                ),
+                (
+                    "percent_overwritten",
+                    "'Hello time: %d'",
+                    "self.text % self.counter_",
+                    ("run.period", "run.interrupt"),
+                ),
+            )
         ),
     ),
     _node(

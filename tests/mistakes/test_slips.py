@@ -6,6 +6,7 @@ import time
 
 import pytest
 
+from grader.mistakes.slips import description
 from grader.package.source.code_only import code_only
 from grader.package.source.pasted import labels_in
 from grader.package.source.python import can_parse
@@ -38,6 +39,8 @@ PASTED = [
      'def f():\n    """Text\n    of f."""\n'),
     ("if 1:\n\u00a0\u00a0\u00a0\u00a0a = 1\n", "blank", 2, "if 1:\n    a = 1\n"),
     ("a\u200b = 1\n", "blank", 1, "a = 1\n"),
+    ("%load_ext autoreload\na = 1\n", "jupyter", 1, "a = 1\n"),
+    ("a = 1\n!pip install b\n", "jupyter", 2, "a = 1\n"),
     ("a = 2 \u2212 1\n", "sign", 1, "a = 2 - 1\n"),
     ("print\uff081\uff0c 2\uff09\n", "sign", 1, "print(1, 2)\n"),
     ("a = 1<br/>\nb = 2<br>\n", "tag", 1, "a = 1\nb = 2\n"),
@@ -206,6 +209,13 @@ TYPED = [
 SIGNS = [
     *INDENTED,
     *TYPED,
+    (
+        "class A:\n    def f(self):\n        self.b-c = 0\n        d(f'{self.b-c}')\n",
+        "name_minus",
+        3,
+        "class A:\n    def f(self):\n        self.b_c = 0\n        d(f'{self.b_c}')\n",
+    ),
+    ("b-c += a - c\n", "name_minus", 1, "b_c += a - c\n"),
     ("f(1,, 2)\n", "commas", 1, "f(1, 2)\n"),
     ("f(\n    1,\n    ,\n)\n", "commas", 3, "f(\n    1,\n    \n)\n"),
     ("f(, 1)\n", "commas", 1, "f( 1)\n"),
@@ -486,6 +496,7 @@ def test_a_slip_is_named_and_fixed(
     assert slip is not None
     assert (slip.cause, slip.variant, slip.line) == (cause, variant, line)
     assert (slip.fixed or b"").decode() == fixed
+    assert description(slip)
     assert not fixed or can_parse(fixed.encode())
 
 

@@ -17,6 +17,7 @@ from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of, function_at
 
+STEP = "    "
 CLEANUP = ("shutdown", "try_shutdown", "destroy_node")
 SPINS = ("spin", "spin_once", "spin_until_future_complete")
 
@@ -287,7 +288,23 @@ def returned(case: Case) -> Files | None:
         return case.changed(module, Splice(start, end, "")) if word is not None else None
     if not _is_own_line(module, found[0]):
         return None
+    if block_above(module, found[0]) is not None:
+        start = module.text.start_of(found[0].lineno)
+        return case.changed(module, Splice(start, start, STEP))
     return case.changed(module, module.text.without(found[0].lineno))
+
+
+def block_above(module: Module, found: ast.Return) -> ast.If | None:
+    """Return the if whose block ends on the line directly above a return of the same column."""
+    body = block_of(module, found)
+    at = next((n for n, one in enumerate(body) if one is found), 0)
+    above = body[at - 1] if at else None
+    if not isinstance(above, ast.If) or above.orelse or above.end_lineno != found.lineno - 1:
+        return None
+    last = above.body[-1]
+    ends = isinstance(last, ast.Return | ast.Raise) or last.lineno != above.end_lineno
+    deeper = last.col_offset - found.col_offset
+    return above if deeper == len(STEP) and not ends else None
 
 
 def does_something(statement: ast.Return) -> bool:

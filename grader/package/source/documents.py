@@ -47,7 +47,12 @@ def document_of(found: bytes) -> Slip | None:
     source = read_source(found)
     cells = code_cells(found)
     if source is not None and cells is not None:
-        return Slip("document", "notebook", 1, source.line(1).strip(), fixed=script_of(found))
+        comments = ABOVE.match(found)
+        above = len(comments[0].splitlines()) if comments is not None else 0
+        variant, line = ("notebook_below", above + 1) if above else ("notebook", 1)
+        return Slip(
+            "document", variant, 1, source.line(1).strip(), fixed=script_of(found), other=line
+        )
     if source is None or source.line(1).startswith("#"):
         return None
     return _beginning(source)

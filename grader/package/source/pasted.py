@@ -56,6 +56,31 @@ SHELL = rf"""
   | \.[ ][^\r\n=(]{{0,200}}setup\.(?:ba|z)?sh
   | \./[\w./-]{{1,200}}
 """
+JUPYTER = rf"""
+    %{{1,2}}(?:{
+    "|".join(
+        (
+            "load_ext",
+            "reload_ext",
+            "autoreload",
+            "matplotlib",
+            "pip",
+            "conda",
+            "cd",
+            "env",
+            "writefile",
+            "bash",
+            "capture",
+            "timeit",
+            "time",
+            "run",
+        )
+    )
+})\b
+      [^\r\n]{{0,400}}
+  | !(?:{"|".join(COMMANDS)})\b[^\r\n=(]{{0,400}}
+"""
+"""A line of a notebook that Jupyter carries out, and Python does not know."""
 TAGS = "br|p|code|pre|span|div|li|ul|ol|b|i|em|strong|font|a|td|tr|table"
 SINGLE, DOUBLE = (
     "\u2018\u2019\u201a\u201b\u2032\u00b4\uff07",
@@ -78,6 +103,7 @@ OPEN = re.compile(
         | (?P<fence>[ \t]{{0,20}}(?:```|~~~)[ \t]{{0,9}}[\w+-]{{0,20}}{END})
         | (?P<command>[ \t]{{0,20}}(?:{SHELL}){END})
         | (?P<shell>(?:[\w.-]{{1,40}}@[\w.-]{{1,60}}:[^\r\n$\#]{{0,200}})?\$[ ][^\r\n]{{0,400}}{END})
+        | (?P<jupyter>(?:{JUPYTER}){END})
         | (?P<prompt>(?:>>>|\.\.\.)(?:[ ]|{END}))
       ))
     | (?P<comment>\#[^\r\n]*)
@@ -97,6 +123,7 @@ KINDS = (
     "fence",
     "command",
     "shell",
+    "jupyter",
     "prompt",
     "tag",
     "entity",
@@ -105,7 +132,7 @@ KINDS = (
     "sign",
 )
 VARIANTS = {"shell": "command", "entity": "tag", "nothing": "blank"}
-WHOLE_LINES = frozenset({"label", "fence", "command", "heredoc", "editor"})
+WHOLE_LINES = frozenset({"label", "fence", "command", "heredoc", "editor", "jupyter"})
 INSIDE = {
     quotes: re.compile(rf"(?:[^\\\r\n{quotes}]|\\(?:\r\n|.))*", re.DOTALL)
     for quotes in ("'", '"', SINGLE + "'", DOUBLE + '"')
@@ -117,8 +144,8 @@ INSIDE = {
 class Pasted:
     """Something that does not belong into the code: its variant, its line, and the change.
 
-    `variant` is `quotes`, `blank`, `sign`, `tag`, `label`, `heredoc`, `editor`, `prompt` or
-    `command`; `found` is what is written there.
+    `variant` is `quotes`, `blank`, `sign`, `tag`, `label`, `heredoc`, `editor`, `jupyter`, `prompt`
+    or `command`; `found` is what is written there.
     """
 
     variant: str

@@ -87,6 +87,30 @@ def _balanced(code: str) -> bool:
     return all(code.count(a) == code.count(b) for a, b in ("()", "[]", "{}"))
 
 
+MINUS_IN_NAME = re.compile(
+    r"^[ \t]*(?P<name>(?:self\.)?[A-Za-z_]\w*(?:-[A-Za-z_]\w*){1,5})[ \t]*[-+]?=(?!=)"
+)
+
+
+def _minus(text: Broken) -> Slip | None:
+    """Return an assignment to a name with a minus in it, which other lines may have too."""
+    match = MINUS_IN_NAME.match(text.line)
+    if match is None:
+        return None
+    name, place = match["name"], text.within(*match.span("name"), match["name"].replace("-", "_"))
+    written = text.source.text
+    in_code = rf"(?<![\w.-]){re.escape(name)}(?![\w-])"
+    spans = {at.span() for at in re.finditer(in_code, text.code.text)}
+    spans |= {
+        at.span("name")
+        for at in re.finditer(rf"\{{[^{{}}'\"]{{0,80}}?(?P<name>{in_code})", written)
+    }
+    splices = [Splice(start, end, place.new) for start, end in sorted(spans)]
+    new = text.source.spliced(splices)
+    new = new if new is not None and can_parse(new) else None
+    return text.slip("signs", "name_minus", text.source.line(text.number), place, fixed=new)
+
+
 def _name_parts(text: Broken) -> Slip | None:
     """Return a name of a function or a class with a space or a minus in it."""
     match = NAME_PARTS.match(text.line)
@@ -388,7 +412,7 @@ def _unbound(text: Broken) -> Slip | None:
 
 
 STATEMENT_LOOKS: tuple[Look, ...] = (
-    _entry_parts, _assigned, _word, _name_parts, _parameters, _import, _handler, _between, _colon, _call,
+    _entry_parts, _minus, _assigned, _word, _name_parts, _parameters, _import, _handler, _between, _colon, _call,
     _loop_word, _global_late, _backslash, _list_with_keys,
     _says(r"name '(\w+)' is parameter and (?:global|nonlocal)", "global_parameter"),
     _unbound,
