@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
+from grader.mistakes.encodings import DECLARED, ENCODINGS, NOT_UTF8
 from grader.mistakes.example import CFG, SETUP, example
 from grader.mistakes.fixes import setup_cfg, setup_py, syntax
 from grader.mistakes.kind import Kind, Parts, Variants
@@ -173,6 +174,12 @@ KINDS = (
                 "The file is there, but colcon build --symlink-install runs setup.py in the build "
                 "folder, and from there a relative path leads to another place."
             ),
+            "other_place": msg(
+                "setup.py is in the package's folder, beside {name}. '{found}' leads to another "
+                "folder."
+            ),
+            **dict.fromkeys(ENCODINGS, NOT_UTF8),
+            "declared": DECLARED,
             **dict.fromkeys(("no_file", "no_file_above", "no_file_value", "no_file_other"), OPENED),
             **dict.fromkeys((*REFUSED, "inside", "path_object"), NOT_ACCEPTED),
             **dict.fromkeys(LANGUAGE, OTHER_LANGUAGE),
@@ -213,6 +220,7 @@ KINDS = (
             ),
             "hidden": msg("Give {name}.py another name, or move it out of the package."),
             "relative": msg("Do not open {name} in setup.py: delete that line and what uses it."),
+            "other_place": msg("Write '{name}' instead of '{found}', then build again."),
             "no_file": DELETE,
             "no_file_there": DELETE,
             "no_file_above": DELETE_ALL,
@@ -287,6 +295,7 @@ KINDS = (
                 "then build again."
             ),
             **REFUSED,
+            **ENCODINGS,
             **PASTED,
             **DOCUMENTS,
             **LANGUAGE,
@@ -324,6 +333,30 @@ KINDS = (
                     "            'test_node = my_robot_controller.my_first_node:main',\n        ],\n",
                     "        ],\n        'test_node = my_robot_controller.my_first_node:main',\n",
                 ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_gets_a_dict_with_one_star",
+                Replace(SETUP, "setup(\n", "settings = dict(\n"),
+                Replace(SETUP, "    },\n)\n", "    },\n)\n\nsetup(*settings)\n"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_reads_a_file_of_the_folder_above",
+                Replace(SETUP, "\nsetup(\n", "\nopen('../package.xml').close()\n\nsetup(\n"),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_in_utf_16",
+                Write(SETUP, "from setuptools import setup\n\nsetup()\n".encode("utf-16")),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_in_latin_1",
+                Write(SETUP, b"from setuptools import setup\n\n# J\xfcrgen\nsetup()\n"),
                 fails="build.colcon",
                 blocks=("entry_point.mapping",),
             ),
@@ -671,6 +704,11 @@ KINDS = (
                 "entry_points is a dict: the name of a group, and the list of its entries. Write "
                 "{{'console_scripts': before the [, and }} after the ]. Then build again."
             ),
+            "entries_pair": msg(
+                "entry_points is a dict: the name of a group, a colon, and the list of its entries. "
+                "Write {{ and }} instead of the outer brackets, and a colon instead of the comma "
+                "between them. Then build again."
+            ),
             "entries_dict": msg(
                 "In {name}, each entry is one text, 'name = package.module:function', in a list. "
                 "Write instead of the inner braces: {wanted}. Then build again."
@@ -706,7 +744,7 @@ KINDS = (
                 "condition is never true, and nothing is installed."
             ),
             **dict.fromkeys(
-                ("refused", "entries_list", "entries_dict", *REFUSED),
+                ("refused", "entries_list", "entries_pair", "entries_dict", *REFUSED),
                 msg(
                     "setuptools stops at a value that it does not accept. colcon then says only "
                     "that distutils.core.setup() was never called."
@@ -744,6 +782,17 @@ KINDS = (
                 "entry_points_as_list",
                 Replace(SETUP, "entry_points={\n        'console_scripts': [", "entry_points=["),
                 Replace(SETUP, "        ],\n    },\n)", "    ],\n)"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "entry_points_as_a_pair",
+                Replace(
+                    SETUP,
+                    "entry_points={\n        'console_scripts': [",
+                    "entry_points=('console_scripts', [",
+                ),
+                Replace(SETUP, "        ],\n    },\n)", "    ]),\n)"),
                 fails="build.colcon",
                 blocks=("entry_point.mapping",),
             ),

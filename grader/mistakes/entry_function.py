@@ -59,6 +59,10 @@ def _absent(raised: Raised) -> RecognisedMistake:
     made = own.name if own is not None else "MyNode"
     found = raised.finding("main_missing", made=made)
     text = raised.source.entry.text
+    if not raised.source.entry.tree.body:
+        return replace(
+            found, variant="no_code", words={**found.words, "path": raised.source.entry.path}
+        )
     for number, row in enumerate(text.lines, 1):
         match = PLACEHOLDER.search(row)
         if match is not None:
@@ -151,6 +155,7 @@ KINDS = (
         ),
         links.DEVELOPING,
         whys={
+            "no_code": msg("The file {path} has only comments, and no code."),
             "placeholder": msg(
                 "'{found}' stands for lines that were left out, and is no code. The function "
                 "{function}, to which the entry point leads, is one of them."
@@ -162,6 +167,11 @@ KINDS = (
             ),
         },
         fixes={
+            "no_code": msg(
+                "If your node is open in the editor, save it into this file. If it is in another file "
+                "or in a copy of the package, copy its code into this one. If you have not written "
+                "it, write it here."
+            ),
             "in_copy": msg(
                 "{there} has the node and {function}. Copy all of it into {path}, save, and delete "
                 "{there}."
@@ -184,6 +194,11 @@ KINDS = (
                 "node_in_a_copy",
                 Copy(NODE, f"{INNER}/my_first_node copy.py"),
                 Write(NODE, "#!/usr/bin/env python3\nimport rclpy\nfrom rclpy.node import Node\n"),
+                fails="run.starts",
+            ),
+            example(
+                "node_of_one_comment",
+                Write(NODE, "#!/usr/bin/env python3\n"),
                 fails="run.starts",
             ),
             example(

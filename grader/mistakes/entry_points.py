@@ -833,6 +833,10 @@ KINDS = (
                 "The entry is in pyproject.toml, which colcon build --symlink-install does not "
                 "read: it runs setup.py in a folder without that file."
             ),
+            "replaced": msg(
+                "Line {line} has the entry. This line, which runs later, gives entry_points another "
+                "value, so that setup() does not get the entry."
+            ),
             "below": msg(
                 "setup() does its work when it is called, in line {line}. What a line below it "
                 "changes comes too late."
@@ -840,14 +844,28 @@ KINDS = (
         },
         fix=msg("Write the entry into setup.py's entry_points, under console_scripts: '{wanted}',"),
         fixes={
+            "replaced": msg(
+                "Delete this statement, or write the entry into it, under console_scripts: '{wanted}',"
+            ),
             "below": msg(
                 "Move this statement up, above setup( in line {line} and below the lines that give "
                 "a value to what it uses. Then build again."
-            )
+            ),
         },
         fixed_by=(entries.replaced,),
         link=links.DEVELOPING,
         examples=(
+            example(
+                "entry_points_replaced_in_the_settings",
+                Replace(SETUP, "setup(\n", "settings = dict(\n"),
+                Replace(
+                    SETUP,
+                    "    },\n)\n",
+                    "    },\n)\nsettings['entry_points'] = {'console_scripts': []}\n\nsetup(**settings)\n",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
             example(
                 "entry_appended_after_setup",
                 Replace(SETUP, "\nsetup(\n", "\nentries = []\n\nsetup(\n"),

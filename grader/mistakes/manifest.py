@@ -127,6 +127,12 @@ KINDS = (
             "Look at that line and the line above it, and compare them with a package.xml that ros2 "
             "pkg create makes: each <tag> needs its </tag>, and & is written &amp;."
         ),
+        whys={
+            "encoding_declared": msg(
+                "An XML file has to be in the encoding that it declares. colcon reads this one all the "
+                "same, but other programs stop at it."
+            )
+        },
         fixes={
             "entity": msg(
                 "XML knows only &amp; &lt; &gt; &quot; and &apos;. Write the character itself instead "
@@ -158,6 +164,17 @@ KINDS = (
             ),
             "declared_twice": msg("Delete this line: <?xml …?> is only at the top of the file."),
             "after": msg("Delete what is after the last > of the file."),
+            "package_twice": msg(
+                "Delete everything below the first </package>, from this line to the end of the file."
+            ),
+            "no_tags": msg(
+                "package.xml is XML: it consists of tags, such as <package>. Copy the one that ros2 pkg "
+                "create makes, and write your values into it."
+            ),
+            "encoding_declared": msg(
+                'The file is not in the encoding that its first line names. Write encoding="utf-8" '
+                "there, or delete encoding=… from that line."
+            ),
             "outside": msg(
                 "Move this tag, with all lines up to its end tag, above </{name}>: all tags belong "
                 "inside <{name}>."
@@ -183,6 +200,27 @@ KINDS = (
                 fails="package.manifest",
                 blocks=UNBUILT,
                 note="expat names the line of </package>",
+            ),
+            example(
+                "manifest_pasted_twice",
+                Replace(
+                    MANIFEST, "</package>\n", "</package>\n<package><name>a</name></package>\n"
+                ),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "manifest_as_json",
+                Write(MANIFEST, '{"name": "my_robot_controller", "version": "0.0.0"}\n'),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "manifest_declares_utf_16",
+                Replace(
+                    MANIFEST, '<?xml version="1.0"?>', '<?xml version="1.0" encoding="utf-16"?>'
+                ),
+                fails="package.manifest",
             ),
             example(
                 "format_without_quotes",
@@ -294,6 +332,13 @@ KINDS = (
         msg("Add <{tag}>…</{tag}> inside <package>."),
         fixes={
             "empty": msg("Write something between <{tag}> and </{tag}>."),
+            "tags": msg(
+                "Write the text itself between <{tag}> and </{tag}>, without tags around it."
+            ),
+            "tags_maintainer": msg(
+                "Write the name as the text and the e-mail address as an attribute, without tags "
+                'inside: <maintainer email="student@todo.todo">student</maintainer>'
+            ),
             "commented": msg(
                 "<{tag}> is in the comment that begins in this line. Delete the <!-- before it and "
                 "the --> behind it, so that it counts. Then build again."
@@ -319,6 +364,16 @@ KINDS = (
                 "maintainer_in_a_comment_with_words",
                 Replace(MANIFEST, "<maintainer", "<!-- who? <maintainer"),
                 Replace(MANIFEST, "</maintainer>", "</maintainer> -->"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "maintainer_with_tags_inside",
+                Replace(
+                    MANIFEST,
+                    '<maintainer email="student@todo.todo">student</maintainer>',
+                    "<maintainer><name>student</name><email>student@todo.todo</email></maintainer>",
+                ),
                 fails="package.manifest",
                 blocks=UNBUILT,
             ),

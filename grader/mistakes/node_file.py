@@ -247,7 +247,15 @@ KINDS = (
             "misnamed": msg(
                 "Its name must be exactly __init__.py, with two underscores on both sides. "
                 "Rename it, then build again. In the package's folder, run: mv {there} {path}"
-            )
+            ),
+            "blank": msg(
+                "There is a blank at the beginning or the end of its name. Rename it, then build "
+                "again. In the package's folder, run: mv {there} {path}"
+            ),
+            "folder": msg(
+                "{path} is a folder. It must be a file, which may be empty. In the package's folder, "
+                "run: rmdir {path} && touch {path}. Then build again."
+            ),
         },
         link=links.PACKAGE,
         fixed_by=(layout.init_file,),
@@ -261,6 +269,11 @@ KINDS = (
             example(
                 "init_with_single_underscores",
                 Move(INIT, f"{INNER}/_init_.py"),
+                fails="run.starts",
+            ),
+            example(
+                "init_with_a_blank_at_its_end",
+                Move(INIT, f"{INNER}/__init__.py "),
                 fails="run.starts",
             ),
         ),

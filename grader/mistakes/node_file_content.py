@@ -6,6 +6,7 @@ import re
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
+from grader.mistakes.encodings import DECLARED, ENCODINGS, NOT_UTF8
 from grader.mistakes.example import LOG, NODE, UNSTARTED, example
 from grader.mistakes.fixes import first_line, syntax
 from grader.mistakes.kind import Kind
@@ -64,36 +65,10 @@ KINDS = (
         id="source.not_utf8",
         stage="file",
         title=msg("The node's file is not UTF-8 text"),
-        why=msg(
-            "Python reads source files as UTF-8; a single invalid byte makes the file unreadable."
-        ),
-        fix=msg(
-            "In VS Code, click the encoding (UTF-8) at the bottom right. Choose 'Reopen with "
-            "Encoding' first, and the encoding in which the text is readable, such as 'Western "
-            "(Windows 1252)' or 'Korean (EUC-KR)'. Then click it again, and choose 'Save with "
-            "Encoding' and 'UTF-8'. If you save before you reopen, the text is lost."
-        ),
-        fixes={
-            "declared": msg(
-                "The file is UTF-8, but line {line} declares the encoding {found}. Delete that line: "
-                "Python expects UTF-8 without it."
-            ),
-            "korean": msg(
-                "In VS Code, click the encoding (UTF-8) at the bottom right. Choose 'Reopen with "
-                "Encoding' first, and 'Korean (EUC-KR)': the text is readable again. Then click it "
-                "again, and choose 'Save with Encoding' and 'UTF-8'. If you save before you "
-                "reopen, the text is lost. Korean text itself is fine in a UTF-8 file."
-            ),
-            "saved": msg(
-                "Save the file as UTF-8. In VS Code: click the encoding at the bottom right, then "
-                "choose 'Save with Encoding' and 'UTF-8'."
-            ),
-        },
-        whys={
-            "declared": msg(
-                "Python reads a source file in the encoding that a comment in line 1 or 2 declares."
-            ),
-        },
+        why=NOT_UTF8,
+        fix=ENCODINGS["other_encoding"],
+        fixes={kind: fix for kind, fix in ENCODINGS.items() if kind != "other_encoding"},
+        whys={"declared": DECLARED},
         link=links.PYTHON_SYNTAX,
         seen=r"SyntaxError: \(unicode error\)|SyntaxError: Non-UTF-8 code",
         fixed_by=(syntax.node,),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -162,7 +163,15 @@ def _not_installed(error: str, evidence: Evidence) -> RecognisedMistake | None:
     if not re.search(rf"No module named '{module}'", error):
         return None
     init = f"{package}/__init__.py"
-    if evidence.submission.file(init) is None:
+    there = evidence.submission.file(init)
+    if there is not None and there.kind == "folder":
+        return RecognisedMistake(
+            kind="source.no_init_file",
+            words={"path": init},
+            variant="folder",
+            where=Where(file=init),
+        )
+    if there is None:
         return _no_init(package, init, evidence)
     setup = file_of(evidence, "setup.py")
     found = packages_of(
@@ -185,8 +194,8 @@ def _no_init(package: str, init: str, evidence: Evidence) -> RecognisedMistake:
     return RecognisedMistake(
         kind="source.no_init_file",
         params={"there": there} if close else {},
-        words={"path": init, "there": there},
-        variant="misnamed" if close else "",
+        words={"path": init, "there": shlex.quote(there)},
+        variant="blank" if close.strip() != close else "misnamed" if close else "",
         where=Where(file=there if close else init),
     )
 

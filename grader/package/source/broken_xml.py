@@ -24,7 +24,7 @@ TAGS = (
 """The tags of REP 149."""
 Variant = Literal[
     "unclosed", "again", "unopened", "misspelt", "unfinished", "quotes", "ampersand", "before",
-    "after", "outside", "bare", "comment", "declaration", "blank", "declared_twice",
+    "after", "outside", "bare", "comment", "declaration", "blank", "declared_twice", "package_twice", "no_tags",
     "hyphens", "hyphens_lines", "comment_start", "less",
 ]  # fmt: skip
 END_TAG = re.compile(rb"</\s{0,9}(?P<name>[^<>\s]{1,100})\s{0,9}>")
@@ -299,6 +299,9 @@ def _declaration(reader: _Reader, at: int) -> XmlFault | None:
     late = next((m for m in declared if m.start() > mark), None)
     if late is None or reader.open:
         return None
+    twice = _package_twice(reader)
+    if twice is not None:
+        return twice
     start, end = late.span()
     above = found[mark:start]
     ending = re.compile(rb"[ \t]*\r?\n").match(found, end)
@@ -319,9 +322,25 @@ def _in_comment(found: bytes, at: int) -> bool:
     return found.rfind(b"<!--", 0, at) > found.rfind(b"-->", 0, at)
 
 
+def _package_twice(reader: _Reader) -> XmlFault | None:
+    """Return a second <package> below the first one: the file was pasted twice."""
+    found = reader.found
+    end = found.find(b"</package>") + len(b"</package>")
+    below = end + len(found[end:]) - len(found[end:].lstrip())
+    second = re.search(rb"<package[\s>]", found[end:])
+    if end < len(b"</package>") or second is None or _Reader(found[:end]).stop() is not None:
+        return None
+    return reader.fault("package_twice", "package", below, (end, len(found), b"\n"))
+
+
 def _after(reader: _Reader, at: int) -> XmlFault | None:
     """Return what is below the last end tag."""
     found = reader.found
+    if b"<" not in found:
+        return reader.fault("no_tags", "", 0)
+    twice = _package_twice(reader)
+    if twice is not None:
+        return twice
     start = found.rfind(b">") + 1
     root = found.rfind(b"</package>", 0, at)
     if root >= 0 and found[start:].strip() == b"":

@@ -283,24 +283,40 @@ def _positional(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
     if not reader.call.args:
         return None
     value = reader.call.args[0]
-    code = reader.module.text.code(value)
-    if isinstance(value, ast.Name) and _is_dict(reader.module, value.id):
-        at = reader.module.text.span(value)[0]
-        return reader.fault("unpacked", value, Splice(at, at, "**"), name=code, wanted=f"**{code}")
-    is_name = len(reader.call.args) == 1 and reader.argument("name") is None
     at = reader.module.text.span(value)[0]
+    starred = isinstance(value, ast.Starred)
+    inner = value.value if isinstance(value, ast.Starred) else value
+    code = reader.module.text.code(inner)
+    if _is_dict(reader.module, inner):
+        stars = Splice(at, at, "*" if starred else "**")
+        name = code if isinstance(inner, ast.Name) else f"{code.splitlines()[0]} …"
+        return reader.fault("unpacked", value, stars, name=name, wanted=f"**{name}")
+    if starred:
+        return None
+    is_name = len(reader.call.args) == 1 and reader.argument("name") is None
     splices = [Splice(at, at, "name=")] if is_name else []
     return reader.fault("positional", value, *splices, wanted=f"name={code}")
 
 
-def _is_dict(module: Module, name: str) -> bool:
-    """Whether every assignment of a name at module level gives it a dict."""
+def _is_dict(module: Module, value: ast.expr) -> bool:
+    """Whether an expression is a dict: as written, or by every assignment of its name."""
+    if isinstance(value, ast.Dict):
+        return True
+    if isinstance(value, ast.Call):
+        return dotted(value.func) == "dict" or _returns_dict(module, dotted(value.func))
+    name = value.id if isinstance(value, ast.Name) else ""
     values = [s.value for s in module.tree.body if isinstance(s, ast.Assign) and _sets(s, name)]
-    kinds = [
-        isinstance(v, ast.Dict) or (isinstance(v, ast.Call) and dotted(v.func) == "dict")
-        for v in values
-    ]
-    return bool(kinds) and all(kinds)
+    plain = [v for v in values if not isinstance(v, ast.Name)]
+    return bool(plain) and len(plain) == len(values) and all(_is_dict(module, v) for v in plain)
+
+
+def _returns_dict(module: Module, name: str) -> bool:
+    """Whether a function of the file returns a dict as it is written."""
+    function = module.functions.get(name)
+    returned = (
+        [n.value for n in ast.walk(function) if isinstance(n, ast.Return)] if function else []
+    )
+    return bool(returned) and all(isinstance(value, ast.Dict) for value in returned)
 
 
 def _never_called(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
@@ -359,6 +375,10 @@ def _entries_form(reader: _Reader) -> SetupFault | None:
     points, text = reader.argument("entry_points"), reader.module.text
     q = text.quote
     if isinstance(points, ast.List | ast.Tuple) and points.elts:
+        pair = points.elts
+        if len(pair) == 2 and isinstance(pair[0], ast.Constant) and isinstance(pair[1], ast.List):
+            wanted = f"{{{text.code(pair[0])}: {text.code(pair[1])}}}"
+            return reader.fault("entries_pair", points, text.swap(points, wanted))
         wanted = f"{{{q}console_scripts{q}: {text.code(points)}}}"
         return reader.fault("entries_list", points, text.swap(points, wanted))
     if not isinstance(points, ast.Dict):

@@ -12,8 +12,10 @@ from grader.base.i18n.message import Message, joined, say
 from grader.base.nearest import nearest
 from grader.base.shown import shown
 from grader.mistakes.slips import description, words_of
+from grader.package.source.broken_python import fault_of
 from grader.package.source.module import parse_module
 from grader.package.source.names import dotted
+from grader.package.source.other_encoding import declaration, kind_of_encoding
 from grader.package.source.pasted import labels_in
 from grader.package.source.python import PythonFault
 from grader.package.source.setup_cfg import KEYS, Setting, SetupCfgFault, read_setup_cfg
@@ -30,7 +32,7 @@ from grader.report.model import Where
 from grader.verdict.checks.build_log import is_inside, last_error, setup_error, summary_of
 from grader.verdict.checks.cmake import CMAKE, cmake_error
 from grader.verdict.checks.declare import BUILD, check
-from grader.verdict.checks.parsed import has_subpackages, node_path
+from grader.verdict.checks.parsed import has_subpackages, node_path, printable_reason
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -55,6 +57,8 @@ NOT_WRITTEN = re.compile(
 NO_VARIABLE = re.compile(
     r"^ValueError: invalid variable '|^configparser\.Interpolation\w{1,40}Error: ", re.MULTILINE
 )
+LINKED = ("package.xml", "setup.cfg", "setup.py")
+"""Files of the package that colcon build --symlink-install links into the build folder."""
 IGNORED = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 """Files for which colcon passes over a folder."""
 EXITS = ("exit", "quit", "sys.exit", "os._exit", "os.abort")
@@ -115,7 +119,7 @@ def colcon_builds(evidence: Evidence) -> Passed:
     is_inner = lost is not None and lost[1] == evidence.assignment.folder
     if is_inner and evidence.has_failed("source.node_file"):
         raise Blocked(by="source.node_file")  # (the inner folder has another name)
-    raise _broken(evidence)
+    raise _encoding(evidence) or _broken(evidence)
 
 
 def _must_be_the_only_one(evidence: Evidence) -> None:
@@ -455,7 +459,7 @@ def _plain(body: list[ast.stmt]) -> list[ast.stmt]:
 
 def _never(variant: str) -> Message:
     """Return what is known if setup() did not finish its work."""
-    if variant in ("entries_list", "entries_dict") or variant.startswith("refused"):
+    if variant in ("entries_list", "entries_pair", "entries_dict") or variant.startswith("refused"):
         return say("setuptools stopped in setup(), and gave no reason")
     if variant == "guard":
         return say("the condition above setup() is never true, so nothing calls it")
@@ -487,6 +491,9 @@ def _raised(evidence: Evidence, expected: str, error: str, where: Where) -> Fail
         return _stopped_with(expected, error, place, "hidden", words=words)
     if opened is not None and submission.file(opened[1].rpartition("/")[2]) is not None:
         name = opened[1].rpartition("/")[2]
+        if name in LINKED and f"'{opened[1]}'" in code.decode("utf-8", "replace").replace('"', "'"):
+            words = {"name": name, "found": opened[1]}
+            return _stopped_with(expected, error, where, "other_place", words=words)
         return _stopped_with(expected, error, where, "relative", words={"name": name})
     key = _unquoted(code, error)
     if key is not None:
@@ -531,6 +538,24 @@ def _stopped_with(
         variant=variant,
         params={"error": error, **(params or {})},
         words=words,
+    )
+
+
+def _encoding(evidence: Evidence) -> Failed | None:
+    """Return that setup.py is not UTF-8 text; None if it is."""
+    code = _setup_py(evidence)
+    fault = fault_of(code)
+    if fault is None or fault.kind != "encoding":
+        return None
+    line, name = declaration(code) or (fault.line, "")
+    return Failed(
+        "build.setup_error",
+        expected=say("a file that Python can read"),
+        actual=say("Python cannot read setup.py: {error}", error=printable_reason(fault.text)),
+        where=Where(file="setup.py", line=line),
+        variant=kind_of_encoding(code) or "other_encoding",
+        params={"error": str(fault.text)},
+        words={"line": str(line), "found": shown(name)},
     )
 
 

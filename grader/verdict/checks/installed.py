@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
 from grader.base.shown import shown
+from grader.package.source.names import dotted
 from grader.package.source.setup_packages import parsed_setup, setup_call
 from grader.report.model import Where
 from grader.verdict.checks.as_declared import must_be_as_declared
@@ -82,15 +83,40 @@ def _other_name(evidence: Evidence) -> list[str]:
 
 
 def _computed(evidence: Evidence, actual: str) -> Failed:
-    entry, below = wanted_entry(evidence), _below_setup(evidence)
+    entry, found = wanted_entry(evidence), _below_setup(evidence)
+    variant = "below"
+    if found is None:
+        found, variant = _replaced(evidence), "replaced"
+    variant = "project" if _in_project(evidence) else variant if found else ""
     return Failed(
         "entry_point.computed_mapping",
         expected=say("'{entry}' among the console_scripts", entry=entry),
         actual=actual,
-        where=Where(file="setup.py", line=below[1] if below else None),
-        variant="project" if _in_project(evidence) else "below" if below else "",
-        words={"wanted": entry, "line": str(below[0]) if below else ""},
+        where=Where(file="setup.py", line=found[1] if found else None),
+        variant=variant,
+        words={"wanted": entry, "line": str(found[0]) if found else ""},
     )
+
+
+def _replaced(evidence: Evidence) -> tuple[int, int] | None:
+    """Return the line of the entry, and a later one that sets the dict's entry points again."""
+    file = file_of(evidence, "setup.py")
+    module = parsed_setup(file.data) if file is not None else None
+    call = setup_call(module) if module is not None else None
+    if module is None or call is None:
+        return None
+    given = {dotted(k.value) for k in call.keywords if k.arg is None}
+    entry = re.compile(rf"\s*{re.escape(evidence.assignment.executable)}\s*=")
+    texts = [n for n in module.nodes if isinstance(n, ast.Constant) and isinstance(n.value, str)]
+    lines = [n.lineno for n in texts if entry.match(str(n.value))]
+    for statement in module.tree.body:
+        target = statement.targets[0] if isinstance(statement, ast.Assign) else None
+        if not isinstance(target, ast.Subscript) or dotted(target.value) not in given - {""}:
+            continue
+        key = target.slice.value if isinstance(target.slice, ast.Constant) else ""
+        if key == "entry_points" and lines and lines[-1] < statement.lineno < call.lineno:
+            return lines[-1], statement.lineno
+    return None
 
 
 def _below_setup(evidence: Evidence) -> tuple[int, int] | None:

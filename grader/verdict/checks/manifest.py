@@ -146,7 +146,12 @@ def _unusable(error: ManifestError, found: bytes) -> Failed:
         said, variant = say("package.xml is empty"), "empty"
         return _failed("package.broken_xml", said, error.line, variant=variant, params=params)
     if fault is None:
-        known = {"undefined entity": "entity", "duplicate attribute": "attribute_twice"}
+        known = {
+            "undefined entity": "entity",
+            "duplicate attribute": "attribute_twice",
+            "encoding specified in XML declaration is incorrect": "encoding_declared",
+            "unknown encoding": "encoding_declared",
+        }
         variant = known.get(error.text, "")
         return _failed("package.broken_xml", text, error.line, variant=variant, params=params)
     return _failed(
@@ -176,6 +181,8 @@ def _described(fault: XmlFault) -> Message:
         "ampersand": say("there is a bare &"),
         "before": say("there is something before the first tag"),
         "after": say("there is something after the last tag"),
+        "package_twice": say("<package> is in the file twice"),
+        "no_tags": say("the file has no tag"),
         "outside": say("there is a tag below </{name}>", **words),
         "bare": say("<{tag} …> has a value without quotes", **words),
         "comment": say("a comment that begins with <!-- has no end"),
@@ -192,6 +199,17 @@ def _described(fault: XmlFault) -> Message:
     return texts[fault.variant]
 
 
+def _tag_fault(manifest: Manifest, tag: str) -> tuple[str, Message]:
+    """Return the variant of a required tag that is missing or has no text, and what is there."""
+    if any(inside.within == tag for inside in manifest.elements):
+        variant = "tags_maintainer" if tag == "maintainer" else "tags"
+        return variant, say("<{tag}> contains only other tags", tag=tag)
+    if manifest.first(tag) is not None:
+        return "empty", say("<{tag}> is empty", tag=tag)
+    variant = tag if tag in ("version", "maintainer", "name") else ""
+    return variant, say("<{tag}> is missing", tag=tag)
+
+
 def _check_rules(evidence: Evidence, manifest: Manifest) -> None:
     for tag in REQUIRED:
         element = manifest.first(tag)
@@ -199,12 +217,10 @@ def _check_rules(evidence: Evidence, manifest: Manifest) -> None:
             _check_tag_name(manifest, tag, within="package")
         if element is None or (not element.text and tag != "description"):
             comment = 0 if element else _line_of_comment(evidence, tag)
-            variant = (
-                "empty" if element else tag if tag in ("version", "maintainer", "name") else ""
-            )
+            variant, actual = _tag_fault(manifest, tag)
             raise _failed(
                 "package.manifest_tag",
-                say("<{tag}> is empty", tag=tag) if element else say("<{tag}> is missing", tag=tag),
+                actual,
                 element.line if element else comment or None,
                 expected=say("<{tag}> that is not empty", tag=tag),
                 variant="commented" if comment else variant,
@@ -491,7 +507,19 @@ def _advice(manifest: Manifest, *, asked: bool) -> list[str]:
         )
     for name, line in sorted(names.items()):
         close = meant_package(name)
-        if re.search(r"\S[\s,;]+\S", name):
+        if re.search(r"\s", name) and not all(
+            re.match("[A-Za-z]", part) for part in re.split(r"[\s,;]+", name)
+        ):
+            advice.append(
+                say(
+                    "package.xml, line {line}: '{name}' is not the name of a package: a name has no "
+                    "spaces and begins with a letter. Delete this line if the package needs no other "
+                    "one.",
+                    line=line,
+                    name=shown(name),
+                )
+            )
+        elif re.search(r"\S[\s,;]+\S", name):
             advice.append(
                 say(
                     "package.xml, line {line}: '{name}' is more than one name. Write a <depend> of "
