@@ -130,6 +130,12 @@ def _in_callback(
     test = next((a for a in module.around(node) if isinstance(a, ast.If)), None)
     asked = never_there(source, test.test) if test is not None else None
     words = dict(found.words)
+    around = module.parents.get(node)
+    set_also = isinstance(around, ast.Try) and any(
+        name in targets_of(n) for handler in around.handlers for n in ast.walk(handler)
+    )
+    if set_also and isinstance(around, ast.Try) and around.finalbody == [node]:
+        return replace(found, words=words, variant="finally")
     if there and first is not None:
         words["first"] = str(first.lineno)
     if test is not None and asked is not None:
@@ -343,6 +349,10 @@ KINDS = (
             ),
             "file": SET_AGAIN,
             "file_there": SET_AGAIN,
+            "finally": msg(
+                "finally: runs in each call, also after a try without an error, so that {name} is "
+                "{value} again each time."
+            ),
             "if": msg("Each time the condition above this line is true, {name} starts again."),
             "always": ALWAYS,
             "always_there": ALWAYS,
@@ -369,6 +379,7 @@ KINDS = (
                 "Move {name} = {value} out of the class, to a line of its own below the imports."
             ),
             "file_there": SET_ALREADY,
+            "finally": msg("Delete this line and the line finally: above it."),
             "if": ONLY_DELETE,
             "always": msg("Move {name} = {value} to __init__."),
             "there": SET_ALREADY,

@@ -21,11 +21,12 @@ from grader.mistakes.example import (
 from grader.mistakes.fixes import lines, node_loops, node_try
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
-from grader.mistakes.worked_out import worked_out
+from grader.mistakes.worked_out import first_of, worked_out
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import logged_counter, targets_of
 from grader.package.source.endless import methods_run_by
 from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.node import NodeSource
 from grader.package.source.place import function_at, statement_at
 
 ENDS = ("destroy_node", "rclpy.shutdown", "rclpy.try_shutdown")
@@ -67,9 +68,32 @@ def _logs_if(suspect: Suspect) -> RecognisedMistake | None:
         logs = source.logs(block)
         if not isinstance(block, ast.If) or _chooses(block) or callback is None:
             continue
-        if logs and len(logs) == len(source.logs(callback)):
+        if logs and len(logs) == len(source.logs(callback)) and not _has_effect(source, block.test):
             return suspect.finding("log_if", block, name=ast.unparse(block.test)[:60])
     return None
+
+
+def _needless_if(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a condition without which the lines are right, and which changes nothing itself."""
+    found = worked_out("log_if", "condition")(suspect)
+    line = found.where.line if found is not None and found.where is not None else 0
+    tests = [
+        block.test
+        for block in _blocks(suspect)
+        if isinstance(block, ast.If | ast.While) and block.lineno == line
+    ]
+    return None if any(_has_effect(suspect.source, test) for test in tests) else found
+
+
+def _has_effect(source: NodeSource, test: ast.expr) -> bool:
+    """Whether a condition may change something: it reads a property, which is a function."""
+    properties = {
+        n.name
+        for n in source.all_nodes
+        if isinstance(n, ast.FunctionDef) and any(dotted(d) == "property" for d in n.decorator_list)
+    }
+    parts = list(ast.walk(test))
+    return any(isinstance(n, ast.Attribute) and n.attr in properties for n in parts)
 
 
 def _counts_if(suspect: Suspect) -> RecognisedMistake | None:
@@ -291,9 +315,9 @@ KINDS = (
         behind={
             "run.no_lines": _logs_if,
             "run.stops": _logs_if,
-            "run.wrong_start": _logs_if,
-            "run.wrong_step": worked_out("log_if", "condition"),
-            "run.wrong_period": worked_out("log_if", "condition"),
+            "run.wrong_start": first_of(_needless_if, _logs_if),
+            "run.wrong_step": _needless_if,
+            "run.wrong_period": _needless_if,
         },
         fixed_by=(lines.unwrapped,),
         examples=(

@@ -11,11 +11,13 @@ from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import LOG_LINE, NODE, SILENT, STEP_LINE, example
 from grader.mistakes.fixes import node_try
+from grader.mistakes.fixes.case import Case
 from grader.mistakes.hidden_error import attribute_corrected, corrected, hidden_bodies, hidden_error
 from grader.mistakes.kind import Family
 from grader.mistakes.objects import ALSO_OF_NODE, OF_NODE
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.mistakes.scope import NODE_METHODS
+from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.imported import NODE as NODE_CLASS
@@ -23,6 +25,7 @@ from grader.package.source.imported import full_name
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
 from grader.package.source.node import LOG_METHODS, NodeSource
+from grader.report.model import Where
 
 MISSPELT = 0.85  # how like two names are of which one is the other with a typing mistake
 OF_LOGGER = (
@@ -68,6 +71,28 @@ def _swallows(suspect: Suspect) -> RecognisedMistake | None:
                     found = _with_attribute(suspect, found, body)
                 return _with_narrower(suspect.source, found, node, handler)
     return None
+
+
+def _logged_error(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for an except that logs the error which its try raises: that is the text that came."""
+    source = suspect.source
+    for function in _functions(source):
+        for node in ast.walk(function):
+            if not isinstance(node, ast.Try) or not any(source.logs(h) for h in node.handlers):
+                continue
+            error = hidden_error(source, suspect.assignment, node)
+            said = error[0].partition(": ")[2] if error is not None else ""
+            if error is not None and said and said in suspect.text:
+                row = next(h.lineno for h in node.handlers if source.logs(h))
+                place = error[2].where or Where(file=source.module_of(node).path, line=error[1])
+                found = _with_error(suspect.finding("error_logged", place), *error)
+                return replace(found, words={**found.words, "row": row}, variant="")
+    return None
+
+
+def _error_corrected(case: Case) -> Files | None:
+    """Correct the error in the try, whose except stays."""
+    return corrected(case, keeps_try=True)
 
 
 def _with_narrower(
@@ -146,6 +171,32 @@ def _all_harmless(body: list[ast.stmt]) -> bool:
 
 _node = Family("node", links.PYTHON_ERRORS)
 KINDS = (
+    _node(
+        "error_logged",
+        "callback",
+        msg("The line that came is the text of an error"),
+        msg("Line {line} raises {error}, and the except in line {row} logs that."),
+        msg("Correct line {at}, and leave the except as it is: {correction}"),
+        behind={"run.wrong_text": _logged_error},
+        fixed_by=(_error_corrected,),
+        examples=(
+            example(
+                "error_logged_in_callback",
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    (
+                        "        try:\n"
+                        f"{LOG_OF_NUMBER}"
+                        "            self.counter_ += 1\n"
+                        "        except TypeError as error:\n"
+                        "            self.get_logger().info(f'wrong: {error}')\n"
+                    ),
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
     _node(
         "error_hidden",
         "callback",

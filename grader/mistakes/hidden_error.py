@@ -60,15 +60,16 @@ def _with_called(source: NodeSource, tried: ast.Try, body: list[ast.stmt]) -> li
     return [body, *(m.body for m in called if m is not None and module.has(m))]
 
 
-def corrected(case: Case) -> Files | None:
-    """Correct the hidden error, and delete what hides it."""
+def corrected(case: Case, *, keeps_try: bool = False) -> Files | None:
+    """Correct the hidden error, and delete what hides it, unless the try is to stay."""
     from grader.mistakes.catalogue import fixes_for  # noqa: PLC0415 - reads the whole catalogue
 
     node, module = case.node, case.module
     for tried in module.nodes if node is not None and module is not None else ():
         if not isinstance(tried, ast.Try) or node is None:
             continue
-        if all(handler.lineno != case.finding.line for handler in tried.handlers):
+        lines = [s.lineno for s in tried.body] if keeps_try else [h.lineno for h in tried.handlers]
+        if case.finding.line not in lines:
             continue
         found = hidden_error(node, case.assignment, tried)
         where = found[2].where if found is not None else None
@@ -79,7 +80,7 @@ def corrected(case: Case) -> Files | None:
         for fix in fixes_for(finding):
             files = fix(replace(case, finding=finding))
             if files is not None:
-                return _shown(replace(case, files=files))
+                return files if keeps_try else _shown(replace(case, files=files))
     return None
 
 

@@ -217,9 +217,8 @@ def _elsewhere(suspect: Suspect) -> RecognisedMistake | None:
         return None
     inside = set(ast.walk(callback))
     for node in source.own_nodes:
-        if not isinstance(node, ast.AugAssign) or last_part(dotted(node.target)) != last_part(
-            logged[1]
-        ):
+        target = _added_to(node)
+        if not isinstance(node, ast.stmt) or last_part(target) != last_part(logged[1]):
             continue
         around = source.function_around(node)
         if node in inside:
@@ -228,11 +227,25 @@ def _elsewhere(suspect: Suspect) -> RecognisedMistake | None:
             continue
         if around is suspect.function or not _calls(source.calls, around):
             found = suspect.finding("counts_elsewhere", node, name=logged[1])
+            if target.partition(".")[0] in source.node_variables:
+                words = {**found.words, "written": f"{logged[1]} += {suspect.output.step}"}
+                return replace(found, words=words, variant="outside")
             if _has_only(around, node) and _given_to_timer(source.calls, around):
                 words = {**found.words, "other": around.name}
                 return replace(found, words=words, variant="timer")
             return found
     return None
+
+
+def _added_to(node: ast.AST) -> str:
+    """Return the name that a statement adds to: a += 1, or a = a + 1; "" if it does not."""
+    if isinstance(node, ast.AugAssign):
+        return dotted(node.target)
+    value = node.value if isinstance(node, ast.Assign) else None
+    if not isinstance(node, ast.Assign) or not isinstance(value, ast.BinOp):
+        return ""
+    target = dotted(node.targets[0])
+    return target if target in (dotted(value.left), dotted(value.right)) else ""
 
 
 def _has_only(function: Function, statement: ast.stmt) -> bool:
@@ -606,11 +619,21 @@ KINDS = (
         msg("The counter is increased outside of the callback"),
         msg("The timer calls {callback} once for each line. Code elsewhere runs at other times."),
         msg("Move the += into {callback}, below the line that logs."),
+        whys={
+            "outside": msg(
+                "This line counts how often it runs itself. The timer calls {callback} once for each "
+                "line: only there, each line is counted once. (spin_once() also returns after other "
+                "work of the node, such as a request of a service.)"
+            )
+        },
         fixes={
+            "outside": msg(
+                "Delete this line. Write in {callback}, below the line that logs: {written}"
+            ),
             "timer": msg(
                 "Move the += into {callback}, below the line that logs. Then delete {other}, which "
                 "does nothing else, and the create_timer that calls it."
-            )
+            ),
         },
         behind={
             "run.constant_counter": _elsewhere,
@@ -618,6 +641,17 @@ KINDS = (
             "run.wrong_step": _elsewhere,
         },
         examples=(
+            example(
+                "counts_in_the_loop_of_main",
+                Replace(NODE, STEP_LINE, ""),
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n",
+                    "        while rclpy.ok():\n            rclpy.spin_once(node)\n"
+                    "            node.counter_ = node.counter_ + 1\n",
+                ),
+                fails="run.output",
+            ),
             example(
                 "counts_in_loop",
                 Replace(NODE, STEP_LINE, ""),

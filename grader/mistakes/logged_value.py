@@ -38,12 +38,29 @@ def _no_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     code = raised.module.text.code(given) if given is not None else ""
     if given is None or "\n" in code or isinstance(given, ast.Starred):
         return None
-    if own_name(given) in {*raised.source.methods} - raised.source.attributes:
+    own = own_name(given) in {*raised.source.methods} - raised.source.attributes
+    if own or _is_method(raised, given):
         return _finding(raised, given, code, f"{code}()", "method")
     value = _value_of(raised, given)
     known = _message(raised, given, value) or _number(raised, given, value)
     known = known or (_of_value(raised, value) if value is not None else None)
     return known or _finding(raised, given, code, f"str({code})", "unknown")
+
+
+def _is_method(raised: Raised, given: ast.expr) -> bool:
+    """Whether an attribute of a helper object is a method that the file defines."""
+    if not isinstance(given, ast.Attribute) or dotted(given.value) == "self":
+        return False
+    parents = raised.module.parents
+    found = [
+        n for n in raised.module.nodes if isinstance(n, ast.FunctionDef) and n.name == given.attr
+    ]
+    set_too = any(
+        isinstance(n, ast.Attribute) and n.attr == given.attr and isinstance(n.ctx, ast.Store)
+        for n in raised.module.nodes
+    )
+    plain = [f for f in found if not f.decorator_list and isinstance(parents.get(f), ast.ClassDef)]
+    return bool(found) and plain == found and not set_too
 
 
 def _finding(

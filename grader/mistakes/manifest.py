@@ -33,6 +33,7 @@ def _manifest(
     fix: str,
     why: str = DEGRADES,
     fixes: Mapping[str, str] | None = None,
+    whys: Mapping[str, str] | None = None,
     **parts: Unpack[Parts],
 ) -> Kind:
     return Kind(
@@ -42,6 +43,7 @@ def _manifest(
         why=why,
         fix=fix,
         fixes=fixes or {},
+        whys=whys or {},
         link=links.MANIFEST,
         **parts,
     )

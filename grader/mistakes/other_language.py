@@ -53,6 +53,8 @@ def _word(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name = match["name"]
     if name in WORDS:
         return raised.finding("other_language", name=name, close=WORDS[name])
+    if name.lower() == "override" and raised.module.line(raised.line).lstrip().startswith("@"):
+        return replace(raised.finding("other_language", name=f"@{name}"), variant="override")
     if name not in PRINTS:
         return None
     found = replace(raised.finding("other_language", name=name), variant="print")
@@ -127,7 +129,10 @@ def _is_text(part: ast.expr) -> bool:
 
 def _logged(case: Case) -> Files | None:
     """Write the call of the logger for that of another language."""
-    return lines.written(case) if "(" in str(case.finding.params.get("name", "")) else None
+    name = str(case.finding.params.get("name", ""))
+    if name.startswith("@"):
+        return lines.deleted(case)
+    return lines.written(case) if "(" in name else None
 
 
 def _comment(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -241,6 +246,7 @@ KINDS = (
             ),
             "method": msg("Write {written} instead of {name}."),
             "call": msg("Write {written} instead of {name}."),
+            "override": msg("Delete the line {name}: a method needs no such word above its def."),
         },
         seen=rf"NameError: name '(?P<name>{SHOWN})' is not defined",
         raised={
@@ -255,6 +261,11 @@ KINDS = (
             example(
                 "null_for_none",
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.last_ = null"),
+                fails="run.starts",
+            ),
+            example(
+                "override_of_java",
+                Replace(NODE, "    def timer_callback", "    @Override\n    def timer_callback"),
                 fails="run.starts",
             ),
             example(

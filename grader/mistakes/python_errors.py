@@ -108,7 +108,7 @@ def _no_items(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if found is None or not isinstance(statement, ast.AugAssign):
         return found
     name = raised.module.text.code(statement.target)
-    plain = isinstance(statement.op, ast.Add) and isinstance(statement.value, ast.Constant)
+    plain = isinstance(statement.op, ast.Add)
     words = {**found.words, "name": name}
     return replace(found, words=words, variant="added") if plain else found
 

@@ -115,6 +115,10 @@ FORMS = {
         "return gives back a value and cannot assign one. Write on a line of its own: {step} Write "
         "below it, if the value is to be given back: {wanted}"
     ),
+    "global_set": msg(
+        "global contains only the name, and line {line} gives it its first value already. Write: "
+        "{wanted}"
+    ),
     "global_value": msg(
         "global and nonlocal contain only the name. Write: {wanted} Write on the next line: {step}"
     ),

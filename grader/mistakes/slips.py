@@ -403,6 +403,7 @@ SIGNS = {
         "Python does not know the sign {wanted}. Delete it; or, if the line is a note and not code, "
         "write a # before the line."
     ),
+    "decorated_def": msg("The word def is missing in this line. Write: {wanted}"),
     "decorator": msg(
         "A decorator belongs to the def or the class below it, and line {line} is neither. Delete "
         "this line, or move it to the line above its def."

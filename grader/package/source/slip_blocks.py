@@ -155,6 +155,9 @@ def _head_deeper(text: Broken, head: int) -> Slip | None:
     same = re.compile(rf"(?P<indent>[ \t]*)(?:async[ \t]+)?{match['word']}\b")
     heads = [n for n, _ in enumerate(text.code.lines, 1) if n != head]
     columns = {len(m["indent"]) for n in heads if (m := same.match(text.code.line(n)))}
+    of_module = re.match(r"[ \t]+(?:async[ \t]+)?def[ \t]+main[ \t]*\((?![ \t]*self\b)", row)
+    if of_module is not None and width == 4:
+        columns = {0}
     if width in columns or (match["word"] == "def" and width - 4 not in columns):
         return None
     start = text.source.start_of(head)

@@ -308,6 +308,14 @@ def _assigns(text: Broken) -> Slip | None:
     match = GLOBAL.match(text.line)
     if match is not None:
         first = _shown(text).split("=")[0].strip()
+        start = re.compile(rf"{match['name']}[ \t]*(?::[^=]*)?=(?!=)")
+        there = [n for n, _ in enumerate(text.code.lines, 1) if start.match(text.code.line(n))]
+        if there and first.startswith("global"):
+            end = match.end("name")
+            whole = len(text.line.rstrip())
+            new = text.changed(text.within(end, whole, ""))
+            return Slip("signs", "global_set", text.number, _shown(text), first, new,
+                        other=there[0])  # fmt: skip
         return Slip("signs", "global_value", text.number, _shown(text), first,
                     step=_shown(text).partition(" ")[2].strip())  # fmt: skip
     match = CHAINED.match(text.line)

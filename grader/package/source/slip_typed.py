@@ -262,6 +262,11 @@ def _decorator(text: Broken) -> Slip | None:
         r"[ \t]*(?:@|class\b|def\b|async\b)", text.line
     ):
         return None
+    head = re.match(r"[ \t]*(?=[A-Za-z_]\w*[ \t]*\([^()]*\)[ \t]*(?:->[^:]*)?:[ \t]*$)", text.line)
+    if head is not None:
+        splice = text.within(head.end(), head.end(), "def ")
+        new = text.changed(splice)
+        return text.slip("signs", "decorated_def", text.source.line(text.number), splice, fixed=new)
     new = text.source.spliced([text.source.without(above)])
     after = fault_of(new) if new is not None else text.fault
     shown = text.source.line(above).strip()
