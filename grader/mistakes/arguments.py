@@ -17,6 +17,8 @@ from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Su
 from grader.package.edit.tree import Replace, Write
 from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, last_part, own_name
+from grader.package.source.node_here import node_here
+from grader.package.source.place import statement_at
 
 LOGGER_OPTION = (
     r"TypeError: parameter \"(?P<name>\w{1,120})\" is not one of the recognized logging options"
@@ -149,9 +151,24 @@ def _rospy(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if name in ("spin", "init_node"):
         variant = "init_node" if name == "init_node" else "spin"
         return replace(raised.finding("ros_1", name=name), variant=variant)
-    new = ROS_1.get(name, "")
+    if name == "Rate":
+        return _rate(raised)
+    new = _of_ros_2(raised, name)
     found = raised.finding("ros_1", name=name, written=new)
     return replace(found, variant="rospy" if new else "rospy_other")
+
+
+def _of_ros_2(raised: Raised, name: str) -> str:
+    """Return what ROS 2 has instead of a name of rospy, as this line can call it; "" if nothing."""
+    new, node = ROS_1.get(name, ""), node_here(raised.source, raised.module, raised.line)
+    return re.sub(r"\Aself\.", f"{node or 'node'}.", new)
+
+
+def _rate(raised: Raised) -> RecognisedMistake:
+    """Rate, and the loop that sleeps with it: a timer takes the place of both."""
+    node = node_here(raised.source, raised.module, raised.line) or "node"
+    found = raised.finding("ros_1", name="Rate")
+    return replace(found, variant="rate", words={**found.words, "node": node})
 
 
 def _used_of_rospy(module: Module) -> list[str]:
@@ -262,10 +279,21 @@ def _ros_1(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if name == "is_shutdown":
         return _is_shutdown(raised)
     if name == "init_node":
-        return replace(raised.finding("ros_1", name=name), variant="init_node")
+        return _init_node(raised)
     if name not in ROS_1:
         return None
-    return raised.finding("ros_1", name=name, written=ROS_1[name])
+    if name == "Rate":
+        return _rate(raised)
+    return raised.finding("ros_1", name=name, written=_of_ros_2(raised, name))
+
+
+def _init_node(raised: Raised) -> RecognisedMistake:
+    """init_node, whose value is kept as the node if there is no class of a node."""
+    statement = statement_at(raised.module, raised.line)
+    if isinstance(statement, ast.Assign) and raised.source.node_class is None:
+        params = {"name": "rclpy.init_node", "written": "rclpy.create_node"}
+        return replace(raised.finding("ros_1", params=params), variant="create_node")
+    return replace(raised.finding("ros_1", name="init_node"), variant="init_node")
 
 
 def _outside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -342,13 +370,27 @@ KINDS = (
         ),
         msg("Write {written} instead of rclpy.{name}."),
         whys={
+            "rate": msg(
+                "Rate belongs to rospy, the Python library of ROS 1, where a loop waits with it. In "
+                "ROS 2, a timer calls a function once in each period, and spin waits for the timer."
+            ),
+            "create_node": msg(
+                "init_node belongs to rospy, the Python library of ROS 1. In ROS 2, create_node gives "
+                "a node with this name."
+            ),
             "is_shutdown": msg(
                 "is_shutdown belongs to rospy, the Python library of ROS 1. In ROS 2, rclpy.ok() is "
                 "true until ROS is shut down."
-            )
+            ),
         },
         fixes={
             "is_shutdown": msg("Write {written} instead of {name}."),
+            "create_node": msg("Write {written} instead of {name}."),
+            "rate": msg(
+                "Write the lines of the loop that log and count into a function of their own, and let "
+                "a timer call it: {node}.create_timer({period}, and the name of that function). Then "
+                "write rclpy.spin({node}) instead of the loop, and delete this line."
+            ),
             "init_node": msg(
                 "Delete the line with init_node: in ROS 2, super().__init__('{node_name}') gives "
                 "the node its name."

@@ -16,7 +16,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Copy, Replace, Write
 from grader.package.source.guard import guarded_code
-from grader.package.source.names import calls_in, last_part
+from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.sleeps import SLEEPS
 from grader.report.model import Where
 
@@ -116,9 +116,24 @@ def _waits_first(suspect: Suspect) -> RecognisedMistake | None:
     for call, name in calls_in(main) if main is not None else ():
         if suspect.source.is_node_class(call.func):
             break
+        if name == "input":
+            return _input_first(suspect, call)
         if name in WAITS:
             return suspect.finding("waits_first", call, name=f"{name}()")
     return _asks_first(suspect)
+
+
+def _input_first(suspect: Suspect, call: ast.Call) -> RecognisedMistake:
+    """Name input() with the int() or float() around it, or as a line of its own."""
+    module = suspect.source.module_of(call)
+    code: ast.AST = call
+    around = module.parents.get(code)
+    while isinstance(around, ast.Call) and dotted(around.func) in ("int", "float", "str"):
+        code, around = around, module.parents.get(around)
+    alone = isinstance(around, ast.Expr)
+    name = module.text.code(code) if isinstance(code, ast.expr) else "input()"
+    found = suspect.finding("waits_first", call, name=name)
+    return replace(found, variant="input_alone" if alone else "input_value")
 
 
 def _asks_first(suspect: Suspect) -> RecognisedMistake | None:
@@ -322,8 +337,7 @@ KINDS = (
         ),
         msg("Remove {name}. What must happen again and again belongs in a timer's callback."),
         whys={
-            "input": ASKS,
-            "counter": ASKS,
+            **dict.fromkeys(("input", "input_alone", "input_value", "counter"), ASKS),
             "no_spin": msg(
                 "{name} waits until someone types a line and presses Enter, and then the program goes "
                 "on to its end. It never calls rclpy.spin, so nothing calls the node's callbacks. "
@@ -332,6 +346,8 @@ KINDS = (
         },
         fixes={
             "input": msg("Write the value in the code instead of {name}, or delete this line."),
+            "input_alone": msg("Delete {name}: the program must not wait for a key."),
+            "input_value": msg("Write the value itself in the code instead of {name}."),
             "counter": msg("Write {counter} = {start} on this line, without {name}."),
             "no_spin": msg("Write {written} instead of {name}."),
         },

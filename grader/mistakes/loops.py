@@ -6,6 +6,7 @@ import ast
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
+from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, LOG_LINE, NODE, STEP_LINE, example
 from grader.mistakes.fixes import node_loops
@@ -13,6 +14,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.endless import Loop, calls_of_methods, endless_loop, sleeps_in
+from grader.package.source.place import statement_at
 
 IMPORT = Replace(NODE, "import rclpy\nfrom", "import rclpy\nfrom time import sleep\nfrom")
 TIMER_LINE = "        self.create_timer(1.0, self.timer_callback)\n"
@@ -88,7 +90,16 @@ def _in_constructor(suspect: Suspect) -> RecognisedMistake | None:
         if call is None or method is None:
             return found
         words = {**found.words, "method": method.name, "line": str(call.lineno)}
-        return replace(found, variant="method", words=words)
+        module = source.module_of(call)
+        alone = isinstance(module.parents.get(call), ast.Expr)
+        statement = statement_at(module, call.lineno)
+        kept = isinstance(statement, ast.Assign) and not alone
+        if statement is not None and kept:
+            words["code"] = shown(module.text.code(statement))
+            words["name_kept"] = (
+                ast.unparse(statement.targets[0]) if isinstance(statement, ast.Assign) else ""
+            )
+        return replace(found, variant="inside" if kept else "method", words=words)
     return None
 
 
@@ -197,6 +208,11 @@ KINDS = (
             "calls": msg(
                 "Write self.create_timer({period}, self.{method}) instead of this loop: the timer "
                 "calls the method in each period."
+            ),
+            "inside": msg(
+                "Write self.create_timer({period}, self.{method}) instead of {code} (line {line}), and "
+                "delete the lines below it that use {name_kept}. Delete this {name} and the sleep in "
+                "it, and indent its other lines as far as the {name} is indented now."
             ),
             "method": msg(
                 "Write self.create_timer({period}, self.{method}) instead of self.{method}() on "

@@ -26,6 +26,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.node_here import node_here
 from grader.package.source.place import function_at, statement_at
 from grader.package.source.scopes import bindings, has_self, visible_names
 
@@ -186,7 +187,9 @@ def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     found = raised.finding("argument_missing", name=match["name"], function=match["function"])
     own = {n.name for n in raised.source.all_nodes if isinstance(n, Function)}
     if match["function"] == "spin":
-        return replace(found, variant="spin")
+        here = node_here(raised.source, raised.module, raised.line)
+        words = {**found.words, "node": here} if here else found.words
+        return replace(found, words=words, variant="spin")
     names = re.findall(r"'(\w{1,120})'", match["names"])
     if len(names) > 1 and function not in own:
         params = {"name": ", ".join(names), "function": match["function"]}

@@ -184,7 +184,41 @@ def _name_not_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
         return None
     code = raised.module.text.code(given)
     new = repr(raised.assignment.node_name)
+    passed = _passed_name(raised, dotted(given))
+    if passed is not None:
+        return passed
     return raised.finding("name_not_text", at=call, name=code, written=new)
+
+
+def _passed_name(raised: Raised, name: str) -> RecognisedMistake | None:
+    """The name is a parameter of __init__, for which the only call gives no text."""
+    source, init = raised.source, raised.source.methods.get("__init__")
+    parameters = [a.arg for a in init.args.args][1:] if init is not None else []
+    calls = [call for call, _ in source.calls if source.is_node_class(call.func)]
+    if name not in parameters or len(calls) != 1 or calls[0].keywords:
+        return None
+    at, text = parameters.index(name), source.module_of(calls[0]).text
+    if at >= len(calls[0].args):
+        return None
+    codes = [text.code(given) for given in calls[0].args]
+    texts = [n for n, given in enumerate(calls[0].args) if is_text(given)]
+    call, old = text.code(calls[0]), codes[at]
+    if len(texts) == 1 and texts[0] != at:
+        codes[at], codes[texts[0]] = codes[texts[0]], old
+    else:
+        codes[at] = repr(raised.assignment.node_name)
+    written = f"{text.code(calls[0].func)}({', '.join(codes)})"
+    if "\n" in call:
+        return None
+    params = {"name": call, "written": written}
+    found = raised.finding("name_not_text", at=calls[0], params=params)
+    words = {**found.words, "parameter": name, "value": old}
+    return replace(found, words=words, variant="given")
+
+
+def is_text(given: ast.expr) -> bool:
+    """Whether an expression is a text as it is written."""
+    return isinstance(given, ast.Constant) and isinstance(given.value, str)
 
 
 def _callback_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -464,9 +498,24 @@ KINDS = (
         msg("super().__init__() takes the node's name as a string, in quotes."),
         msg("Write super().__init__('{node_name}')."),
         links.NODES,
+        whys={
+            "given": msg(
+                "The parameter {parameter} of __init__ is the node's name. This call gives {value} for "
+                "it, which is no text."
+            )
+        },
+        fixes={"given": msg("Write {written} instead of {name}.")},
         raised={"incompatible constructor arguments": _name_not_text},
         fixed_by=(lines.written,),
         examples=(
+            example(
+                "arguments_of_the_class_swapped",
+                Replace(NODE, "def __init__(self):", "def __init__(self, name, period):"),
+                Replace(NODE, "('my_first_node')", "(name)"),
+                Replace(NODE, "create_timer(1.0", "create_timer(period"),
+                Replace(NODE, "node = MyFirstNode()", "node = MyFirstNode(1.0, 'my_first_node')"),
+                fails="run.starts",
+            ),
             example(
                 "class_for_node_name",
                 Replace(NODE, "('my_first_node')", "(MyFirstNode)"),

@@ -17,7 +17,7 @@ from grader.mistakes.scope import creates_timer
 from grader.mistakes.timer_period import TIMER
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
-from grader.package.source.endless import calls_of_methods
+from grader.package.source.endless import calls_of_methods, endless_loop
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part, own_name
 from grader.package.source.node import NodeSource
@@ -45,7 +45,12 @@ def _outside_init(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
 def _missing(suspect: Suspect) -> RecognisedMistake | None:
     if suspect.source.timers:
         return None
-    return suspect.finding("timer_missing", suspect.source.methods.get("__init__"))
+    found = suspect.finding("timer_missing", suspect.source.methods.get("__init__"))
+    callback = suspect.source.callback
+    loop = endless_loop(suspect.source, callback) if callback is not None else None
+    if loop is None:
+        return found
+    return replace(found, words={**found.words, "line": str(loop.lineno)}, variant="loop")
 
 
 def _called_once(suspect: Suspect) -> RecognisedMistake | None:
@@ -251,7 +256,14 @@ KINDS = (
         whys={
             "by_hand": msg("{name} calls the method once. Only a timer calls it again and again.")
         },
-        fixes={"by_hand": msg("Write {written} instead of {name}.")},
+        fixes={
+            "by_hand": msg("Write {written} instead of {name}."),
+            "loop": msg(
+                "Write in __init__: self.create_timer({period}, self.{callback}) In {callback}, delete "
+                "the loop of line {line} and the sleep in it, and indent its other lines as far as the "
+                "loop is indented now. Delete the lines that call {callback} themselves."
+            ),
+        },
         behind={"run.no_lines": _missing, "run.stops": _called_once},
         fixed_by=(lines.written, node_timer.made),
         examples=(

@@ -14,6 +14,7 @@ from grader.mistakes.fixes import lines, node_timer
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, always
 from grader.package.edit.tree import Replace
+from grader.package.source.names import dotted, last_part
 from grader.package.source.period import is_right, origin_of, seconds_of
 
 MOST_EXPONENT = 9
@@ -70,7 +71,30 @@ def _swapped(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     here = [call for call in timers if raised.line is None or raised.line in lines_of(call)]
     if not here or kind not in (None, *CALLABLE):
         return None
-    return raised.finding("timer_arguments_swapped")
+    return _given_swapped(raised, here[0]) or raised.finding("timer_arguments_swapped")
+
+
+def _given_swapped(raised: Raised, timer: ast.Call) -> RecognisedMistake | None:
+    """The period and the callback are parameters, and the call of that method swaps them."""
+    function = raised.source.function_around(timer)
+    parameters = (
+        [a.arg for a in function.args.args if a.arg != "self"] if function is not None else []
+    )
+    given = [dotted(argument) for argument in timer.args[:2]]
+    if function is None or len(parameters) != 2 or {*given} != {*parameters}:
+        return None
+    calls = [c for c, name in raised.source.calls if last_part(name) == function.name]
+    if len(calls) != 1 or len(calls[0].args) != 2 or calls[0].keywords:
+        return None
+    text = raised.source.module_of(calls[0]).text
+    first, second = map(text.code, calls[0].args)
+    written = f"{text.code(calls[0].func)}({second}, {first})"
+    params = {"name": text.code(calls[0]), "written": written}
+    if "\n" in params["name"]:
+        return None
+    found = raised.finding("timer_arguments_swapped", at=calls[0], params=params)
+    words = {**found.words, "method": function.name, "parameters": ", ".join(parameters)}
+    return replace(found, words=words, variant="given")
 
 
 def _not_number(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -242,13 +266,35 @@ KINDS = (
         msg("The arguments of create_timer are swapped"),
         msg("create_timer takes the period first, then the callback."),
         TIMER,
+        whys={
+            "given": msg(
+                "{method} takes {parameters} in this order, and passes them on to create_timer. This "
+                "call gives them in the other order."
+            )
+        },
+        fixes={"given": msg("Write {written} instead of {name}.")},
         seen=r"float\(\) argument must be a string or a real number, not '(?:method|function)'",
         raised={
             REAL_NUMBER: _swapped,
             r"float\(\) argument must be|not '?(?:method|function)'?": _swapped,
         },
-        fixed_by=(node_timer.arguments,),
+        fixed_by=(lines.written, node_timer.arguments),
         examples=(
+            example(
+                "timer_arguments_swapped_for_a_method",
+                Replace(
+                    NODE,
+                    "self.create_timer(1.0, self.timer_callback)",
+                    "self.start(1.0, self.timer_callback)",
+                ),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def start(self, call, seconds):\n        self.create_timer(seconds, call)\n\n"
+                    "    def timer_callback",
+                ),
+                fails="run.starts",
+            ),
             example(
                 "timer_arguments_swapped",
                 Replace(NODE, "1.0, self.timer_callback", "self.timer_callback, 1.0"),

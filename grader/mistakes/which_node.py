@@ -110,7 +110,15 @@ def _spins_in_init(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a spin in __init__; what is below it runs only after Ctrl+C."""
     init = suspect.source.methods.get("__init__")
     for call in suspect.source.calls_of("spin", within=init) if init is not None else ():
-        return suspect.finding("spin_in_init", call, name=ast.unparse(call))
+        found = suspect.finding("spin_in_init", call, name=ast.unparse(call))
+        source, main = suspect.source, suspect.function
+        spun = main is not None and source.calls_of("spin", within=main)
+        name = source.node_class.name if source.node_class is not None else ""
+        if main is None or spun or not name:
+            return found
+        variable = min(source.node_variables, default="")
+        words = {**found.words, "variable": variable or "node", "made": name}
+        return replace(found, words=words, variant="kept" if variable else "alone")
     return None
 
 
@@ -533,9 +541,30 @@ KINDS = (
         msg("__init__ spins the node, and never comes to its end"),
         msg("{name} waits until Ctrl+C. The lines below it do not run before that."),
         msg("Remove this line: {function} spins the node after it was made."),
+        fixes={
+            "kept": msg(
+                "Remove this line. Write in {function}, below the line that creates the node: "
+                "rclpy.spin({variable})"
+            ),
+            "alone": msg(
+                "Remove this line. Write in {function} {variable} = {made}() instead of {made}(), and "
+                "on the next line rclpy.spin({variable})."
+            ),
+        },
         behind={"run.no_lines": _spins_in_init},
         deletes=("",),
         examples=(
+            example(
+                "spin_only_in_init",
+                Replace(
+                    NODE,
+                    "        self.counter_ = 0\n",
+                    "        rclpy.spin(self)\n        self.counter_ = 0\n",
+                ),
+                Replace(NODE, "        rclpy.spin(node)\n", "        pass\n"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
             example(
                 "spin_in_init",
                 Replace(

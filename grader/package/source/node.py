@@ -283,14 +283,18 @@ class NodeSource:
 
     @cached_property
     def node_variables(self) -> set[str]:
-        """The variables that get a new node of the class."""
+        """The variables that get a new node: one of the class, or of create_node if there is none."""
         found: set[str] = set()
+        created: set[str] = set()
         for node in self.all_nodes:
             value = node.value if isinstance(node, ast.Assign) else None
             if isinstance(node, ast.Assign) and isinstance(value, ast.Call):
-                new = self.is_node_class(value.func)
-                found |= {dotted(target) for target in node.targets} if new else set()
-        return found - {""}
+                names = {dotted(target) for target in node.targets} - {""}
+                if self.is_node_class(value.func):
+                    found |= names
+                elif last_part(dotted(value.func)) in ("create_node", "Node"):
+                    created |= names
+        return found or created
 
 
 def _without(module: Module, left_out: set[ast.ClassDef]) -> Iterator[ast.AST]:
