@@ -25,6 +25,7 @@ from grader.package.source.counter import starts_of, targets_of
 from grader.package.source.module import Module
 from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS
+from grader.package.source.node_here import node_here
 from grader.package.source.place import function_at, statement_at
 from grader.package.source.scopes import class_of, scope_of
 
@@ -142,6 +143,11 @@ def _without_value(raised: Raised, name: str, close: str) -> RecognisedMistake:
     found = raised.finding("attribute_not_set", name=name, close=close)
     if not close and _is_object(raised, name):
         return replace(found, variant="object")
+    held = raised.source.held_node
+    if held and not close and name in {*NODE_METHODS, "get_logger"}:
+        params = {"name": f"self.{name}", "written": f"{held}.{name}"}
+        found = raised.finding("attribute_not_set", params=params)
+        return replace(found, variant="held", words={**found.words, "held": held})
     owner = _of_helper(raised, name)
     if owner and not close:
         params = {"name": f"self.{name}", "written": f"self.{owner[0]}.{name}"}
@@ -266,7 +272,9 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
             rf"rclpy\.{match['name']}\([^()]{{0,80}}\)", raised.module.line(raised.line)
         )
         if call is not None:
-            found = raised.finding("attribute_unknown", name=call[0], written="self.get_logger()")
+            node = node_here(raised.source, raised.module, raised.line) or "self"
+            written = f"{node}.get_logger()"
+            found = raised.finding("attribute_unknown", name=call[0], written=written)
             return replace(found, variant="written")
     if match["type"] in ("NoneType", "rclpy"):
         found = raised.finding("attribute_unknown", name=match["name"])
@@ -463,6 +471,7 @@ KINDS = (
                 "Write self.{close} on that line: the other lines use this name, not self.{name}."
             ),
             "annotated": msg("Write {written} instead of {name}."),
+            "held": msg("Write {written} instead of {name}."),
             "dot": msg("A dot is missing. Write {written} instead of {name}."),
             "period": msg(
                 "Write the period in seconds instead of self.{name}: {written}. Or write self.{name} "
@@ -505,6 +514,10 @@ KINDS = (
             ),
         },
         whys={
+            "held": msg(
+                "This class is no node: it does not inherit from Node. Its node is {held}, which has "
+                "this method."
+            ),
             "dot": msg(
                 "{name} is a name of its own, and no attribute, so self.{attribute} does not exist."
             ),

@@ -282,8 +282,23 @@ class NodeSource:
         return any(self.is_node_class(call.func) for call, _ in self.calls)
 
     @cached_property
+    def held_node(self) -> str:
+        """The attribute in which a class that inherits from nothing has its node; "" if none."""
+        plain = self.node_class is not None and not self.node_class.bases
+        for node in self.own_nodes if plain else ():
+            value = node.value if isinstance(node, ast.Assign) else None
+            called = last_part(dotted(value.func)) if isinstance(value, ast.Call) else ""
+            if isinstance(node, ast.Assign) and called in ("create_node", "Node"):
+                target = dotted(node.targets[0])
+                if target.startswith("self."):
+                    return target
+        return ""
+
+    @cached_property
     def node_variables(self) -> set[str]:
         """The variables that get a new node: one of the class, or of create_node if there is none."""
+        if self.held_node:
+            return {self.held_node}
         found: set[str] = set()
         created: set[str] = set()
         for node in self.all_nodes:
