@@ -108,6 +108,11 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if not of_self(raised, match) or match["name"] in raised.module.functions:
         return None
     name, close = match["name"], _close_attribute(raised, match["name"])
+    held = raised.source.held_node
+    if held and name in NODE_METHODS:
+        params = {"name": f"self.{name}", "written": f"{held}.{name}"}
+        found = raised.finding("attribute_not_set", params=params)
+        return replace(found, variant="held", words={**found.words, "held": held})
     elsewhere = _set_elsewhere(raised, name)
     if elsewhere is not None:
         return elsewhere
@@ -143,11 +148,6 @@ def _without_value(raised: Raised, name: str, close: str) -> RecognisedMistake:
     found = raised.finding("attribute_not_set", name=name, close=close)
     if not close and _is_object(raised, name):
         return replace(found, variant="object")
-    held = raised.source.held_node
-    if held and not close and name in {*NODE_METHODS, "get_logger"}:
-        params = {"name": f"self.{name}", "written": f"{held}.{name}"}
-        found = raised.finding("attribute_not_set", params=params)
-        return replace(found, variant="held", words={**found.words, "held": held})
     owner = _of_helper(raised, name)
     if owner and not close:
         params = {"name": f"self.{name}", "written": f"self.{owner[0]}.{name}"}
@@ -276,6 +276,10 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
             written = f"{node}.get_logger()"
             found = raised.finding("attribute_unknown", name=call[0], written=written)
             return replace(found, variant="written")
+    node = node_here(raised.source, raised.module, raised.line)
+    if match["type"] == "rclpy" and match["name"] in NODE_METHODS and node:
+        params = {"name": f"rclpy.{match['name']}", "written": f"{node}.{match['name']}"}
+        return replace(raised.finding("attribute_unknown", params=params), variant="of_node")
     if match["type"] in ("NoneType", "rclpy"):
         found = raised.finding("attribute_unknown", name=match["name"])
         return replace(found, variant="none" if match["type"] == "NoneType" else "module")
@@ -577,6 +581,15 @@ KINDS = (
                 blocks=DEAD,
             ),
             example(
+                "node_kept_in_an_attribute",
+                Replace(NODE, "class MyFirstNode(Node)", "class MyFirstNode"),
+                Replace(
+                    NODE, "super().__init__('my_first_node')", "self.node = Node('my_first_node')"
+                ),
+                Replace(NODE, "node = MyFirstNode()", "node = MyFirstNode().node"),
+                fails="run.starts",
+            ),
+            example(
                 "counter_set_by_named_method",
                 Replace(NODE, "self.counter_ = 0", "self.start_from_zero"),
                 Replace(
@@ -658,6 +671,7 @@ KINDS = (
                 "A value on that line is None: nothing was assigned to it, or a function returned "
                 "nothing."
             ),
+            "of_node": msg("This is a method of the node, and no function of the module rclpy."),
             "module": msg("The module rclpy has nothing with the name {name}."),
             "bare_object": msg(
                 "An object that object() makes cannot get attributes, such as {name}."
@@ -672,6 +686,7 @@ KINDS = (
         },
         fixes={
             "written": msg("Write {written} instead of {name}."),
+            "of_node": msg("Write {written} instead of {name}."),
             "similar": msg(
                 "Look up what a {type} can do. It has the similar name {other}: write that only if "
                 "it does what you want."

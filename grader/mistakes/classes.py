@@ -221,7 +221,7 @@ KINDS = (
             "name, Python tries to create a {base} object there."
         ),
         msg("Remove the () after {base}: class {name}({base}):"),
-        raised={r"\ATypeError": _base_called},
+        raised={r"\ATypeError|NotInitializedException": _base_called},
         fixed_by=(node_classes.base,),
         examples=(
             example(

@@ -288,7 +288,7 @@ def _hides_property(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
     here = function_at(raised.module, raised.line)
     own = raised.source.methods.get(here.name) if here is not None else None
     started = raised.source.super_init
-    replaces = own is here and here is not None and here.name in ALSO_OF_NODE
+    replaces = own is here and here is not None and here.name in {*ALSO_OF_NODE, *NODE_METHODS}
     if own is not None and replaces and started is not None and not raised.inside:
         return _own_method(raised, own, own.name)
     for name in node_objects.PROPERTIES if raised.inside else ():

@@ -142,8 +142,9 @@ def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedM
     source = source_of_node(evidence)
     if source is None:
         return None
-    if symptom == "run.wrong_node_name" and source.name_given is not None:
-        diagnosis.where = place_of(source, source.name_given)
+    given = source.name_given or source.created_node
+    if symptom == "run.wrong_node_name" and given is not None:
+        diagnosis.where = place_of(source, given)
     other = other_version(symptom, source, evidence)
     if other is not None:
         return other

@@ -14,7 +14,7 @@ def words_for(source: NodeSource) -> tuple[tuple[str, str], ...]:
     The texts speak of a class that inherits from Node. Without one, the node is a variable, and the
     callbacks are functions; a class that has a node as an attribute has callbacks that are methods.
     """
-    names = sorted(source.node_variables)
+    names = [source.held_node] if source.held_node else sorted(source.node_variables)
     if len(names) != 1 or (source.node_class is not None and not source.held_node):
         return ()
     node, maker = names[0], _maker(source)
@@ -23,12 +23,14 @@ def words_for(source: NodeSource) -> tuple[tuple[str, str], ...]:
         ("self.create_timer", f"{node}.create_timer"),
         ("self.get_clock()", f"{node}.get_clock()"),
         ("super().__init__('{node_name}')", f"{maker}('{{node_name}}')"),
+        ("super().__init__('{wanted}')", f"{maker}('{{wanted}}')"),
         ("super().__init__()", f"{maker}()"),
         ("rclpy.spin(node)", f"rclpy.spin({node})"),
         (" node.create_timer", f" {node}.create_timer"),
     ]
     if not source.held_node:
-        words += [("self.{callback}", "{callback}"), ("__init__", "{function}")]
+        words += [(" in a method of the node.", "."), ("self.{callback}", "{callback}")]
+        words += [("__init__", source.main.name)] if source.main is not None else []
     return tuple(words)
 
 
