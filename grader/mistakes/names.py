@@ -200,6 +200,12 @@ def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         found = raised.finding("argument_missing", name="get_logger()", written="self.get_logger()")
         return replace(found, variant="logger", words={**found.words, "function": "get_logger"})
     foreign = match["function"].partition(".")[0] not in raised.source.known_classes
+    timers = [t for t in raised.source.timers if t.callback is not None]
+    outside = [t for t in timers if t.callback and dotted(t.callback) == match["function"]]
+    if match["name"] == "self" and outside and match["function"] in raised.module.functions:
+        params = {"name": match["function"], "written": f"self.{match['function']}"}
+        found = raised.finding("argument_missing", at=outside[0].call, params=params)
+        return replace(found, variant="outside", words={**found.words, "function": function})
     if match["name"] == "self" and "." in match["function"]:
         return replace(found, variant="class")
     if function in own and not foreign:
@@ -518,9 +524,17 @@ KINDS = (
                 "line {line} passes no value."
             ),
             "logger": msg("Write {written} instead of {name}."),
+            "outside": msg(
+                "Indent {function} and its lines by 4 more spaces and move them into the class, among "
+                "its methods. Write {written} instead of {name} on this line."
+            ),
             "spin": msg("Write rclpy.spin({node}): spin needs the node that was created."),
         },
         whys={
+            "outside": msg(
+                "The timer calls {function} without arguments. Only a method of an object gets self, "
+                "and {function} is outside of the class."
+            ),
             "property": PROPERTY,
             "property_used": PROPERTY,
             "logger": msg(
