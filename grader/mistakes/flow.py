@@ -178,6 +178,12 @@ def _is_text(statement: ast.stmt) -> bool:
     return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
 
 
+def _spins_again(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The line spins once more after Ctrl+C, in a loop whose except lets it go on."""
+    del match
+    return _swallowed(Suspect(raised.source, raised.assignment))
+
+
 def _swallowed(suspect: Suspect) -> RecognisedMistake | None:
     """Look for an except in a loop that catches Ctrl+C and lets the loop go on."""
     for handler in suspect.source.all_nodes:
@@ -233,9 +239,23 @@ KINDS = (
                 "line {line}."
             ),
         },
+        raised={r"RCLError: failed to initialize wait set": _spins_again},
         behind={"run.ignores_interrupt": _swallowed},
         fixed_by=(node_try.break_in_except,),
         examples=(
+            example(
+                "spins_once_more_after_ctrl_c",
+                Replace(
+                    NODE,
+                    SPIN_UNTIL_CTRL_C,
+                    "    while True:\n"
+                    "        try:\n"
+                    "            rclpy.spin_once(node)\n"
+                    "        except KeyboardInterrupt:\n"
+                    "            continue\n",
+                ),
+                fails="run.interrupt",
+            ),
             example(
                 "loop_goes_on_after_ctrl_c",
                 Replace(

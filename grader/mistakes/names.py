@@ -21,7 +21,7 @@ from grader.mistakes.imports import IMPORTS, RCLPY
 from grader.mistakes.kind import Family
 from grader.mistakes.order import spun_names
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
-from grader.mistakes.scope import NODE_METHODS
+from grader.mistakes.scope import CALLBACK, NODE_METHODS, OUTSIDE
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
@@ -203,9 +203,9 @@ def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     timers = [t for t in raised.source.timers if t.callback is not None]
     outside = [t for t in timers if t.callback and dotted(t.callback) == match["function"]]
     if match["name"] == "self" and outside and match["function"] in raised.module.functions:
-        params = {"name": match["function"], "written": f"self.{match['function']}"}
-        found = raised.finding("argument_missing", at=outside[0].call, params=params)
-        return replace(found, variant="outside", words={**found.words, "function": function})
+        words = {"name": function, "written": f"self.{function}", "function": function}
+        found = raised.finding("argument_missing", at=outside[0].call)
+        return replace(found, variant="outside", words={**found.words, **words})
     if match["name"] == "self" and "." in match["function"]:
         return replace(found, variant="class")
     if function in own and not foreign:
@@ -556,6 +556,18 @@ KINDS = (
             lines.written,
         ),
         examples=(
+            example(
+                "callback_with_self_outside",
+                Replace(NODE, CALLBACK, ""),
+                Replace(NODE, "class MyFirstNode(Node)", f"{OUTSIDE}\n\nclass MyFirstNode(Node)"),
+                Replace(
+                    NODE,
+                    "self.create_timer(1.0, self.timer_callback)",
+                    "self.create_timer(1.0, timer_callback)",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "init_wants_name",
                 Replace(NODE, "def __init__(self)", "def __init__(self, name)"),
