@@ -705,6 +705,13 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.thread_goes_on": {"name": "run"},
     "node.asyncio_used": {"name": "asyncio.sleep(…)", "method": "on_timer"},
     "node.timer_hides_method": {"name": "on_timer"},
+    "node.error_logged": {
+        "line": "12",
+        "at": "12",
+        "row": "14",
+        "error": "NameError: name 'count' is not defined",
+        "correction": "Write self.counter instead of count.",
+    },
     "node.error_hidden": {
         "name": "count",
         "written": "counter",

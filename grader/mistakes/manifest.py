@@ -194,7 +194,7 @@ KINDS = (
             "comment_start": msg("Write <!-- where the comment begins, and --> where it ends."),
             "less": msg("Write &lt; instead of this <."),
         },
-        fixed_by=(manifest.well_formed,),
+        fixed_by=(manifest.well_formed, manifest.declared_encoding),
         examples=(
             example(
                 "license_not_closed",
