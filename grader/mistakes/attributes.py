@@ -98,10 +98,18 @@ def _is_written(raised: Raised, name: str) -> bool:
 
 
 def _method_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    if not _is_written(raised, match["name"]):
+    if not _is_written(raised, match["name"]) or _without_dot(raised, match["name"]) is not None:
         return None
     close = _close_method(raised, match)
     return raised.finding("method_misspelt", name=match["name"], close=close) if close else None
+
+
+def _without_dot(raised: Raised, name: str) -> ast.stmt | None:
+    """Return the line that assigns to the name with self and without a dot: `selfname = 0`."""
+    for node in raised.module.nodes:
+        if isinstance(node, ast.stmt) and f"self{name}" in targets_of(node):
+            return node
+    return None
 
 
 def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -132,11 +140,11 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
                 "attribute_not_set", at=node, name=value, written=_assigned(raised, node)
             )
             return replace(found, variant="annotated", words={**found.words, "attribute": name})
-    for node in raised.source.own_nodes:
-        if isinstance(node, ast.stmt) and f"self{name}" in targets_of(node):
-            params = {"name": f"self{name}", "written": f"self.{name}"}
-            found = raised.finding("attribute_not_set", at=node, params=params)
-            return replace(found, variant="dot", words={**found.words, "attribute": name})
+    dot = _without_dot(raised, name)
+    if dot is not None:
+        params = {"name": f"self{name}", "written": f"self.{name}"}
+        found = raised.finding("attribute_not_set", at=dot, params=params)
+        return replace(found, variant="dot", words={**found.words, "attribute": name})
     called = _called(raised, name)
     if called is not None:
         return called

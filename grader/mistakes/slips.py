@@ -403,6 +403,10 @@ SIGNS = {
         "Python does not know the sign {wanted}. Delete it; or, if the line is a note and not code, "
         "write a # before the line."
     ),
+    "decorator_head": msg(
+        "A decorator belongs to the def or the class directly below it, and that line is missing: "
+        "line {line} is already of its block. Write the class … or def … line between the two."
+    ),
     "decorated_def": msg("The word def is missing in this line. Write: {wanted}"),
     "decorator": msg(
         "A decorator belongs to the def or the class below it, and line {line} is neither. Delete "
