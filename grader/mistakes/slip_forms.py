@@ -115,6 +115,20 @@ FORMS = {
         "return gives back a value and cannot assign one. Write on a line of its own: {step} Write "
         "below it, if the value is to be given back: {wanted}"
     ),
+    "class_for_def": msg("A method begins with def, and not with class. Write: {wanted}"),
+    "def_for_class": msg("A class begins with class, and not with def. Write: {wanted}"),
+    "def_unfinished": msg(
+        "The line of a def ends with its parameters, ) and a colon. Complete this line: {wanted} and "
+        "behind it the parameters that are missing, and ):"
+    ),
+    "def_self": msg(
+        "In the class, the name alone stands behind def. Only a call has self. before it. Write: "
+        "{wanted}"
+    ),
+    "closed_early": msg(
+        "The {step} at the end of this line ends the call too early: line {line} and those below it "
+        "belong to it too. Delete that {step}: {wanted}"
+    ),
     "global_set": msg(
         "global contains only the name, and line {line} gives it its first value already. Write: "
         "{wanted}"
