@@ -128,8 +128,8 @@ KINDS = (
     _node(
         "callback_no_self",
         "callback",
-        msg("The callback has no parameter self"),
-        ONLY_SELF,
+        msg("A method has no parameter self"),
+        msg("Python passes the object as the first argument to each of its methods: self."),
         msg("Write: def {callback}(self):"),
         links.PYTHON_CLASSES,
         fixes={"line": msg("Write: {wanted}")},

@@ -121,6 +121,23 @@ FORMS = {
         "The line of a def ends with its parameters, ) and a colon. Complete this line: {wanted} and "
         "behind it the parameters that are missing, and ):"
     ),
+    "def_square": msg("The parameters of a function are in round brackets. Write: {wanted}"),
+    "handler_several": msg(
+        "Several classes behind except are in brackets, with commas between them, and as is before "
+        "the name of the error. Write: {wanted}"
+    ),
+    "lambda_colon": msg("A colon is behind lambda, before its value. Write: {wanted}"),
+    "cut_off": msg(
+        "This line is cut off: behind its last dot a name is missing, and then ). Complete the line."
+    ),
+    "docstring_quotes": msg(
+        "A text that describes the code has three quotes at its beginning and three at its end. Write: "
+        "{wanted}"
+    ),
+    "except_empty": msg(
+        "The block of this except is missing. If nothing is to be done there, write {wanted} below this "
+        "line, indented by 4 spaces more."
+    ),
     "def_self": msg(
         "In the class, the name alone stands behind def. Only a call has self. before it. Write: "
         "{wanted}"

@@ -268,6 +268,10 @@ SIGNS = {
     "bracket_open": msg(
         "A bracket of this line is not closed. Write {wanted} where the part in brackets ends."
     ),
+    "bracket_opener": msg(
+        "The }} in line {line} closes a {{, and keys with their values (key: value) are between braces. "
+        "Write: {wanted}"
+    ),
     "bracket_before": msg(
         "Line {line} has a closing bracket, but the last open one is in this line and of another "
         "kind. Write {wanted} where the part in brackets ends, or instead of the bracket in line "

@@ -16,7 +16,7 @@ DEF_AS_CLASS = re.compile(
 FIELD = re.compile(r"[ \t]*(?:[a-z_]\w*[ \t]*:[ \t]*\w|def[ \t]+\w+[ \t]*\([ \t]*self\b)")
 UNFINISHED = re.compile(r"[ \t]*(?:async[ \t]+)?def[ \t]+\w+[ \t]*\([^()]*$")
 STATEMENT = re.compile(r"[ \t]*(?:return|if|for|while|try|with|raise|pass|self\.\w+[ \t]*[-+]?=)")
-OWN_DEF = re.compile(r"[ \t]*def[ \t]+(?P<own>self[ \t]*\.[ \t]*)\w+[ \t]*\(")
+OWN_DEF = re.compile(r"[ \t]*def[ \t]+(?P<own>self[ \t]*\.[ \t]*)\w+[ \t]*\((?P<given>[ \t]*\))?")
 TELLS_INDENT = "unexpected indent"
 
 
@@ -80,9 +80,11 @@ def _own_def(text: Broken) -> Slip | None:
     match = OWN_DEF.match(text.line)
     if match is None:
         return None
-    splice = text.within(*match.span("own"), "")
-    new = text.changed(splice)
-    return text.slip("signs", "def_self", text.source.line(text.number), splice, fixed=new)
+    splices = [text.within(*match.span("own"), "")]
+    if match["given"] is not None:
+        splices.append(text.within(*match.span("given"), "self)"))
+    new = text.changed(*splices)
+    return text.slip("signs", "def_self", text.source.line(text.number), *splices, fixed=new)
 
 
 def _closed_early(text: Broken) -> Slip | None:
@@ -123,11 +125,123 @@ def _comment_between(text: Broken) -> Slip | None:
     return Slip("signs", "note_without_sign", text.number, written.strip(), wanted, new)
 
 
+SQUARE = re.compile(r"[ \t]*def[ \t]+\w+[ \t]*(?P<open>\[)[^\[\]]*(?P<close>\])[ \t]*(?:->[^:]*)?:")
+JOINED = re.compile(r"[ \t]*\S.*?(?P<blank>[ \t]{2,})def[ \t]+\w+[ \t]*\(")
+HANDLER = re.compile(
+    r"[ \t]*except[ \t]*(?P<all>\([ \t]*(?P<types>[\w.]+(?:[ \t]*[|,][ \t]*[\w.]+)+)"
+    r"(?:(?:[ \t]+as)?[ \t]+(?P<inner>\w+))?[ \t]*\)(?:(?P<as>[ \t]+as)?[ \t]+(?P<outer>\w+))?)[ \t]*:"
+)
+LAMBDA = re.compile(r"\blambda(?=[ \t]+(?:self|\w+)\.\w+[ \t]*\()")
+TWO_QUOTES = re.compile(r"[ \t]*(?P<quotes>''|\"\")(?![ \t]*['\",)+]).*(?P=quotes)[ \t]*")
+
+
+def _square_def(text: Broken) -> Slip | None:
+    """Return a def with square brackets around its parameters."""
+    match = SQUARE.match(text.line)
+    if match is None:
+        return None
+    splices = [text.within(*match.span("open"), "("), text.within(*match.span("close"), ")")]
+    new = text.changed(*splices)
+    return text.slip("signs", "def_square", text.source.line(text.number), *splices, fixed=new)
+
+
+def _joined_def(text: Broken) -> Slip | None:
+    """Return a def that stands behind another statement on its line."""
+    match = JOINED.match(text.line)
+    if match is None:
+        return None
+    for indent in ("    ", "", indent_of(text.line)):
+        splice = text.within(*match.span("blank"), f"{text.source.newline}{indent}")
+        new = text.changed(splice)
+        if new is not None and can_parse(new):
+            wanted = text.source.line(text.number)[match.end("blank") :].strip()
+            shown = text.source.line(text.number).strip()
+            return Slip("signs", "two_statements", text.number, shown, wanted, new)
+    return None
+
+
+def _handler_of_several(text: Broken) -> Slip | None:
+    """Return an except of several classes with | between them, or with a name without as."""
+    match = HANDLER.match(text.line)
+    if match is None:
+        return None
+    types = [part.strip() for part in re.split(r"[|,]", match["types"])]
+    name = match["outer"] or match["inner"]
+    wanted = f"({', '.join(types)}){f' as {name}' if name else ''}"
+    splice = text.within(*match.span("all"), wanted)
+    new = text.changed(splice)
+    if new is None:
+        return None
+    return text.slip("signs", "handler_several", text.source.line(text.number), splice, fixed=new)
+
+
+def _lambda_colon(text: Broken) -> Slip | None:
+    """Return a lambda without its colon."""
+    match = LAMBDA.search(text.line)
+    if match is None:
+        return None
+    splice = text.within(match.end(), match.end(), ":")
+    new = text.changed(splice)
+    if new is None:
+        return None
+    return text.slip("signs", "lambda_colon", text.source.line(text.number), splice, fixed=new)
+
+
+def _cut_off(text: Broken) -> Slip | None:
+    """Return a call whose line ends with a dot, and which nothing below it completes."""
+    row = text.line.rstrip()
+    below = next((one for one in _rows_below(text) if one.strip()), "")
+    if "was never closed" not in text.fault.text or not row.endswith("."):
+        return None
+    if len(indent_of(below)) > len(indent_of(row)):
+        return None
+    shown = text.source.line(text.number).strip()
+    return Slip("signs", "cut_off", text.number, shown, row[-1])
+
+
+def _docstring_quotes(text: Broken) -> Slip | None:
+    """Return a text on a line of its own between two times two quotes."""
+    written = text.source.line(text.number)
+    match = TWO_QUOTES.fullmatch(written)
+    if match is None or not match["quotes"]:
+        return None
+    first, sign = match.start("quotes"), match["quotes"][0]
+    last = len(written.rstrip())
+    splices = [text.within(first, first, sign), text.within(last, last, sign)]
+    new = text.changed(*splices)
+    if new is None:
+        return None
+    return text.slip("signs", "docstring_quotes", written, *splices, fixed=new)
+
+
+def _except_empty(text: Broken) -> Slip | None:
+    """Return an except without a line in its block."""
+    told = re.search(r"after 'except' statement on line (?P<line>\d+)", text.fault.text)
+    head = int(told["line"]) if told is not None else 0
+    if not 0 < head < text.number:
+        return None
+    ends = re.match(r"[ \t]*(?:finally|except|else|def|class)\b", text.line) is not None
+    apart = not text.source.line(head + 1).strip()
+    if not ends and not apart:
+        return None
+    indent = indent_of(text.source.line(head))
+    new = text.changed(text.source.before(head + 1, f"{indent}    pass"))
+    shown = text.source.line(head).strip()
+    return Slip("signs", "except_empty", head, shown, "pass", new, other=text.number)
+
+
 HEAD_LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
     _class_for_def,
     _def_for_class,
     _unfinished_def,
     _own_def,
+    _square_def,
+    _joined_def,
+    _handler_of_several,
+    _lambda_colon,
+    _cut_off,
+    _docstring_quotes,
+    _except_empty,
     _closed_early,
     _comment_between,
 )
