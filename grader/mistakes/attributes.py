@@ -22,6 +22,7 @@ from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import starts_of, targets_of
+from grader.package.source.imported import imports
 from grader.package.source.module import Module
 from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS
@@ -421,7 +422,8 @@ def _of_rclpy(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         before, _, method = called.rpartition(".")
         if method == name and before and before != "rclpy":
             written = f"{called}()"
-            new = f"rclpy.{name}({before})"
+            library = next((b for b, full, _ in imports(raised.module) if full == "rclpy"), "rclpy")
+            new = f"{library}.{name}({before})"
             found = raised.finding("attribute_unknown", at=call, name=written, written=new)
             return replace(found, variant="written")
     return None
