@@ -298,6 +298,9 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return replace(found, variant="function")
     if match["type"] == "Parameter":
         return _of_parameter(raised, match["name"])
+    uncalled = _class_kept(raised, match)
+    if uncalled is not None:
+        return uncalled
     made = _from_its_making(raised, match)
     if made is not None:
         return made
@@ -309,6 +312,22 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         found = raised.finding("attribute_unknown", name=code, written=own)
         return replace(found, variant="written")
     return _similar(raised, match)
+
+
+def _class_kept(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """An attribute or a variable has a class of the file, where an object of it is meant."""
+    name = match["type"]
+    if not match.string.startswith("AttributeError: type object") or not any(
+        c.name == name for module in raised.source.modules for c in module.classes
+    ):
+        return None
+    for node in raised.source.all_nodes:
+        value = node.value if isinstance(node, ast.Assign) else None
+        if isinstance(node, ast.Assign) and isinstance(value, ast.Name) and value.id == name:
+            params = {"name": f"= {name}", "written": f"= {name}()"}
+            found = raised.finding("attribute_unknown", at=node, params=params)
+            return replace(found, variant="class_kept", words={**found.words, "type": name})
+    return None
 
 
 def _from_its_making(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -681,6 +700,9 @@ KINDS = (
                 "A value on that line is None: nothing was assigned to it, or a function returned "
                 "nothing."
             ),
+            "class_kept": msg(
+                "Without (), {type} is the class itself. Only an object of it has what its __init__ sets."
+            ),
             "of_node": msg("This is a method of the node, and no function of the module rclpy."),
             "module": msg("The module rclpy has nothing with the name {name}."),
             "bare_object": msg(
@@ -697,6 +719,7 @@ KINDS = (
         fixes={
             "written": msg("Write {written} instead of {name}."),
             "of_node": msg("Write {written} instead of {name}."),
+            "class_kept": msg("Write {written} instead of {name}."),
             "similar": msg(
                 "Look up what a {type} can do. It has the similar name {other}: write that only if "
                 "it does what you want."
@@ -738,6 +761,18 @@ KINDS = (
                 Replace(NODE, "self.counter_ += 1", "MyFirstNode.counter_ += 1"),
                 fails="run.output",
                 blocks=("run.interrupt",),
+            ),
+            example(
+                "class_kept_for_an_object",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class Texts:\n    def __init__(self):\n        self.text = 'Hello time: '\n\n\nclass MyFirstNode",
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.texts = Texts"),
+                Replace(NODE, "'Hello time: ' + str", "self.texts.text + str"),
+                fails="run.output",
+                blocks=DEAD,
             ),
             example(
                 "number_to_text_as_a_column",

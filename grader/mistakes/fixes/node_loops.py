@@ -135,6 +135,11 @@ def counted_by_calls(case: Case) -> Files | None:
     )
     text, output = module.text, case.assignment.output
     used = [n for s in loop.body for n in ast.walk(s) if isinstance(n, ast.Name) and n.id == number]
+    kept = str(case.finding.params.get("kept", ""))
+    if kept:
+        made = case.changed(module, *(text.swap(n, kept) for n in used))
+        there = replace(case.finding, line=loop.lineno)
+        return lines.unwrapped(replace(case, files=made, finding=there)) if made else None
     counter = next(f"self.{name}" for name in FREE if name not in node.attributes | {*node.methods})
     if not used or not module.has(init) or any(text.code(n) != number for n in used):
         return None

@@ -48,7 +48,9 @@ def logger(use: Use[Logged]) -> Passed:
     for event in events:
         if gone and event.source == "faked" and event.wall > events[-1].wall - LOST:
             continue  # the last records of a node that ends or is destroyed may be lost
-        _judge_record(event, names, level, expected, line_of(use.evidence, event.record))
+        place, count = line_of(use.evidence, event.record), use.evidence.id_of("log.counts")
+        caught = use.evidence.has_mistake(count, "node.error_logged")
+        _judge_record(event, names, level, expected, place, follows=count if caught else "")
     node = run.counting_node
     name = node.logger if node is not None else min(names, default="")
     said = say(
@@ -81,7 +83,9 @@ def _in_scenario(use: Use[Logged], expected: str) -> list[Event]:
     return found
 
 
-def _judge_record(event: Event, names: set[str], level: str, expected: str, where: Where) -> None:
+def _judge_record(
+    event: Event, names: set[str], level: str, expected: str, where: Where, *, follows: str = ""
+) -> None:
     """Raise Failed unless the line is a record of the node's own logger, with this level."""
     if event.source == "print":
         text = event.text[:80]
@@ -110,6 +114,7 @@ def _judge_record(event: Event, names: set[str], level: str, expected: str, wher
             actual=say("level {level}", level=found),
             where=where,
             words={"level": level},
+            follows=follows,
         )
 
 
