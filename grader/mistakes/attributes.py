@@ -117,6 +117,11 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if not of_self(raised, match) or match["name"] in raised.module.functions:
         return None
     name, close = match["name"], _close_attribute(raised, match["name"])
+    owner = class_of(raised.module, function_at(raised.module, raised.line))
+    helper = owner is not None and not owner[0].bases and owner[0] not in raised.source.family
+    if owner is not None and helper and name in NODE_METHODS:
+        found = raised.finding("attribute_not_set", name=name)
+        return replace(found, variant="no_node", words={**found.words, "type": owner[0].name})
     held = raised.source.held_node
     if held and name in NODE_METHODS:
         params = {"name": f"self.{name}", "written": f"{held}.{name}"}
@@ -504,6 +509,10 @@ KINDS = (
                 "Write self.{close} on that line: the other lines use this name, not self.{name}."
             ),
             "annotated": msg("Write {written} instead of {name}."),
+            "no_node": msg(
+                "Pass the node to {type} when it is made, as self in {type}(self). Keep it in its "
+                "__init__(self, node) with self.node = node, and write self.node.{name} here."
+            ),
             "held": msg("Write {written} instead of {name}."),
             "dot": msg("A dot is missing. Write {written} instead of {name}."),
             "period": msg(
@@ -547,6 +556,10 @@ KINDS = (
             ),
         },
         whys={
+            "no_node": msg(
+                "{name} belongs to the node. The class {type} does not inherit from Node, so its objects "
+                "do not have it."
+            ),
             "held": msg(
                 "This class is no node: it does not inherit from Node. Its node is {held}, which has "
                 "this method."
@@ -605,6 +618,17 @@ KINDS = (
                     NODE,
                     "    def timer_callback",
                     "    def setup(self):\n        self.counter_ = 0\n\n    def timer_callback",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "helper_without_a_node",
+                Replace(NODE, "self.get_logger().info(", "Speaker().speak("),
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class Speaker:\n    def speak(self, text):\n        self.get_logger().info(text)\n\n\nclass MyFirstNode",
                 ),
                 fails="run.output",
                 blocks=DEAD,

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links, print_elsewhere
-from grader.mistakes.example import DEAD, LOG, NODE, SILENT, example
+from grader.mistakes.example import DEAD, LOG, LOG_LINE, NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_count, node_log, node_words, node_worked_out
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Suspect
@@ -450,9 +450,21 @@ KINDS = (
         msg("Write self.get_logger().info(…) instead of .debug(…)."),
         links.LOGGING,
         fixes={"written": INSTEAD},
-        behind={"run.no_lines": _debug},
+        behind={"run.no_lines": _debug, "run.wrong_step": _debug, "run.wrong_start": _debug},
         fixed_by=(node_log.level, lines.written),
         examples=(
+            example(
+                "each_second_line_as_debug",
+                Replace(
+                    NODE,
+                    LOG_LINE,
+                    "        if self.counter_ % 2:\n"
+                    "            self.get_logger().debug('odd')\n"
+                    f"        else:\n    {LOG_LINE}",
+                ),
+                fails="run.output",
+                also={"run.period": "run.wrong_period"},
+            ),
             example(
                 "logged_as_debug",
                 Replace(NODE, "self.get_logger().info", "self.get_logger().debug"),

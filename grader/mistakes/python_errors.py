@@ -14,6 +14,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, LOG, LOG_LINE, NODE, example
+from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromError, Raised, RecognisedMistake, always, on_line
@@ -125,6 +126,30 @@ def _not_for_with(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     named = [i for i in items if dotted(i.context_expr) and i.optional_vars is None]
     alone = len(items) == len(named) == 1
     return _told("not_for_with", "name" if alone else "")(raised, match)
+
+
+def _values_outside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The values behind % lack their brackets, so that the call gets all but the first."""
+    found = _told("text_and_values")(raised, match)
+    calls = [n for n in _on_line(raised) if isinstance(n, ast.Call) and len(n.args) > 1]
+    calls = [
+        c for c in calls if isinstance(c.args[0], ast.BinOp) and isinstance(c.args[0].op, ast.Mod)
+    ]
+    if found is None or len(calls) != 1 or calls[0].keywords:
+        return found
+    text, first = raised.module.text, calls[0].args[0]
+    code = text.text[text.span(first)[0] : text.span(calls[0].args[-1])[1]]
+    if not isinstance(first, ast.BinOp) or isinstance(first.right, ast.Tuple) or "\n" in code:
+        return found
+    values = ", ".join(text.code(value) for value in (first.right, *calls[0].args[1:]))
+    params = {**match.groupdict(""), "name": code, "text": f"{text.code(first.left)} % ({values})"}
+    return replace(raised.finding("text_and_values", at=calls[0], params=params), variant="outside")
+
+
+def _values_inside(case: Case) -> Files | None:
+    """Write the values behind % in brackets."""
+    params = {**case.finding.params, "written": case.finding.params.get("text", "")}
+    return lines.written(replace(case, finding=replace(case.finding, params=params)))
 
 
 def _comma(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -423,6 +448,10 @@ KINDS = (
         ),
         msg("Give the text one place for each value. A text with {{}} needs .format(…) and no %."),
         whys={
+            "outside": msg(
+                "% takes several values only in brackets. Without them it takes the first one, and the "
+                "others are further arguments of the call."
+            ),
             "type": msg(
                 "The place %d in a text needs a number, and gets a value of the type {first}."
             ),
@@ -433,6 +462,7 @@ KINDS = (
             ),
         },
         fixes={
+            "outside": msg("Write {text} instead of {name}."),
             "type": msg("Write %s in the text, or give it a number."),
             "left": msg(
                 "If you want the remainder, find the line that gives the value before %, and make it a "
@@ -441,11 +471,24 @@ KINDS = (
         },
         raised={
             r"not all arguments converted during string formatting": on_line(_too_many_values),
-            r"not enough arguments for format string": _told("text_and_values"),
+            r"not enough arguments for format string": on_line(_values_outside),
             r"%[a-z] format: a (?:real )?number is required, not (?P<first>\w{1,60})": (
                 _told("text_and_values", "type")
             ),
         },
+        fixed_by=(_values_inside,),
+        examples=(
+            example(
+                "values_outside_of_brackets",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "'%s: %d' % 'Hello time', self.counter_",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
     ),
     _node(
         "no_such_item",

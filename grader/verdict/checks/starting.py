@@ -68,7 +68,8 @@ def _refused_arguments(evidence: Evidence) -> list[str]:
     return [
         say(
             "Your program reads the command line itself and does not work with the arguments of ROS, "
-            "so it was marked without them. ros2 run … --ros-args and launch files will stop it: with "
+            "so it was marked without them. With ros2 run … --ros-args and in launch files it gets them "
+            "too. Read the list that rclpy.utilities.remove_ros_args(sys.argv) returns instead of sys.argv; with "
             "argparse, write parse_known_args()[0] instead of parse_args()."
         )
     ]
