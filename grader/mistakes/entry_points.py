@@ -143,7 +143,7 @@ KINDS = (
                 "Rename it, then build again. In the package's folder, run: mv {there} setup.py"
             ),
         },
-        fixed_by=(layout.out_of_inner_folder,),
+        fixed_by=(layout.out_of_inner_folder, layout.setup_renamed),
         link=links.PACKAGE,
         seen=r"can't open file '[^'\n]{0,300}setup\.py'",
         examples=(
@@ -894,6 +894,7 @@ KINDS = (
                     "    },\n)\n\nsetup(name=package_name, version='0.0.1', packages=[package_name])\n",
                 ),
                 fails="entry_point.mapping",
+                blocks=UNSTARTED,
             ),
             example(
                 "entry_appended_after_setup",

@@ -705,6 +705,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.thread_goes_on": {"name": "run"},
     "node.asyncio_used": {"name": "asyncio.sleep(…)", "method": "on_timer"},
     "node.timer_hides_method": {"name": "on_timer"},
+    "node.self_late": {
+        "method": "text_of",
+        "parameter": "number",
+        "parameters": "self, number",
+    },
     "node.error_logged": {
         "line": "12",
         "at": "12",
