@@ -169,6 +169,12 @@ KINDS = (
             "package_twice": msg(
                 "Delete everything below the first </package>, from this line to the end of the file."
             ),
+            "end_twice": msg("Delete this line: </package> is only at the end of the file."),
+            "root_first": msg(
+                "All tags are between <package …> and </package>. Move this line below the one that begins "
+                "with <package."
+            ),
+            "first_line": msg('Write as the first line: <?xml version="1.0"?>'),
             "no_tags": msg(
                 "package.xml is XML: it consists of tags, such as <package>. Copy the one that ros2 pkg "
                 "create makes, and write your values into it."

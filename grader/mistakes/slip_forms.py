@@ -115,6 +115,25 @@ FORMS = {
         "return gives back a value and cannot assign one. Write on a line of its own: {step} Write "
         "below it, if the value is to be given back: {wanted}"
     ),
+    "equals_of_argument": msg(
+        "The = between the name of an argument and its value is missing. Write: {wanted}"
+    ),
+    "line_twice": msg("This line and line {line} above it are the same. Delete one of them."),
+    "argument_in_braces": msg(
+        "This argument is inside of the braces that begin in line {line}. Move it above line {line}."
+    ),
+    "opener_missing": msg("The first bracket of a value is missing. Write: {wanted}"),
+    "data_files_gone": msg(
+        "The line that begins this list is missing. Write above this line, indented by 4 spaces less: "
+        "data_files=["
+    ),
+    "marker_line_gone": msg(
+        "The second half of this line is missing. Write below it, indented by 4 spaces more: "
+        "['resource/' + package_name]),"
+    ),
+    "call_open": msg("The bracket of the call is missing. Write: {wanted}"),
+    "comma_at_end": msg("The comma at the end of this line is missing. Write: {wanted}"),
+    "import_names": msg("Between the names of an import are commas. Write: {wanted}"),
     "class_for_def": msg("A method begins with def, and not with class. Write: {wanted}"),
     "def_for_class": msg("A class begins with class, and not with def. Write: {wanted}"),
     "def_unfinished": msg(

@@ -24,7 +24,7 @@ TAGS = (
 """The tags of REP 149."""
 Variant = Literal[
     "unclosed", "again", "unopened", "misspelt", "unfinished", "quotes", "ampersand", "before",
-    "after", "outside", "bare", "comment", "declaration", "blank", "declared_twice", "package_twice", "no_tags",
+    "after", "outside", "bare", "comment", "declaration", "blank", "declared_twice", "package_twice", "no_tags", "end_twice", "root_first",
     "hyphens", "hyphens_lines", "comment_start", "less",
 ]  # fmt: skip
 END_TAG = re.compile(rb"</\s{0,9}(?P<name>[^<>\s]{1,100})\s{0,9}>")
@@ -322,6 +322,12 @@ def _in_comment(found: bytes, at: int) -> bool:
     return found.rfind(b"<!--", 0, at) > found.rfind(b"-->", 0, at)
 
 
+def _first_tag(found: bytes) -> int:
+    """Return where the first tag is that is no <?…?> and no comment."""
+    match = re.search(rb"<(?![?!])", found)
+    return match.start() if match is not None else 0
+
+
 def _package_twice(reader: _Reader) -> XmlFault | None:
     """Return a second <package> below the first one: the file was pasted twice."""
     found = reader.found
@@ -342,6 +348,12 @@ def _after(reader: _Reader, at: int) -> XmlFault | None:
     if twice is not None:
         return twice
     start = found.rfind(b">") + 1
+    if found[at:].lstrip().startswith(b"</package"):
+        end = at + len(found[at:].split(b">", 1)[0]) + 1
+        return reader.fault("end_twice", "/package", at, (at, end, b""))
+    first = re.search(rb"<package[\s>]", found)
+    if first is not None and first.start() >= at and b"</package>" in found:
+        return reader.fault("root_first", "package", _first_tag(found))
     root = found.rfind(b"</package>", 0, at)
     if root >= 0 and found[start:].strip() == b"":
         return reader.fault("outside", "package", at)

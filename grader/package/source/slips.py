@@ -17,6 +17,7 @@ from grader.package.source.documents import document_of
 from grader.package.source.pasted import WHOLE_LINES, cleaned, pasted_in
 from grader.package.source.slip_blocks import BLOCK_LOOKS, two_statements
 from grader.package.source.slip_brackets import open_bracket
+from grader.package.source.slip_calls import CALL_LOOKS, LATE_CALL_LOOKS
 from grader.package.source.slip_dropped import DROPPED_LOOKS
 from grader.package.source.slip_fields import FIELD_LOOKS
 from grader.package.source.slip_forms import (
@@ -518,6 +519,6 @@ def _global(text: Broken) -> Slip | None:
 
 
 LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
-    _conflict, *FUTURE_LOOKS, _prose, *OUTPUT_LOOKS, _numbers, *FIELD_LOOKS, *DROPPED_LOOKS, _brace, _global, _do_while, _constructor, _braces, *HEAD_LOOKS, note, _comment, *WORD_LOOKS, *FORM_LOOKS, _commas, _apostrophe, *QUOTE_LOOKS, _quotes, _keys, open_bracket, tab, behind_colon, try_block,
-    *JOINED_LOOKS, *TYPED_LOOKS, *STATEMENT_LOOKS, first_of_block, *BLOCK_LOOKS, further_in, _other_sign, *LATE_LOOKS, two_words, two_statements, block_word, *LAST_FORM_LOOKS, *MESSAGE_LOOKS,
+    _conflict, *FUTURE_LOOKS, _prose, *OUTPUT_LOOKS, _numbers, *FIELD_LOOKS, *DROPPED_LOOKS, *CALL_LOOKS, _brace, _global, _do_while, _constructor, _braces, *HEAD_LOOKS, note, _comment, *WORD_LOOKS, *FORM_LOOKS, _commas, _apostrophe, *QUOTE_LOOKS, _quotes, _keys, open_bracket, tab, behind_colon, try_block,
+    *JOINED_LOOKS, *TYPED_LOOKS, *STATEMENT_LOOKS, first_of_block, *BLOCK_LOOKS, further_in, _other_sign, *LATE_CALL_LOOKS, *LATE_LOOKS, two_words, two_statements, block_word, *LAST_FORM_LOOKS, *MESSAGE_LOOKS,
 )  # fmt: skip
