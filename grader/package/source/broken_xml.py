@@ -348,9 +348,10 @@ def _after(reader: _Reader, at: int) -> XmlFault | None:
     if twice is not None:
         return twice
     start = found.rfind(b">") + 1
-    if found[at:].lstrip().startswith(b"</package"):
-        end = at + len(found[at:].split(b">", 1)[0]) + 1
-        return reader.fault("end_twice", "/package", at, (at, end, b""))
+    begin = at - 1 if found[at - 1 : at] == b"<" else at
+    if found[begin:].lstrip().startswith(b"</package"):
+        end = begin + len(found[begin:].split(b">", 1)[0]) + 1
+        return reader.fault("end_twice", "/package", begin, (begin, end, b""))
     first = re.search(rb"<package[\s>]", found)
     if first is not None and first.start() >= at and b"</package>" in found:
         return reader.fault("root_first", "package", _first_tag(found))
