@@ -169,6 +169,7 @@ KINDS = (
             "package_twice": msg(
                 "Delete everything below the first </package>, from this line to the end of the file."
             ),
+            "typed": msg("A sign of a tag in this line is missing or wrong. Write: {wanted}"),
             "end_twice": msg("Delete this line: </package> is only at the end of the file."),
             "root_first": msg(
                 "All tags are between <package …> and </package>. Move this line below the one that begins "
@@ -208,6 +209,24 @@ KINDS = (
                 fails="package.manifest",
                 blocks=UNBUILT,
                 note="expat names the line of </package>",
+            ),
+            example(
+                "end_tag_with_a_backslash",
+                Replace(MANIFEST, "rclpy</depend>", "rclpy<\\depend>"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "tag_without_its_first_sign",
+                Replace(MANIFEST, "<depend>rclpy", "depend>rclpy"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "end_tag_with_its_slash_at_the_end",
+                Replace(MANIFEST, "rclpy</depend>", "rclpy<depend/>"),
+                fails="package.manifest",
+                blocks=UNBUILT,
             ),
             example(
                 "manifest_pasted_twice",

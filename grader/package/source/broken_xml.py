@@ -24,7 +24,7 @@ TAGS = (
 """The tags of REP 149."""
 Variant = Literal[
     "unclosed", "again", "unopened", "misspelt", "unfinished", "quotes", "ampersand", "before",
-    "after", "outside", "bare", "comment", "declaration", "blank", "declared_twice", "package_twice", "no_tags", "end_twice", "root_first",
+    "after", "outside", "bare", "comment", "declaration", "blank", "declared_twice", "package_twice", "no_tags", "end_twice", "root_first", "typed",
     "hyphens", "hyphens_lines", "comment_start", "less",
 ]  # fmt: skip
 END_TAG = re.compile(rb"</\s{0,9}(?P<name>[^<>\s]{1,100})\s{0,9}>")
@@ -130,8 +130,48 @@ def xml_fault(found: bytes) -> XmlFault | None:
         return None
     reader = _Reader(found)
     error = reader.stop()
+    typed = _typed(reader) if error is not None else None
+    if typed is not None:
+        return typed
     look = LOOKS.get(error[0]) if error is not None else None
     return look(reader, error[1]) if error is not None and look is not None else None
+
+
+NAME = "|".join(TAGS).encode()
+TYPED = (
+    (re.compile(rb"<[ \t]+(?=/?(?:%s)\b)" % NAME), b"<"),
+    (re.compile(rb"</[ \t]+(?=(?:%s)[ \t]*>)" % NAME), b"</"),
+    (re.compile(rb"<[ \t]*\\(?=(?:%s)[ \t]*>)" % NAME), b"</"),
+    (re.compile(rb"(?<![<\w/.-])(?=(?:%s)(?:[ \t]+\w+=[^<>]*)?>)" % NAME), b"<"),
+    (re.compile(rb"(?<!<)/(?=(?:%s)>)" % NAME), b"</"),
+    (re.compile(rb"(?<=[^<>])<(?=(?P<name>%s)/>)" % NAME), b"</"),
+    (re.compile(rb"(?P<start><\w+(?:[ \t]+\w+=(?:\"[^\"<>]*\"|'[^'<>]*'))*[ \t]+\w+=(?P<quote>[\"'])[^\"'<>]*)(?=>)"),
+     rb"\g<start>\g<quote>"),
+)  # fmt: skip
+"""A sign of a tag that is missing or wrong, and what to write instead."""
+MOST_TRIED = 20
+
+
+def _typed(reader: _Reader) -> XmlFault | None:
+    """Return a tag with one sign missing or wrong, if the file is well-formed after the change."""
+    found = reader.found
+    for pattern, new in TYPED:
+        for match in list(pattern.finditer(found))[:MOST_TRIED]:
+            start, end = match.span()
+            written = match.expand(new)
+            change = [(start, end, written)]
+            if pattern is TYPED[5][0]:  # <depend>rclpy<depend/>
+                slash = end + len(match["name"])
+                change.append((slash, slash + 1, b""))
+            fixed = found
+            for first, last, piece in reversed(change):
+                fixed = fixed[:first] + piece + fixed[last:]
+            if _Reader(fixed).stop() is not None:
+                continue
+            line = reader.line(start)
+            wanted = fixed.splitlines()[line - 1].decode("utf-8", "replace").strip()
+            return reader.fault("typed", "", start, *change, wanted=wanted)
+    return None
 
 
 def _mismatch(reader: _Reader, at: int) -> XmlFault | None:

@@ -184,6 +184,7 @@ def _described(fault: XmlFault) -> Message:
         "after": say("there is something after the last tag"),
         "package_twice": say("<package> is in the file twice"),
         "no_tags": say("the file has no tag"),
+        "typed": say("a sign of a tag is missing or wrong"),
         "end_twice": say("</package> is in the file twice"),
         "root_first": say("there is a tag above <package>"),
         "outside": say("there is a tag below </{name}>", **words),
