@@ -80,6 +80,7 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     known = (_known(raised, name) & seen) - {name, "None", "True", "False"}
     if bindings(raised.module, name):
         known = {other for other in known if other.lower() == name.lower()}
+    known |= {other for other in dir(builtins) if other.lower() == name.lower() != name}
     close = meant_by(name, known, 0.7)
     if isinstance(statement, ast.ClassDef) and close:
         return _instead(raised.finding("name_unknown", name=name, close=close, written=close))
