@@ -265,6 +265,9 @@ KINDS = (
                 "Each value in setup() has a name and an = before it. Write: {wanted}, then build "
                 "again."
             ),
+            "no_colon": msg(
+                "A colon is between a key and its value. Write {wanted} instead of {name}."
+            ),
             "unpacked": msg(
                 "{name} is a dict with the values of setup(). Write setup({wanted}): the two stars "
                 "give each value under its name. Then build again."
@@ -333,6 +336,18 @@ KINDS = (
                     "            'test_node = my_robot_controller.my_first_node:main',\n        ],\n",
                     "        ],\n        'test_node = my_robot_controller.my_first_node:main',\n",
                 ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_called_by_a_misspelt_name",
+                Replace(SETUP, "\nsetup(\n", "\nsetu(\n"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "key_without_colon_in_setup",
+                Replace(SETUP, "'console_scripts': [", "'console_scripts' ["),
                 fails="build.colcon",
                 blocks=("entry_point.mapping",),
             ),

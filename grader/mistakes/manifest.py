@@ -170,6 +170,12 @@ KINDS = (
                 "Delete everything below the first </package>, from this line to the end of the file."
             ),
             "typed": msg("A sign of a tag in this line is missing or wrong. Write: {wanted}"),
+            "line_twice": msg(
+                "This line and line {wanted} above it are the same. Delete one of them."
+            ),
+            "lines_swapped": msg(
+                "Line {wanted} and this one are in the wrong order. Exchange the two lines."
+            ),
             "end_twice": msg("Delete this line: </package> is only at the end of the file."),
             "root_first": msg(
                 "All tags are between <package …> and </package>. Move this line below the one that begins "
@@ -225,6 +231,18 @@ KINDS = (
             example(
                 "end_tag_with_its_slash_at_the_end",
                 Replace(MANIFEST, "rclpy</depend>", "rclpy<depend/>"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "end_tag_twice",
+                Replace(MANIFEST, "  </export>\n", "  </export>\n  </export>\n"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "end_tags_in_the_wrong_order",
+                Replace(MANIFEST, "  </export>\n</package>\n", "</package>\n  </export>\n"),
                 fails="package.manifest",
                 blocks=UNBUILT,
             ),

@@ -119,6 +119,9 @@ FORMS = {
         "The = between the name of an argument and its value is missing. Write: {wanted}"
     ),
     "line_twice": msg("This line and line {line} above it are the same. Delete one of them."),
+    "lines_swapped": msg(
+        "Lines {line} and this one are in the wrong order. Exchange the two lines."
+    ),
     "argument_in_braces": msg(
         "This argument is inside of the braces that begin in line {line}. Move it above line {line}."
     ),

@@ -24,7 +24,7 @@ TAGS = (
 """The tags of REP 149."""
 Variant = Literal[
     "unclosed", "again", "unopened", "misspelt", "unfinished", "quotes", "ampersand", "before",
-    "after", "outside", "bare", "comment", "declaration", "blank", "declared_twice", "package_twice", "no_tags", "end_twice", "root_first", "typed",
+    "after", "outside", "bare", "comment", "declaration", "blank", "declared_twice", "package_twice", "no_tags", "end_twice", "root_first", "typed", "line_twice", "lines_swapped",
     "hyphens", "hyphens_lines", "comment_start", "less",
 ]  # fmt: skip
 END_TAG = re.compile(rb"</\s{0,9}(?P<name>[^<>\s]{1,100})\s{0,9}>")
@@ -130,7 +130,7 @@ def xml_fault(found: bytes) -> XmlFault | None:
         return None
     reader = _Reader(found)
     error = reader.stop()
-    typed = _typed(reader) if error is not None else None
+    typed = _typed(reader) or _rows(reader) if error is not None else None
     if typed is not None:
         return typed
     look = LOOKS.get(error[0]) if error is not None else None
@@ -150,6 +150,7 @@ TYPED = (
 )  # fmt: skip
 """A sign of a tag that is missing or wrong, and what to write instead."""
 MOST_TRIED = 20
+MOST_ROWS = 100
 
 
 def _typed(reader: _Reader) -> XmlFault | None:
@@ -171,6 +172,27 @@ def _typed(reader: _Reader) -> XmlFault | None:
             line = reader.line(start)
             wanted = fixed.splitlines()[line - 1].decode("utf-8", "replace").strip()
             return reader.fault("typed", "", start, *change, wanted=wanted)
+    return None
+
+
+def _rows(reader: _Reader) -> XmlFault | None:
+    """Return a line that is there twice, or two lines in the wrong order."""
+    rows = reader.found.splitlines(keepends=True)
+    at = 0
+    for number, row in enumerate(rows[:MOST_ROWS]):
+        below = rows[number + 1] if number + 1 < len(rows) else b""
+        if row.strip() and below.strip():
+            end = at + len(row) + len(below)
+            same = row.strip() == below.strip()
+            new = row if same else below.rstrip(b"\r\n") + row[len(row.rstrip(b"\r\n")) :] + row
+            fixed = reader.found[:at] + new + reader.found[end:]
+            tags = row.strip().startswith(b"<") and below.strip().startswith(b"<")
+            if tags and _Reader(fixed).stop() is None:
+                variant: Variant = "line_twice" if same else "lines_swapped"
+                return reader.fault(
+                    variant, "", at + len(row), (at, end, new), wanted=str(number + 1)
+                )
+        at += len(row)
     return None
 
 

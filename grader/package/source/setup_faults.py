@@ -75,6 +75,8 @@ def setup_fault(found: bytes, error: str, package: str) -> SetupFault | None:
     """Return why a setup.py stops with an error; None if it is not known."""
     module = parsed_setup(found)
     call = setup_call(module) if module is not None else None
+    if module is not None and call is None:
+        return _misspelt_call(module, error)
     if module is None or call is None:
         return None
     reader = _Reader(module, call, package)
@@ -83,6 +85,33 @@ def setup_fault(found: bytes, error: str, package: str) -> SetupFault | None:
         fault = look(reader, match) if match is not None else None
         if fault is not None:
             return fault
+    return None
+
+
+def _misspelt_call(module: Module, error: str) -> SetupFault | None:
+    """The call of setup() by another name: nothing calls setup()."""
+    told = re.match(r"NameError: name '(?P<name>\w{1,80})' is not defined", error)
+    name = told["name"] if told is not None else ""
+    calls = [n for n in module.nodes if isinstance(n, ast.Call) and dotted(n.func) == name]
+    alike = name.lower() == "setup" or bool(nearest("setup", [name.lower()], cutoff=0.75))
+    if len(calls) != 1 or not alike:
+        return None
+    reader = _Reader(module, calls[0], "")
+    swap = module.text.swap(calls[0].func, "setup")
+    return reader.fault("misspelt", calls[0], swap, name=name, close="setup")
+
+
+def _no_colon(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """A key without its colon: Python reads an item of a text."""
+    del match
+    for node in reader.module.nodes:
+        key = node.value if isinstance(node, ast.Subscript) else None
+        if isinstance(key, ast.Constant) and isinstance(key.value, str):
+            end = reader.module.text.span(key)[1]
+            code = reader.module.text.code(key)
+            return reader.fault(
+                "no_colon", key, Splice(end, end, ":"), name=code, wanted=f"{code}:"
+            )
     return None
 
 
@@ -532,6 +561,7 @@ def _comma_behind(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
 
 
 LOOKS: tuple[tuple[str, Callable[[_Reader, re.Match[str]], SetupFault | None]], ...] = (
+    (r"TypeError: string indices must be integers", _no_colon),
     (r"TypeError: '(?:method|function)' object is not iterable", _not_called),
     (r"TypeError: expected string or bytes-like object", _list_in_list),
     (r"TypeError: .{0,80}\btuple\b", _comma_behind),

@@ -60,8 +60,8 @@ def _equals_of_argument(text: Broken) -> Slip | None:
 
 def _line_twice(text: Broken) -> Slip | None:
     """Return a line that opens brackets and stands twice, one below the other."""
-    for number in _nearby(text):
-        row = text.source.line(number).strip()
+    for number in (text.number + 1, *_nearby(text)):
+        row = text.source.line(number).strip() if number <= len(text.source.lines) else ""
         if (
             number < 2
             or row != text.source.line(number - 1).strip()
@@ -70,6 +70,21 @@ def _line_twice(text: Broken) -> Slip | None:
             continue
         found = _slip(text, "line_twice", number, text.source.without(number), other=number - 1)
         if found is not None:
+            return found
+    return None
+
+
+def _lines_swapped(text: Broken) -> Slip | None:
+    """Return two lines that both open brackets, and stand in the wrong order."""
+    for number in _nearby(text):
+        rows = [text.source.line(n) for n in (number - 1, number)] if number > 1 else []
+        if not rows or any(row.rstrip()[-1:] not in ("[", "(", "{") for row in rows):
+            continue
+        indents = [indent_of(row) for row in rows]
+        start, end = text.source.start_of(number - 1), text.source.end_of(number)
+        new = text.source.newline.join((rows[1], rows[0]))
+        found = _slip(text, "lines_swapped", number, Splice(start, end, new), other=number - 1)
+        if found is not None and indents[0] != indents[1]:
             return found
     return None
 
@@ -183,6 +198,7 @@ def _import_names(text: Broken) -> Slip | None:
 CALL_LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
     _import_names,
     _line_twice,
+    _lines_swapped,
     _call_open,
     _argument_in_braces,
     _data_files,

@@ -185,6 +185,8 @@ def _described(fault: XmlFault) -> Message:
         "package_twice": say("<package> is in the file twice"),
         "no_tags": say("the file has no tag"),
         "typed": say("a sign of a tag is missing or wrong"),
+        "line_twice": say("a line is in the file twice"),
+        "lines_swapped": say("two lines are in the wrong order"),
         "end_twice": say("</package> is in the file twice"),
         "root_first": say("there is a tag above <package>"),
         "outside": say("there is a tag below </{name}>", **words),
