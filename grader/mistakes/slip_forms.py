@@ -119,6 +119,16 @@ FORMS = {
         "The = between the name of an argument and its value is missing. Write: {wanted}"
     ),
     "line_twice": msg("This line and line {line} above it are the same. Delete one of them."),
+    "def_at_margin": msg(
+        "This def is at the left margin, and belongs to the class. Indent this line by 4 spaces."
+    ),
+    "super_open": msg("super is called: ( and ) are behind it. Write: {wanted}"),
+    "main_gone": msg(
+        "The line that begins main is missing. Write above this line, without spaces before it: {wanted}"
+    ),
+    "def_below": msg(
+        "This line belongs to the def in line {line}, and stands above it. Exchange the two lines."
+    ),
     "lines_swapped": msg(
         "Lines {line} and this one are in the wrong order. Exchange the two lines."
     ),

@@ -230,7 +230,92 @@ def _except_empty(text: Broken) -> Slip | None:
     return Slip("signs", "except_empty", head, shown, "pass", new, other=text.number)
 
 
+MARGIN_DEF = re.compile(r"(?:async[ \t]+)?def[ \t]+\w+[ \t]*\([ \t]*self\b")
+SUPER = re.compile(r"\bsuper\((?=[ \t]*\.)")
+CLASS_CLOSED = re.compile(r"[ \t]*class[ \t]+(?P<name>\w+?)(?=Node\)[ \t]*:)")
+MAIN_CALLED = re.compile(r"^[ \t]+main\(\)", re.M)
+MAIN_DEFINED = re.compile(r"^[ \t]*(?:async[ \t]+)?def[ \t]+main\b|\bimport\b.*\bmain\b", re.M)
+
+
+def _margin_def(text: Broken) -> Slip | None:
+    """Return a method whose def is at the margin, while its lines and the other methods are not."""
+    if text.fault.kind != "indentation":
+        return None
+    for number in range(text.number, 0, -1):
+        if not MARGIN_DEF.match(text.code.line(number)):
+            continue
+        start = text.source.start_of(number)
+        new = text.source.spliced([Splice(start, start, "    ")])
+        if new is not None and can_parse(new):
+            shown = text.source.line(number).strip()
+            return Slip("signs", "def_at_margin", number, shown, "", new, other=text.number)
+    return None
+
+
+def _super_open(text: Broken) -> Slip | None:
+    """Return super without its closing bracket."""
+    match = SUPER.search(text.line)
+    if match is None:
+        return None
+    splice = text.within(match.end(), match.end(), ")")
+    new = text.changed(splice)
+    if new is None:
+        return None
+    return text.slip("signs", "super_open", text.source.line(text.number), splice, fixed=new)
+
+
+def _class_closed(text: Broken) -> Slip | None:
+    """Return a class whose bracket before the base Node is missing."""
+    match = CLASS_CLOSED.match(text.line)
+    if match is None:
+        return None
+    splice = text.within(match.end(), match.end(), "(")
+    new = text.changed(splice)
+    if new is None:
+        return None
+    return text.slip("signs", "bracket_first", text.source.line(text.number), splice, fixed=new)
+
+
+def _main_gone(text: Broken) -> Slip | None:
+    """Return the lines of main without their def, which is called and not defined."""
+    code = text.code.text
+    if "outside function" not in text.fault.text or MAIN_DEFINED.search(code):
+        return None
+    if MAIN_CALLED.search(code) is None:
+        return None
+    first = text.number
+    while first > 1 and text.source.line(first - 1).strip():
+        first -= 1
+    new = text.source.spliced([text.source.before(first, "def main(args=None):")])
+    if new is None or not can_parse(new):
+        return None
+    shown = text.source.line(first).strip()
+    return Slip("signs", "main_gone", first, shown, "def main(args=None):", new, other=text.number)
+
+
+def _def_below(text: Broken) -> Slip | None:
+    """Return the first line of a block that stands above its def."""
+    if TELLS_INDENT not in text.fault.text:
+        return None
+    below = text.code.line(text.number + 1) if text.number < len(text.code.lines) else ""
+    first = not any(text.code.line(n).strip() for n in range(1, text.number))
+    if first or not re.match(r"[ \t]*(?:async[ \t]+)?(?:def|class)\b", below):
+        return None
+    start, end = text.source.start_of(text.number), text.source.end_of(text.number + 1)
+    rows = [text.source.line(text.number + 1), text.source.line(text.number)]
+    new = text.source.spliced([Splice(start, end, text.source.newline.join(rows))])
+    if new is None or not can_parse(new):
+        return None
+    shown = text.source.line(text.number).strip()
+    return Slip("signs", "def_below", text.number, shown, "", new, other=text.number + 1)
+
+
 HEAD_LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
+    _margin_def,
+    _super_open,
+    _class_closed,
+    _main_gone,
+    _def_below,
     _class_for_def,
     _def_for_class,
     _unfinished_def,
