@@ -87,8 +87,24 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     variables = raised.source.node_variables
     if name in spun_names(raised.source) and len(variables) == 1 and variables < seen - {name}:
         return _instead(raised.finding("name_unknown", name=name, close=min(variables)))
+    binding = _binding(raised, name, close) if close else None
+    if binding is not None:
+        return binding
     found = raised.finding("name_unknown", name=name, close=close)
     return _instead(found) if close and nearest(name, [close], cutoff=MISSPELT) else found
+
+
+def _binding(raised: Raised, name: str, close: str) -> RecognisedMistake | None:
+    """The line that gives the value has the misspelt name: other lines use the right one."""
+    names = [n for n in raised.module.nodes if isinstance(n, ast.Name) and n.id in (name, close)]
+    set_as = [n for n in names if n.id == close]
+    used = [n for n in names if n.id == name and isinstance(n.ctx, ast.Load)]
+    if len(set_as) != 1 or not isinstance(set_as[0].ctx, ast.Store) or len(used) < 2:
+        return None
+    params = {"name": close, "written": name, "close": ""}
+    found = raised.finding("name_unknown", at=set_as[0], params=params)
+    lines = ", ".join(str(row) for row in sorted({n.lineno for n in used}))
+    return replace(found, variant="binding", words={**found.words, "lines": lines})
 
 
 def _joined(raised: Raised, name: str) -> RecognisedMistake | None:
@@ -343,6 +359,9 @@ KINDS = (
         links.PYTHON_ERRORS,
         close=msg("Write {close} instead of {name}, or define {name} first."),
         fixes={
+            "binding": msg(
+                "Write {written} instead of {name} here: lines {lines} use the name {written}."
+            ),
             "alone": msg(
                 "Delete this line if it was typed by accident: it contains only {name}, which "
                 "nothing defines."
@@ -372,6 +391,13 @@ KINDS = (
         raised={NAME_ERROR: _undefined},
         fixed_by=(lines.written, rename.variable, lines.deleted_name),
         examples=(
+            example(
+                "node_set_by_another_case",
+                Replace(NODE, "    node = MyFirstNode()", "    Node_ = MyFirstNode()"),
+                Replace(NODE, "rclpy.spin(node)", "rclpy.spin(node_)"),
+                Replace(NODE, "node.destroy_node()", "node_.destroy_node()"),
+                fails="run.starts",
+            ),
             example(
                 "base_in_small_letters",
                 Replace(NODE, "class MyFirstNode(Node)", "class MyFirstNode(node)"),

@@ -130,7 +130,7 @@ FORMS = {
         "This line belongs to the def in line {line}, and stands above it. Exchange the two lines."
     ),
     "lines_swapped": msg(
-        "Lines {line} and this one are in the wrong order. Exchange the two lines."
+        "Line {line} and this one are in the wrong order. Exchange the two lines."
     ),
     "argument_in_braces": msg(
         "This argument is inside of the braces that begin in line {line}. Move it above line {line}."

@@ -47,6 +47,11 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
         return None
     found = suspect.finding("timer_missing", suspect.source.methods.get("__init__"))
     callback = suspect.source.callback
+    if suspect.source.node_class is None:
+        inside = (n for n in suspect.source.all_nodes if isinstance(n, ast.FunctionDef))
+        logging = [n.name for n in inside if suspect.source.logs(n) and n is not suspect.function]
+        if len(logging) == 1:
+            found = replace(found, words={**found.words, "callback": logging[0]})
     loop = endless_loop(suspect.source, callback) if callback is not None else None
     if loop is None:
         return found
