@@ -14,6 +14,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 
+HELPER = "class Line:\n    n = 0\n\n    def text(self):\n"
 IN_BRACKETS = re.compile(r"\((?P<code>(?:self\.)?[A-Za-z_]\w*(?:\.\w+)*)\)")
 IN_BRACES = re.compile(r"\{(?P<code>(?:self\.)?[A-Za-z_]\w*(?:\.\w+)*)\}")
 
@@ -31,7 +32,8 @@ def _shown(suspect: Suspect) -> RecognisedMistake | None:
         if isinstance(module.parents.get(node), ast.JoinedStr | ast.FormattedValue):
             continue
         code = module.text.code(node)
-        if isinstance(node, ast.JoinedStr) and brackets is not None and brackets[0] in code:
+        in_brackets = brackets is not None and isinstance(node, ast.JoinedStr) and node not in own
+        if in_brackets and brackets is not None and brackets[0] in code:
             written = code.replace(brackets[0], f"{{{brackets['code']}}}", 1)
             return _written(suspect, node, code, written, "brackets")
         plain = isinstance(node, ast.Constant) and isinstance(node.value, str)
@@ -70,21 +72,29 @@ KINDS = (
         },
         behind={"run.wrong_text": _shown},
         fixed_by=(lines.written,),
-        examples=tuple(
+        examples=(
             example(
-                name,
+                "brackets_for_braces",
                 Replace(
                     NODE,
-                    "    def timer_callback",
-                    f"    def line(self):\n        return {text}\n\n    def timer_callback",
+                    "class MyFirstNode",
+                    f"{HELPER}        return f'Hello time: (self.n)'\n\n\nclass MyFirstNode",
                 ),
-                Replace(NODE, "'Hello time: ' + str(self.counter_)", "self.line()"),
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.line = Line()"),
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "self.line.text()"),
                 fails="run.output",
-            )
-            for name, text in (
-                ("brackets_for_braces", "f'Hello time: (self.counter_)'"),
-                ("f_behind_the_quote", "'fHello time: {self.counter_}'"),
-            )
+            ),
+            example(
+                "f_behind_the_quote",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    f"{HELPER}        return 'fHello time: {{self.n}}'\n\n\nclass MyFirstNode",
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.line = Line()"),
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "self.line.text()"),
+                fails="run.output",
+            ),
         ),
     ),
 )

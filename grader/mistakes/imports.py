@@ -40,22 +40,6 @@ IMPORTS = {
         for name in ("ExternalShutdownException", "MultiThreadedExecutor", "SingleThreadedExecutor")
     },
     **{name: f"import {name}" for name in ("time", "math", "random", "sys", "threading")},
-    **{
-        name: f"from {module} import {name}"
-        for module, names in (
-            ("abc", ("ABC", "abstractmethod")),
-            ("dataclasses", ("dataclass", "field")),
-            ("functools", ("partial",)),
-            ("itertools", ("cycle", "islice")),
-            ("collections", ("deque", "defaultdict", "namedtuple")),
-            ("datetime", ("datetime", "timedelta")),
-            ("pathlib", ("Path",)),
-            ("enum", ("Enum", "IntEnum")),
-            ("contextlib", ("suppress", "contextmanager")),
-            ("types", ("SimpleNamespace",)),
-        )
-        for name in names
-    },
 }
 HOMES = {
     "Node": "rclpy.node",

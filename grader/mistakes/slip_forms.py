@@ -124,7 +124,8 @@ FORMS = {
     ),
     "super_open": msg("super is called: ( and ) are behind it. Write: {wanted}"),
     "main_gone": msg(
-        "The line that begins main is missing. Write above this line, without spaces before it: {wanted}"
+        "The def of the function to which these lines belong is missing. Write above this line, without "
+        "spaces before it: {wanted}"
     ),
     "def_below": msg(
         "This line belongs to the def in line {line}, and stands above it. Exchange the two lines."

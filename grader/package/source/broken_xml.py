@@ -186,7 +186,7 @@ def _rows(reader: _Reader) -> XmlFault | None:
             same = row.strip() == below.strip()
             new = row if same else below.rstrip(b"\r\n") + row[len(row.rstrip(b"\r\n")) :] + row
             fixed = reader.found[:at] + new + reader.found[end:]
-            tags = row.strip().startswith(b"<") and below.strip().startswith(b"<")
+            tags = all(re.match(rb"\s*</?\w", line) for line in (row, below))
             if tags and _Reader(fixed).stop() is None:
                 variant: Variant = "line_twice" if same else "lines_swapped"
                 return reader.fault(

@@ -244,6 +244,9 @@ def _margin_def(text: Broken) -> Slip | None:
     for number in range(text.number, 0, -1):
         if not MARGIN_DEF.match(text.code.line(number)):
             continue
+        above = next((n for n in range(number - 1, 0, -1) if text.code.line(n).strip()), 0)
+        if re.match(r"[ \t]*class\b", text.code.line(above) if above else ""):
+            return None  # (the first line of the class)
         start = text.source.start_of(number)
         new = text.source.spliced([Splice(start, start, "    ")])
         if new is not None and can_parse(new):
