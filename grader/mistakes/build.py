@@ -265,6 +265,9 @@ KINDS = (
                 "Each value in setup() has a name and an = before it. Write: {wanted}, then build "
                 "again."
             ),
+            "no_comma": msg(
+                "A comma is between a folder and the list of its files. Write {wanted} instead of {name}."
+            ),
             "no_colon": msg(
                 "A colon is between a key and its value. Write {wanted} instead of {name}."
             ),
@@ -344,6 +347,15 @@ KINDS = (
                 Replace(SETUP, "\nsetup(\n", "\nsetu(\n"),
                 fails="build.colcon",
                 blocks=("entry_point.mapping",),
+            ),
+            example(
+                "folder_without_comma_in_data_files",
+                Replace(
+                    SETUP,
+                    "        ('share/' + package_name, ['package.xml']),\n",
+                    "        ('share/my_robot_controller' ['package.xml']),\n",
+                ),
+                fails="build.colcon",
             ),
             example(
                 "key_without_colon_in_setup",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
@@ -58,6 +59,17 @@ def _base_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
         if base is not None and raised.line in (found.lineno, base.lineno):
             name = dotted(base.func)
             return raised.finding("base_called", at=base, name=found.name, base=name)
+    return None
+
+
+def _field_order(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A field of a dataclass without a value stands below one that has a value."""
+    for owner in raised.module.classes:
+        for node in owner.body:
+            named = isinstance(node, ast.AnnAssign) and dotted(node.target) == match["name"]
+            if named and isinstance(node, ast.AnnAssign) and node.value is None:
+                found = raised.finding("field_order", at=node, name=match["name"])
+                return replace(found, words={**found.words, "type": owner.name})
     return None
 
 
@@ -227,6 +239,38 @@ KINDS = (
             example(
                 "base_class_called",
                 Replace(NODE, "(Node):", "(Node()):"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "field_order",
+        "class",
+        msg("A field of a dataclass stands below fields that have a value"),
+        msg(
+            "The fields of {type} become the parameters of its __init__, in their order. One without a "
+            "value cannot follow one that has a value."
+        ),
+        msg("Move this line above the fields of {type} that have a value, or give {name} a value."),
+        links.PYTHON_CLASSES,
+        raised={
+            r"TypeError: non-default argument '(?P<name>\w{1,80})' follows default argument": (
+                _field_order
+            )
+        },
+        examples=(
+            example(
+                "field_without_value_last",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "from dataclasses import dataclass\n\nimport rclpy\nfrom",
+                ),
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "@dataclass\nclass State:\n    count: int = 0\n    text: str\n\n\nclass MyFirstNode",
+                ),
                 fails="run.starts",
             ),
         ),

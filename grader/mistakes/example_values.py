@@ -705,6 +705,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.thread_goes_on": {"name": "run"},
     "node.asyncio_used": {"name": "asyncio.sleep(…)", "method": "on_timer"},
     "node.timer_hides_method": {"name": "on_timer"},
+    "node.field_order": {"name": "text", "type": "State"},
     "node.self_late": {
         "method": "text_of",
         "parameter": "number",

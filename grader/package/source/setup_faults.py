@@ -109,6 +109,11 @@ def _no_colon(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
         if isinstance(key, ast.Constant) and isinstance(key.value, str):
             end = reader.module.text.span(key)[1]
             code = reader.module.text.code(key)
+            around = reader.module.parents.get(node)
+            if isinstance(around, ast.Tuple | ast.List):
+                return reader.fault(
+                    "no_comma", key, Splice(end, end, ","), name=code, wanted=f"{code},"
+                )
             return reader.fault(
                 "no_colon", key, Splice(end, end, ":"), name=code, wanted=f"{code}:"
             )
@@ -234,7 +239,9 @@ def _name(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
         line, last = str(sets[0].lineno), str(sets[0].end_lineno)
         variant = "late" if line == last else "late_lines"
         return reader.fault(variant, first, name=name, line=line, last=last)
+    longer = [one for one in _bound(module) if one.startswith(f"{name}_")]
     close = CONSTANTS.get(name) or nearest(name, _bound(module) - {name}, cutoff=0.75)
+    close = close or (longer[0] if len(longer) == 1 else "")
     if close:
         swaps = [module.text.swap(use, close) for use in uses]
         return reader.fault("misspelt", first, *swaps, name=name, close=close)
