@@ -105,6 +105,35 @@ def _method_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake 
     return raised.finding("method_misspelt", name=match["name"], close=close) if close else None
 
 
+def _private(raised: Raised, name: str) -> RecognisedMistake | None:
+    """A name with two underscores that only another class of the files sets."""
+    node_class = raised.source.node_class
+    if name.startswith("__") and node_class is not None:
+        name = f"_{node_class.name.lstrip('_')}{name}"
+    told = re.fullmatch(r"_+(?P<type>\w+?)__(?P<rest>\w+)", name)
+    if told is None:
+        return None
+    own = f"self.__{told['rest']}"
+    for module in raised.source.modules:
+        for node in module.nodes:
+            owner = class_of(module, scope_of(module, node)) if own in targets_of(node) else None
+            if owner is None or owner[0].name.lstrip("_") == told["type"]:
+                continue
+            return _told_private(raised, own, owner[0].name)
+    bases = node_class.bases if node_class is not None else []
+    mine = node_class is not None and node_class.name.lstrip("_") == told["type"]
+    base = last_part(dotted(bases[0])) if bases and mine else ""
+    if not base or base == "Node":
+        return None
+    return _told_private(raised, own, base)
+
+
+def _told_private(raised: Raised, name: str, kind: str) -> RecognisedMistake:
+    found = raised.finding("attribute_not_set")
+    words = {"name": name, "written": name.replace("__", "_", 1), "type": kind}
+    return replace(found, variant="private", words={**found.words, **words})
+
+
 def _without_dot(raised: Raised, name: str) -> ast.stmt | None:
     """Return the line that assigns to the name with self and without a dot: `selfname = 0`."""
     for node in raised.module.nodes:
@@ -116,6 +145,9 @@ def _without_dot(raised: Raised, name: str) -> ast.stmt | None:
 def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if not of_self(raised, match) or match["name"] in raised.module.functions:
         return None
+    private = _private(raised, match["name"])
+    if private is not None:
+        return private
     name, close = match["name"], _close_attribute(raised, match["name"])
     owner = class_of(raised.module, function_at(raised.module, raised.line))
     helper = owner is not None and not owner[0].bases and owner[0] not in raised.source.family
@@ -509,6 +541,9 @@ KINDS = (
                 "Write self.{close} on that line: the other lines use this name, not self.{name}."
             ),
             "annotated": msg("Write {written} instead of {name}."),
+            "private": msg(
+                "Write {written} instead of {name} in all lines of both classes: one underscore is enough."
+            ),
             "no_node": msg(
                 "Pass the node to {type} when it is made, as self in {type}(self). Keep it in its "
                 "__init__(self, node) with self.node = node, and write self.node.{name} here."
@@ -556,6 +591,10 @@ KINDS = (
             ),
         },
         whys={
+            "private": msg(
+                "A name that begins with two underscores belongs to its class alone. The class {type} sets "
+                "{name}, and a class that inherits from it does not see that attribute."
+            ),
             "no_node": msg(
                 "{name} belongs to the node. The class {type} does not inherit from Node, so its objects "
                 "do not have it."
@@ -619,6 +658,20 @@ KINDS = (
                     "    def timer_callback",
                     "    def setup(self):\n        self.counter_ = 0\n\n    def timer_callback",
                 ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "private_name_of_a_base_class",
+                Replace(
+                    NODE,
+                    "class MyFirstNode(Node):",
+                    "class Counting(Node):\n    def __init__(self, name):\n        super().__init__(name)\n"
+                    "        self.__count = 0\n\n\nclass MyFirstNode(Counting):",
+                ),
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(NODE, "str(self.counter_)", "str(self.__count)"),
+                Replace(NODE, "self.counter_ += 1", "self.__count += 1"),
                 fails="run.output",
                 blocks=DEAD,
             ),

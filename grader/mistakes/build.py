@@ -265,6 +265,10 @@ KINDS = (
                 "Each value in setup() has a name and an = before it. Write: {wanted}, then build "
                 "again."
             ),
+            "py_modules": msg(
+                "py_modules is for files beside setup.py, and the node is in the inner folder. Delete "
+                "py_modules=…, and write {wanted}. Then build again."
+            ),
             "no_comma": msg(
                 "A comma is between a folder and the list of its files. Write {wanted} instead of {name}."
             ),
@@ -347,6 +351,15 @@ KINDS = (
                 Replace(SETUP, "\nsetup(\n", "\nsetu(\n"),
                 fails="build.colcon",
                 blocks=("entry_point.mapping",),
+            ),
+            example(
+                "py_modules_for_packages",
+                Replace(
+                    SETUP,
+                    "packages=find_packages(exclude=['test'])",
+                    "packages=[],\n    py_modules=['my_first_node']",
+                ),
+                fails="build.colcon",
             ),
             example(
                 "folder_without_comma_in_data_files",

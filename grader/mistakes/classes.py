@@ -10,7 +10,7 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.constructor import PRIVATE
 from grader.mistakes.example import DEAD, NODE, SILENT, STEP_LINE, example
-from grader.mistakes.fixes import node_classes
+from grader.mistakes.fixes import lines, node_classes
 from grader.mistakes.kind import Family
 from grader.mistakes.order import spun_names
 from grader.mistakes.recognised import (
@@ -60,6 +60,50 @@ def _base_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
             name = dotted(base.func)
             return raised.finding("base_called", at=base, name=found.name, base=name)
     return None
+
+
+def _not_overridden(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a method that nothing calls, with nearly the name of an empty one of a base class."""
+    source = suspect.source
+    named = {n.attr for n in source.all_nodes if isinstance(n, ast.Attribute)}
+    empty = [
+        m
+        for module in source.modules
+        for owner in module.classes
+        for m in owner.body
+        if isinstance(m, ast.FunctionDef) and m.name in named and _is_empty(m)
+    ]
+    own = source.node_class.body if source.node_class is not None else []
+    for method in own:
+        if not isinstance(method, ast.FunctionDef) or method.name in named:
+            continue
+        plain = method.name.replace("_", "").lower()
+        for base in empty:
+            if base.name != method.name and base.name.replace("_", "").lower() == plain:
+                params = {"name": f"def {method.name}", "written": f"def {base.name}"}
+                found = suspect.finding("not_overridden", method, **params)
+                words = {"method": base.name, "line": str(base.lineno)}
+                return replace(found, words={**found.words, **words})
+    return None
+
+
+def _is_empty(method: ast.FunctionDef) -> bool:
+    """Whether a method does nothing: pass, ..., a text, or raise NotImplementedError."""
+    return all(
+        isinstance(s, ast.Pass)
+        or (isinstance(s, ast.Expr) and isinstance(s.value, ast.Constant))
+        or (
+            isinstance(s, ast.Raise)
+            and s.exc is not None
+            and "NotImplemented" in ast.unparse(s.exc)
+        )
+        for s in method.body
+    )
+
+
+def _not_overridden_raised(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    return _not_overridden(Suspect(raised.source, raised.assignment))
 
 
 def _field_order(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -242,6 +286,20 @@ KINDS = (
                 fails="run.starts",
             ),
         ),
+    ),
+    _node(
+        "not_overridden",
+        "class",
+        msg("A method does not replace that of the base class, because the names differ"),
+        msg(
+            "A class replaces a method of its base class with one of exactly the same name. {method} of "
+            "the base class (line {line}) is empty, and it is the one that is called."
+        ),
+        msg("Write {written} instead of {name}."),
+        links.PYTHON_CLASSES,
+        raised={r"NotImplementedError": _not_overridden_raised},
+        behind={"run.no_lines": _not_overridden, "run.constant_counter": _not_overridden},
+        fixed_by=(lines.written,),
     ),
     _node(
         "field_order",

@@ -705,6 +705,12 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.thread_goes_on": {"name": "run"},
     "node.asyncio_used": {"name": "asyncio.sleep(…)", "method": "on_timer"},
     "node.timer_hides_method": {"name": "on_timer"},
+    "node.not_overridden": {
+        "name": "def onCycle",
+        "written": "def on_cycle",
+        "method": "on_cycle",
+        "line": "12",
+    },
     "node.field_order": {"name": "text", "type": "State"},
     "node.self_late": {
         "method": "text_of",

@@ -24,6 +24,7 @@ from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
 from grader.mistakes.scope import CALLBACK, NODE_METHODS, OUTSIDE
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
+from grader.package.source.imported import imports
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node_here import node_here
@@ -76,6 +77,10 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return replace(found, variant="period")
     if (own := _class_for(raised, name)) is not None:
         return _instead(raised.finding("name_unknown", name=name, close=own))
+    parts = [full for _, full, _ in imports(raised.module) if full.rpartition(".")[2] == name]
+    plain = [p for p in parts if f"import {p}" in raised.module.text.text and "." in p]
+    if plain and f"{name}." in raised.module.line(raised.line):
+        return _instead(raised.finding("name_unknown", name=name, close=plain[0]))
     seen = {*visible_names(raised.module, raised.line, name), *IMPORTS}
     known = (_known(raised, name) & seen) - {name, "None", "True", "False"}
     if bindings(raised.module, name):

@@ -35,7 +35,10 @@ NO_TEXT = msg(
 PASTED_WHYS = {
     "sign": KEYBOARD,
     **dict.fromkeys(("command", "heredoc", "editor"), TYPED),
-    **dict.fromkeys(("page", "markup", "word", "conflict", "numbers", "prose", "around"), NO_CODE),
+    **dict.fromkeys(
+        ("page", "markup", "word", "conflict", "conflict_rest", "numbers", "prose", "around"),
+        NO_CODE,
+    ),
     **dict.fromkeys(("office", "pdf", "compiled", "archive"), NO_TEXT),
     **dict.fromkeys(("output", "note", "patch", "number_lines", "jupyter"), NO_CODE),
     **dict.fromkeys(("notebook", "notebook_below"), IN_JSON),
@@ -84,6 +87,10 @@ PASTED = {
     "numbers": msg("Remove the line numbers from the start of the lines: they are not code."),
 }
 DOCUMENTS = {
+    "conflict_rest": msg(
+        "Delete this line: git writes such lines where two versions of a file differ. Check that the "
+        "code above it is the version that you want."
+    ),
     "page": msg(
         "This file is a web page, not the code that the page shows. Copy only the code into the "
         "file (on GitHub: the button Raw)."

@@ -75,6 +75,7 @@ PASTED = [
     ("Here is the corrected code:\na = 1\n", "prose", 1, "a = 1\n"),
 ]  # fmt: skip
 DOCUMENTS = [
+    ("a = 1\n>>>>>>> Stashed changes\nb = 1\n", "conflict_rest", 2, "a = 1\nb = 1\n"),
     ("\n<!DOCTYPE html>\n<html>\n", "page", 2, ""),
     ("<?xml version='1.0'?>\n<package>\n", "markup", 1, ""),
     ('{"cells": [\n', "notebook", 1, ""),

@@ -87,6 +87,9 @@ CONFLICT = re.compile(r"^(?:<{7}|={7}|>{7})(?: |$)")
 def _conflict(text: Broken) -> Slip | None:
     """Return the first mark that git wrote where two versions of the file differ."""
     marks = [n for n, _ in enumerate(text.source.lines, 1) if CONFLICT.match(text.source.line(n))]
+    if len(marks) == 1 and text.number == marks[0]:
+        new = text.changed(text.source.without(marks[0]))
+        return Slip("document", "conflict_rest", marks[0], text.source.line(marks[0]), "", new)
     if len(marks) < 2 or text.number not in marks:
         return None
     last = str(marks[min(2, len(marks) - 1)])
