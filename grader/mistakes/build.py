@@ -10,6 +10,7 @@ from grader.mistakes.encodings import DECLARED, ENCODINGS, NOT_UTF8
 from grader.mistakes.example import CFG, SETUP, example
 from grader.mistakes.fixes import setup_cfg, setup_py, syntax
 from grader.mistakes.kind import Kind, Parts, Variants
+from grader.mistakes.package_dir import SOURCE_FOLDERS
 from grader.mistakes.slips import (
     DOCUMENTS,
     LANGUAGE,
@@ -925,15 +926,7 @@ KINDS = (
             "no_copy_close": msg(
                 "Write {wanted} instead of {name} in data_files, then build again."
             ),
-            "package_dir_alone": msg(
-                "package_dir leads to the folder {name}, and the package has no such folder. Delete "
-                "package_dir, then build again: without it, setuptools looks for the packages beside "
-                "setup.py."
-            ),
-            "package_dir": msg(
-                "package_dir leads to the folder {name}, and the package has no such folder. Delete "
-                "package_dir and write {wanted}, then build again."
-            ),
+            **SOURCE_FOLDERS,
             "no_copy": msg(
                 "data_files in setup.py lists {name}, and the package has no such file (a folder is "
                 "none). Delete it from data_files, or create the file, then build again."

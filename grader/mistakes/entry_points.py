@@ -21,6 +21,7 @@ from grader.mistakes.example import (
 )
 from grader.mistakes.fixes import entries, layout, setup_py
 from grader.mistakes.kind import Kind, Parts
+from grader.mistakes.package_dir import SOURCE_FOLDER, SOURCE_FOLDERS
 from grader.package.edit.tree import Delete, Move, Replace, Write
 
 if TYPE_CHECKING:
@@ -818,8 +819,11 @@ KINDS = (
             "setup.py is a program: what it does besides setup() can change what is installed. "
             "Others read the sources, and expect the package to be what they say."
         ),
+        whys=dict.fromkeys(SOURCE_FOLDERS, SOURCE_FOLDER),
         fix=msg("Remove what setup.py does besides calling setup()."),
+        fixes=SOURCE_FOLDERS,
         link=links.DEVELOPING,
+        fixed_by=(setup_py.fault,),
         examples=(
             example(
                 "script_rewritten",
@@ -835,6 +839,16 @@ KINDS = (
                     "    pass\n",
                 ),
                 fails="entry_point.executable",
+            ),
+            example(
+                "package_dir_leads_nowhere",
+                Replace(
+                    SETUP,
+                    "    packages=find_packages(exclude=['test']),",
+                    "    packages=find_packages(exclude=['test']),\n    package_dir={'': 'src'},",
+                ),
+                fails="entry_point.executable",
+                note="the entry's module is looked for in src/, which is not there",
             ),
         ),
     ),

@@ -462,7 +462,9 @@ def _no_source_folder(reader: _Reader, match: re.Match[str]) -> SetupFault | Non
     text = reader.module.text
     splices = reader.without(keyword, reader.call.keywords)
     words = {"name": match["path"]}
-    if not isinstance(packages, ast.Call) or not (packages.args or packages.keywords):
+    if not isinstance(packages, ast.Call) or not (
+        packages.args or any(k.arg in (None, "where") for k in packages.keywords)
+    ):
         return reader.fault("package_dir_alone", keyword, *splices, **words)
     if dotted(packages.func).rpartition(".")[2] not in FINDERS:
         return None
@@ -473,10 +475,24 @@ def _no_source_folder(reader: _Reader, match: re.Match[str]) -> SetupFault | Non
 
 def _leads_to(reader: _Reader, package_dir: ast.expr, path: str) -> bool:
     """Whether a folder is one that package_dir names, or is in it."""
-    table = Evaluator(reader.module.tree, reader.module.text.text).value(package_dir)
+    folders = _folders(reader.module, package_dir)
+    return any(f"{path}/".startswith(f"{folder}/") for folder in folders)
+
+
+def source_folders(found: bytes) -> list[str]:
+    """Return the folders to which `package_dir` of a setup.py leads."""
+    module = parsed_setup(found)
+    call = setup_call(module) if module is not None else None
+    if module is None or call is None:
+        return []
+    return [f for k in call.keywords if k.arg == "package_dir" for f in _folders(module, k.value)]
+
+
+def _folders(module: Module, package_dir: ast.expr) -> list[str]:
+    table = Evaluator(module.tree, module.text.text).value(package_dir)
     named = [v for _, v in table.pairs] if isinstance(table, Table) else []
     folders = [value.value.strip("/") for value in named if isinstance(value, Text)]
-    return any(f"{path}/".startswith(f"{folder}/") for folder in folders if folder)
+    return [folder for folder in folders if folder]
 
 
 def _of_ros_1(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
