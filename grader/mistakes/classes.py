@@ -10,7 +10,7 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.constructor import PRIVATE
 from grader.mistakes.example import DEAD, NODE, SILENT, STEP_LINE, example
-from grader.mistakes.fixes import lines, node_classes
+from grader.mistakes.fixes import node_classes
 from grader.mistakes.kind import Family
 from grader.mistakes.order import spun_names
 from grader.mistakes.recognised import (
@@ -66,24 +66,26 @@ def _not_overridden(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a method that nothing calls, with nearly the name of an empty one of a base class."""
     source = suspect.source
     named = {n.attr for n in source.all_nodes if isinstance(n, ast.Attribute)}
-    empty = [
-        m
-        for module in source.modules
-        for owner in module.classes
-        for m in owner.body
-        if isinstance(m, ast.FunctionDef) and m.name in named and _is_empty(m)
-    ]
-    own = source.node_class.body if source.node_class is not None else []
-    for method in own:
-        if not isinstance(method, ast.FunctionDef) or method.name in named:
-            continue
-        plain = method.name.replace("_", "").lower()
-        for base in empty:
-            if base.name != method.name and base.name.replace("_", "").lower() == plain:
-                params = {"name": f"def {method.name}", "written": f"def {base.name}"}
-                found = suspect.finding("not_overridden", method, **params)
-                words = {"method": base.name, "line": str(base.lineno)}
-                return replace(found, words={**found.words, **words})
+    classes = [c for module in source.modules for c in module.classes]
+    for derived in classes:
+        bases = {dotted(base).rpartition(".")[2] for base in derived.bases}
+        empty = [
+            m
+            for owner in classes
+            if owner.name in bases
+            for m in owner.body
+            if isinstance(m, ast.FunctionDef) and m.name in named and _is_empty(m)
+        ]
+        for method in derived.body:
+            if not isinstance(method, ast.FunctionDef) or method.name in named:
+                continue
+            plain = method.name.replace("_", "").lower()
+            for base in empty:
+                if base.name != method.name and base.name.replace("_", "").lower() == plain:
+                    params = {"name": f"def {method.name}", "written": f"def {base.name}"}
+                    found = suspect.finding("not_overridden", method, **params)
+                    words = {"method": base.name, "line": str(base.lineno)}
+                    return replace(found, words={**found.words, **words})
     return None
 
 
@@ -299,7 +301,6 @@ KINDS = (
         links.PYTHON_CLASSES,
         raised={r"NotImplementedError": _not_overridden_raised},
         behind={"run.no_lines": _not_overridden, "run.constant_counter": _not_overridden},
-        fixed_by=(lines.written,),
     ),
     _node(
         "field_order",
