@@ -209,6 +209,22 @@ def _other_section(case: Case, text: SourceText, line: str) -> Files | None:
     return case.with_data(FILE, new) if new and _is_read(new) else None
 
 
+def entry_indented(case: Case) -> Files | None:
+    """Indent the entry, and the entries below it that are not indented either."""
+    found, line = case.files.data(FILE), case.finding.line
+    text = read_text(found)
+    if text is None or line is None:
+        return None
+    splices = []
+    for number in range(line, len(text.lines) + 1):
+        if not re.match(r"\w[\w.-]*[ \t]*=[ \t]*[\w.]+:\w+[ \t]*$", text.line(number)):
+            break
+        at = text.start_of(number)
+        splices.append(Splice(at, at, "    "))
+    new = text.spliced(splices) if splices else None
+    return case.with_data(FILE, new) if new and _is_read(new) else None
+
+
 def _is_read(found: bytes) -> bool:
     try:
         read_setup_cfg(found)

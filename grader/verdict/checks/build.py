@@ -115,6 +115,8 @@ def colcon_builds(evidence: Evidence) -> Passed:
     of_group = evidence.has_mistake("entry_point.mapping", "setup.group_misspelt")
     if of_group and BAD_GROUP in build.log:
         raise Blocked(by="entry_point.mapping")
+    if evidence.has_mistake("entry_point.mapping", "setup.entry_at_margin"):
+        raise Blocked(by="entry_point.mapping")
     if evidence.has_failed("entry_point.mapping") and NEVER_CALLED in build.log:
         raise Blocked(by="entry_point.mapping")
     lost = NO_FOLDER.search(build.log)
@@ -373,6 +375,7 @@ def _not_packaged(evidence: Evidence, expected: str, folder: str) -> Failed:
             variant = "library" if folder in LIBRARIES else variant
         elif found.is_there or (found.is_moved and not found.is_text):
             variant = "unknown_folder"
+        variant = "made_name" if found.variable else variant
     return Failed(
         "setup.not_packaged",
         expected=expected,
@@ -383,7 +386,7 @@ def _not_packaged(evidence: Evidence, expected: str, folder: str) -> Failed:
         words={
             "wanted": found.wanted,
             "statement": found.statement,
-            "name": found.misspelt,
+            "name": found.variable or found.misspelt,
             "path": folder,
         },
     )
