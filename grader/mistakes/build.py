@@ -109,6 +109,7 @@ REFUSED = {
         "file]). Correct this line, then build again: {found}"
     ),
 }
+FORMS = ("pair_open", "pair_swapped", "absolute", "folder_absolute", "py_modules", "py_modules_too")
 NOT_ACCEPTED = msg(
     "colcon runs setup.py to install the package into the workspace's install folder. The "
     "build stops at a value of setup() that it cannot use."
@@ -181,7 +182,7 @@ KINDS = (
             **dict.fromkeys(ENCODINGS, NOT_UTF8),
             "declared": DECLARED,
             **dict.fromkeys(("no_file", "no_file_above", "no_file_value", "no_file_other"), OPENED),
-            **dict.fromkeys((*REFUSED, "inside", "path_object"), NOT_ACCEPTED),
+            **dict.fromkeys((*REFUSED, *FORMS, "inside", "path_object"), NOT_ACCEPTED),
             **dict.fromkeys(LANGUAGE, OTHER_LANGUAGE),
             **dict.fromkeys(SIGNS, UNREADABLE),
         },
@@ -295,6 +296,30 @@ KINDS = (
                 "The build stopped at a value of setup(), or of [metadata] or [options] in setup.cfg "
                 "if you have them. Compare each value with a setup.py that ros2 pkg create makes, and "
                 "with what the error says. Correct what differs, then build again."
+            ),
+            "pair_open": msg(
+                "Each line of data_files is a folder and a list of files, in round brackets. Write "
+                "( before each folder and ) behind its list: {wanted}, then build again."
+            ),
+            "pair_swapped": msg(
+                "In each line of data_files, the folder is the first part, and the list of files the "
+                "second. Write: {wanted}, then build again."
+            ),
+            "absolute": msg(
+                "The files of data_files are named by their path from the folder of setup.py. Write "
+                "{wanted} instead of {found}, then build again."
+            ),
+            "folder_absolute": msg(
+                "The folders of data_files are below the install folder, so their names do not begin "
+                "with /. Write {wanted} instead of {found}, then build again."
+            ),
+            "py_modules": msg(
+                "py_modules= is for single files beside setup.py, and there is no {name}. Write "
+                "instead of it: {wanted}, then build again."
+            ),
+            "py_modules_too": msg(
+                "py_modules= is for single files beside setup.py, and there is no {name}. Delete "
+                "py_modules=, then build again."
             ),
             "path_object": msg(
                 "colcon reads only texts here. Write str(…) around each path of pathlib in {argument}, "
@@ -736,6 +761,10 @@ KINDS = (
                 "Write {{ and }} instead of the outer brackets, and a colon instead of the comma "
                 "between them. Then build again."
             ),
+            "entries_set": msg(
+                "entry_points is a dict: the name of a group, a colon, and the list of its entries. "
+                "Write entry_points={wanted}, then build again."
+            ),
             "entries_dict": msg(
                 "In {name}, each entry is one text, 'name = package.module:function', in a list. "
                 "Write instead of the inner braces: {wanted}. Then build again."
@@ -771,7 +800,10 @@ KINDS = (
                 "condition is never true, and nothing is installed."
             ),
             **dict.fromkeys(
-                ("refused", "entries_list", "entries_pair", "entries_dict", *REFUSED),
+                (
+                    *("refused", "entries_list", "entries_pair", "entries_set", "entries_dict"),
+                    *REFUSED,
+                ),
                 msg(
                     "setuptools stops at a value that it does not accept. colcon then says only "
                     "that distutils.core.setup() was never called."

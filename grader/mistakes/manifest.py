@@ -170,6 +170,10 @@ KINDS = (
                 "Delete everything below the first </package>, from this line to the end of the file."
             ),
             "typed": msg("A sign of a tag in this line is missing or wrong. Write: {wanted}"),
+            "typed_lines": msg(
+                "A sign of a tag in this line is missing or wrong, and so in other lines of the file. "
+                "Write here: {wanted} Correct the other lines in the same way."
+            ),
             "line_twice": msg(
                 "This line and line {wanted} above it are the same. Delete one of them."
             ),

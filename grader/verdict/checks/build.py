@@ -113,9 +113,8 @@ def colcon_builds(evidence: Evidence) -> Passed:
     if evidence.has_failed("package.setup_cfg") and option and option[2] in KEYS.values():
         raise Blocked(by="package.setup_cfg")
     of_group = evidence.has_mistake("entry_point.mapping", "setup.group_misspelt")
-    if of_group and BAD_GROUP in build.log:
-        raise Blocked(by="entry_point.mapping")
-    if evidence.has_mistake("entry_point.mapping", "setup.entry_at_margin"):
+    at_margin = evidence.has_mistake("entry_point.mapping", "setup.entry_at_margin")
+    if at_margin or (of_group and BAD_GROUP in build.log):
         raise Blocked(by="entry_point.mapping")
     if evidence.has_failed("entry_point.mapping") and NEVER_CALLED in build.log:
         raise Blocked(by="entry_point.mapping")
@@ -465,10 +464,10 @@ def _plain(body: list[ast.stmt]) -> list[ast.stmt]:
 
 def _never(variant: str) -> Message:
     """Return what is known if setup() did not finish its work."""
-    if variant in ("entries_list", "entries_pair", "entries_dict") or variant.startswith("refused"):
+    if variant.startswith("entries_") or variant.startswith("refused"):
         return say("setuptools stopped in setup(), and gave no reason")
     if variant == "guard":
-        return say("the condition above setup() is never true, so nothing calls it")
+        return say("the condition in this line is never true, so nothing calls setup()")
     if variant == "not_done":
         return say("setup.py ended, and setup() had not done its work")
     return say("setup.py ended before it called setup()")

@@ -9,7 +9,8 @@ import ast
 import re
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import say
+from grader.base.i18n.message import joined, say
+from grader.base.nearest import with_difference
 from grader.base.shown import shown
 from grader.package.source.names import dotted
 from grader.package.source.setup_packages import parsed_setup, setup_call
@@ -48,10 +49,11 @@ def mapping(evidence: Evidence) -> Passed:
             if target.replace(" ", "") == assignment.target:
                 entry = f"{name} = {target}"
                 return Passed(actual=say("{entry} (as setup.py computes it)", entry=entry))
-            raise _computed(evidence, f"{name} = {target}")
+            found = f"{name} = {target}"
+            raise _computed(evidence, with_difference(found, found, wanted_entry(evidence)))
     if evidence.build.status != 0 and setup_error(evidence.build.log)[0]:
         raise Blocked(by="build.colcon")
-    none = say("no entry named {executable}", executable=assignment.executable)
+    none = _other_names(evidence)
     raise _computed(evidence, none)
 
 
@@ -80,6 +82,13 @@ def _other_name(evidence: Evidence) -> list[str]:
             name=name,
         )
     ]
+
+
+def _other_names(evidence: Evidence) -> str:
+    """Return that no entry has the name, and the names that setup.py makes."""
+    names = ", ".join(shown(name) for name, _ in scripts(evidence.build.entry_points)[:4])
+    none = say("no entry named {executable}", executable=evidence.assignment.executable)
+    return joined(none, say("there are only: {names}", names=names), by=", ") if names else none
 
 
 def _computed(evidence: Evidence, actual: str) -> Failed:
