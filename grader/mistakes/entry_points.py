@@ -916,6 +916,10 @@ KINDS = (
         },
         fix=msg("Write the entry into setup.py's entry_points, under console_scripts: '{wanted}',"),
         fixes={
+            "made": msg(
+                "Write the entry itself instead of the code that makes it: '{wanted}'. Or correct the "
+                "values from which that code makes it. Then build again."
+            ),
             "twice": msg("Delete this call of setup()."),
             "replaced": msg(
                 "Delete this statement, or write the entry into it, under console_scripts: '{wanted}',"

@@ -48,6 +48,9 @@ def _copies(tree: Tree, package: str, node_file: str) -> Iterator[str]:
             copy = f"{path}/{package}/{node_file}"
             if _is_own(tree, copy):
                 yield copy
+        written_there = f"{folder}/{package}/{node_file}"
+        if folder.rpartition("/")[2] == "build" and _is_own(tree, written_there):
+            yield written_there
 
 
 def _places(tree: Tree, folder: str, package: str) -> Iterator[str]:

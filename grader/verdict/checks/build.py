@@ -65,6 +65,7 @@ IGNORED = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 """Files for which colcon passes over a folder."""
 EXITS = ("exit", "quit", "sys.exit", "os._exit", "os.abort")
 NEVER_CALLED = "was never called"
+NO_MARKER = "doesn't explicitly install a marker in the package index"
 BAD_GROUP = "ValueError: ('Invalid group name', "
 ANSWER = 'File "<unknown>", line '  # colcon evaluates setup.py's output, which has no file name
 
@@ -97,7 +98,8 @@ def colcon_builds(evidence: Evidence) -> Passed:
                 "{command}: 1 package finished in {seconds} s",
                 command=build.command,
                 seconds=f"{build.seconds:.1f}",
-            )
+            ),
+            advice=_no_marker(evidence),
         )
     for cause in ("package.manifest", "package.marker"):
         if evidence.has_failed(cause) and (build.status == 0 or _is_about(cause, evidence)):
@@ -123,6 +125,20 @@ def colcon_builds(evidence: Evidence) -> Passed:
     if is_inner and evidence.has_failed("source.node_file"):
         raise Blocked(by="source.node_file")  # (the inner folder has another name)
     raise _encoding(evidence) or _broken(evidence)
+
+
+def _no_marker(evidence: Evidence) -> list[str]:
+    """Return advice if the build installed no marker, and package.marker has not said so."""
+    if evidence.has_failed("package.marker") or NO_MARKER not in evidence.build.log:
+        return []
+    return [
+        say(
+            "Look at data_files in setup.py: the build gets no line from it that installs "
+            "resource/{package} as the marker. colcon added it this time, but warns that it will "
+            "stop doing so.",
+            package=evidence.assignment.package,
+        )
+    ]
 
 
 def _must_be_the_only_one(evidence: Evidence) -> None:

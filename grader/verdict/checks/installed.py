@@ -99,14 +99,27 @@ def _computed(evidence: Evidence, actual: str) -> Failed:
     if found is None:
         found, variant = _called_twice(evidence), "twice"
     variant = "project" if _in_project(evidence) else variant if found else ""
+    line = found[1] if found else None
+    if not variant and scripts(evidence.build.entry_points):
+        line = _line_of_group(evidence)
+        variant = "made" if line else ""
     return Failed(
         "entry_point.computed_mapping",
         expected=say("'{entry}' among the console_scripts", entry=entry),
         actual=actual,
-        where=Where(file="setup.py", line=found[1] if found else None),
+        where=Where(file="setup.py", line=line),
         variant=variant,
         words={"wanted": entry, "line": str(found[0]) if found else ""},
     )
+
+
+def _line_of_group(evidence: Evidence) -> int | None:
+    """Return the one line of setup.py that names console_scripts; None if there are others."""
+    file = file_of(evidence, "setup.py")
+    module = parsed_setup(file.data) if file is not None else None
+    texts = [n for n in module.nodes if isinstance(n, ast.Constant)] if module is not None else []
+    lines = [text.lineno for text in texts if text.value == "console_scripts"]
+    return lines[0] if len(lines) == 1 else None
 
 
 def _called_twice(evidence: Evidence) -> tuple[int, int] | None:
