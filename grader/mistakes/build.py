@@ -396,6 +396,59 @@ KINDS = (
                 blocks=("entry_point.mapping",),
             ),
             example(
+                "setup_lines_of_data_files_without_brackets",
+                Replace(SETUP, "        ('share/ament", "        'share/ament"),
+                Replace(SETUP, "['resource/' + package_name]),", "['resource/' + package_name],"),
+                Replace(
+                    SETUP,
+                    "('share/' + package_name, ['package.xml']),",
+                    "'share/' + package_name, ['package.xml'],",
+                ),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_line_of_data_files_exchanged",
+                Replace(
+                    SETUP,
+                    "('share/' + package_name, ['package.xml']),",
+                    "(['package.xml'], 'share/' + package_name),",
+                ),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_file_of_data_files_absolute",
+                Replace(
+                    SETUP,
+                    "\nsetup(\n",
+                    "\nimport os\n\nHERE = os.path.dirname(os.path.realpath(__file__))\n\nsetup(\n",
+                ),
+                Replace(SETUP, "['package.xml']", "[os.path.join(HERE, 'package.xml')]"),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_folder_of_data_files_absolute",
+                Replace(SETUP, "('share/' + package_name,", "('/share/' + package_name,"),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_py_modules_for_packages",
+                Replace(
+                    SETUP,
+                    "packages=find_packages(exclude=['test'])",
+                    "py_modules=['my_first_node']",
+                ),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_py_modules_beside_packages",
+                Replace(
+                    SETUP,
+                    "    zip_safe=True,\n",
+                    "    zip_safe=True,\n    py_modules=['my_first_node'],\n",
+                ),
+                fails="build.colcon",
+            ),
+            example(
                 "setup_reads_a_file_of_the_folder_above",
                 Replace(SETUP, "\nsetup(\n", "\nopen('../package.xml').close()\n\nsetup(\n"),
                 fails="build.colcon",
@@ -836,6 +889,36 @@ KINDS = (
                 "setup_guard_misspelt",
                 Replace(SETUP, "\nsetup(\n", "\nif __name__ == 'main':\n  setup(\n"),
                 fails="build.colcon",
+            ),
+            example(
+                "setup_guard_misspelt_below_its_function",
+                Replace(SETUP, "\nsetup(\n", "\ndef main():\n  setup(\n"),
+                Replace(
+                    SETUP, "    },\n)\n", "    },\n)\n\n\nif __name__ == 'main':\n    main()\n"
+                ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "entry_points_as_a_set",
+                Replace(
+                    SETUP,
+                    "'console_scripts': [\n"
+                    "            'test_node = my_robot_controller.my_first_node:main',\n"
+                    "        ],",
+                    "'console_scripts',\n"
+                    "        ('test_node = my_robot_controller.my_first_node:main'),",
+                ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "entry_points_as_list_in_the_settings",
+                Replace(SETUP, "setup(\n", "settings = dict(\n"),
+                Replace(SETUP, "entry_points={\n        'console_scripts': [", "entry_points=["),
+                Replace(SETUP, "        ],\n    },\n)\n", "    ],\n)\n\nsetup(**settings)\n"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
             ),
             example(
                 "entry_points_as_list",

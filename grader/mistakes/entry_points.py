@@ -944,6 +944,16 @@ KINDS = (
                 blocks=UNINSTALLED,
             ),
             example(
+                "entry_made_with_the_ending",
+                Replace(
+                    SETUP,
+                    "'test_node = my_robot_controller.my_first_node:main',",
+                    "*[f'test_node = {package_name}.{name}:main' for name in ('my_first_node.py',)],",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNSTARTED,
+            ),
+            example(
                 "setup_called_twice",
                 Replace(
                     SETUP,

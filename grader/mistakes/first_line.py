@@ -123,7 +123,7 @@ KINDS = (
                 "Change CRLF to LF (in VS Code: at the bottom right). Or run, in the package's "
                 "folder: sed -i 's/\\r$//' {there} (or, if you have already moved or renamed the "
                 "file: sed -i 's/\\r$//' {path})"
-            )
+            ),
         },
         seen=r"python3(?:\\r|\r|\^M)['\u2019]?: No such file or directory",
         fixed_by=(first_line.line_ends,),

@@ -166,7 +166,9 @@ KINDS = (
         title=msg("setup.cfg installs executables where ros2 run does not look"),
         why=OTHER_PLACE,
         whys={
-            **dict.fromkeys(("key", "misspelt", "heading", "section", "swapped", "one_line"), TWO_SECTIONS),
+            **dict.fromkeys(
+                ("key", "misspelt", "heading", "section", "swapped", "one_line"), TWO_SECTIONS
+            ),
             "indented": msg(
                 "In setup.cfg, a line that begins with a space continues the line above. So this "
                 "line, and those below it, belong to the value above, and begin no section."
@@ -184,7 +186,7 @@ KINDS = (
             ),
             "capitals": msg(
                 "setup.cfg sets where executables are installed, and ros2 run looks only in "
-                "lib/<package>. The names of variables are in small letters: a build that uses this "
+                "lib/<package>. This variable has a name in small letters: a build that uses this "
                 "path stops at {name}."
             ),
             "quotes": msg(
@@ -282,6 +284,20 @@ KINDS = (
                         "install_scripts=$base/lib/my_robot_controller  # for ros2 run\n"
                     ),
                 ),
+                fails="package.setup_cfg",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "setup_cfg_base_in_capitals",
+                Replace(CFG, "script_dir=$base", "script_dir=$BASE"),
+                Replace(CFG, "install_scripts=$base", "install_scripts=$BASE"),
+                fails="package.setup_cfg",
+                blocks=UNBUILT,
+            ),
+            example(
+                "setup_cfg_settings_behind_headings",
+                Replace(CFG, "[develop]\n", "[develop] "),
+                Replace(CFG, "[install]\n", "[install] "),
                 fails="package.setup_cfg",
                 blocks=UNINSTALLED,
             ),

@@ -508,7 +508,9 @@ def _in_settings(reader: _Reader) -> ast.expr | None:
 def _entries_set(reader: _Reader, points: ast.Set) -> SetupFault | None:
     """A comma instead of the colon between the name of a group and its entries."""
     text = reader.module.text
-    if len(points.elts) != 2 or not all(isinstance(e, ast.Constant | ast.Tuple) for e in points.elts):
+    if len(points.elts) != 2 or not all(
+        isinstance(e, ast.Constant | ast.Tuple) for e in points.elts
+    ):
         return None
     group, entries = points.elts
     items = entries.elts if isinstance(entries, ast.Tuple) else [entries]
