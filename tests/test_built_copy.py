@@ -59,6 +59,15 @@ def test_the_copy_of_a_missing_file_is_named(bench: Bench) -> None:
     assert BUILD in failed.fix
 
 
+def test_a_node_that_was_written_in_the_build_folder_is_named(bench: Bench) -> None:
+    there = f"build/{NAME}/my_first_node.py"
+    add_copy(bench, there, 1)
+    (bench.root / "src" / NAME / NODE).unlink()
+    failed = bench.fails(source.node_file)
+    assert mistake(failed) == "source.no_node_file"
+    assert there in failed.fix
+
+
 def test_a_newer_copy_is_advice(bench: Bench) -> None:
     add_copy(bench, BUILD, 1_000_100)
     assert BUILD in advice(bench)

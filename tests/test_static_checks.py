@@ -431,6 +431,6 @@ def test_what_only_a_build_installs_is_to_be_built_again(kind: str, variant: str
 
 def test_a_wrong_path_in_setup_cfg_is_not_said_to_be_bin(bench: Bench) -> None:
     bench.change("setup.cfg", "script_dir=$base/lib/my_robot_controller", "script_dir=$base/lib/x")
-    assert "installed in another folder" in bench.fails(package.setup_cfg).rationale
+    assert "get into another folder" in bench.fails(package.setup_cfg).rationale
     bench.change("setup.cfg", "script_dir=$base/lib/x\n", "")
     assert "installed in bin" in bench.fails(package.setup_cfg).rationale

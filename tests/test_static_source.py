@@ -368,6 +368,14 @@ def test_a_first_line_without_python_is_reported(bench: Bench, start: str, wante
     assert failed.where.file == NODE
 
 
+def test_lines_that_end_with_cr_alone_are_changed_to_lf(bench: Bench) -> None:
+    bench.write(NODE, "#!/usr/bin/env python3\rdef main():\r    pass\r")
+    failed = bench.fails(source.shebang)
+    assert mistake(failed) == "source.crlf"
+    assert "CRLF" not in failed.actual
+    assert failed.fix.endswith(f"sed -i 's/\\r/\\n/g' {NODE}")
+
+
 @pytest.mark.parametrize(
     "start",
     [

@@ -110,6 +110,7 @@ REFUSED = {
         "file]). Correct this line, then build again: {found}"
     ),
 }
+FORMS = ("pair_open", "pair_swapped", "absolute", "folder_absolute", "py_modules", "py_modules_too")
 NOT_ACCEPTED = msg(
     "colcon runs setup.py to install the package into the workspace's install folder. The "
     "build stops at a value of setup() that it cannot use."
@@ -182,7 +183,7 @@ KINDS = (
             **dict.fromkeys(ENCODINGS, NOT_UTF8),
             "declared": DECLARED,
             **dict.fromkeys(("no_file", "no_file_above", "no_file_value", "no_file_other"), OPENED),
-            **dict.fromkeys((*REFUSED, "inside", "path_object"), NOT_ACCEPTED),
+            **dict.fromkeys((*REFUSED, *FORMS, "inside", "path_object"), NOT_ACCEPTED),
             **dict.fromkeys(LANGUAGE, OTHER_LANGUAGE),
             **dict.fromkeys(SIGNS, UNREADABLE),
         },
@@ -301,6 +302,30 @@ KINDS = (
                 "if you have them. Compare each value with a setup.py that ros2 pkg create makes, and "
                 "with what the error says. Correct what differs, then build again."
             ),
+            "pair_open": msg(
+                "Each line of data_files is a folder and a list of files, in round brackets. Write "
+                "( before each folder and ) behind its list: {wanted}, then build again."
+            ),
+            "pair_swapped": msg(
+                "In each line of data_files, the folder is the first part, and the list of files the "
+                "second. Write: {wanted}, then build again."
+            ),
+            "absolute": msg(
+                "The files of data_files are named by their path from the folder of setup.py. Write "
+                "{wanted} instead of {found}, then build again."
+            ),
+            "folder_absolute": msg(
+                "The folders of data_files are below the install folder, so their names do not begin "
+                "with /. Write {wanted} instead of {found}, then build again."
+            ),
+            "py_modules": msg(
+                "py_modules= is for single files beside setup.py, and there is no {name}. Write "
+                "instead of it: {wanted}, then build again."
+            ),
+            "py_modules_too": msg(
+                "py_modules= is for single files beside setup.py, and there is no {name}. Delete "
+                "py_modules=, then build again."
+            ),
             "path_object": msg(
                 "colcon reads only texts here. Write str(…) around each path of pathlib in {argument}, "
                 "then build again."
@@ -383,6 +408,59 @@ KINDS = (
                 Replace(SETUP, "    },\n)\n", "    },\n)\n\nsetup(*settings)\n"),
                 fails="build.colcon",
                 blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_lines_of_data_files_without_brackets",
+                Replace(SETUP, "        ('share/ament", "        'share/ament"),
+                Replace(SETUP, "['resource/' + package_name]),", "['resource/' + package_name],"),
+                Replace(
+                    SETUP,
+                    "('share/' + package_name, ['package.xml']),",
+                    "'share/' + package_name, ['package.xml'],",
+                ),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_line_of_data_files_exchanged",
+                Replace(
+                    SETUP,
+                    "('share/' + package_name, ['package.xml']),",
+                    "(['package.xml'], 'share/' + package_name),",
+                ),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_file_of_data_files_absolute",
+                Replace(
+                    SETUP,
+                    "\nsetup(\n",
+                    "\nimport os\n\nHERE = os.path.dirname(os.path.realpath(__file__))\n\nsetup(\n",
+                ),
+                Replace(SETUP, "['package.xml']", "[os.path.join(HERE, 'package.xml')]"),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_folder_of_data_files_absolute",
+                Replace(SETUP, "('share/' + package_name,", "('/share/' + package_name,"),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_py_modules_for_packages",
+                Replace(
+                    SETUP,
+                    "packages=find_packages(exclude=['test'])",
+                    "py_modules=['my_first_node']",
+                ),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_py_modules_beside_packages",
+                Replace(
+                    SETUP,
+                    "    zip_safe=True,\n",
+                    "    zip_safe=True,\n    py_modules=['my_first_node'],\n",
+                ),
+                fails="build.colcon",
             ),
             example(
                 "setup_reads_a_file_of_the_folder_above",
@@ -750,6 +828,10 @@ KINDS = (
                 "Write {{ and }} instead of the outer brackets, and a colon instead of the comma "
                 "between them. Then build again."
             ),
+            "entries_set": msg(
+                "entry_points is a dict: the name of a group, a colon, and the list of its entries. "
+                "Write entry_points={wanted}, then build again."
+            ),
             "entries_dict": msg(
                 "In {name}, each entry is one text, 'name = package.module:function', in a list. "
                 "Write instead of the inner braces: {wanted}. Then build again."
@@ -785,7 +867,10 @@ KINDS = (
                 "condition is never true, and nothing is installed."
             ),
             **dict.fromkeys(
-                ("refused", "entries_list", "entries_pair", "entries_dict", *REFUSED),
+                (
+                    *("refused", "entries_list", "entries_pair", "entries_set", "entries_dict"),
+                    *REFUSED,
+                ),
                 msg(
                     "setuptools stops at a value that it does not accept. colcon then says only "
                     "that distutils.core.setup() was never called."
@@ -818,6 +903,36 @@ KINDS = (
                 "setup_guard_misspelt",
                 Replace(SETUP, "\nsetup(\n", "\nif __name__ == 'main':\n  setup(\n"),
                 fails="build.colcon",
+            ),
+            example(
+                "setup_guard_misspelt_below_its_function",
+                Replace(SETUP, "\nsetup(\n", "\ndef main():\n  setup(\n"),
+                Replace(
+                    SETUP, "    },\n)\n", "    },\n)\n\n\nif __name__ == 'main':\n    main()\n"
+                ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "entry_points_as_a_set",
+                Replace(
+                    SETUP,
+                    "'console_scripts': [\n"
+                    "            'test_node = my_robot_controller.my_first_node:main',\n"
+                    "        ],",
+                    "'console_scripts',\n"
+                    "        ('test_node = my_robot_controller.my_first_node:main'),",
+                ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "entry_points_as_list_in_the_settings",
+                Replace(SETUP, "setup(\n", "settings = dict(\n"),
+                Replace(SETUP, "entry_points={\n        'console_scripts': [", "entry_points=["),
+                Replace(SETUP, "        ],\n    },\n)\n", "    ],\n)\n\nsetup(**settings)\n"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
             ),
             example(
                 "entry_points_as_list",

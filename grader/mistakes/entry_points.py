@@ -12,6 +12,7 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import (
     BODY_OF_MAIN,
+    CFG,
     NODE,
     SETUP,
     UNBUILT,
@@ -19,7 +20,7 @@ from grader.mistakes.example import (
     UNSTARTED,
     example,
 )
-from grader.mistakes.fixes import entries, layout, setup_py
+from grader.mistakes.fixes import entries, layout, setup_cfg, setup_py
 from grader.mistakes.kind import Kind, Parts
 from grader.mistakes.package_dir import SOURCE_FOLDER, SOURCE_FOLDERS
 from grader.package.edit.tree import Delete, Move, Replace, Write
@@ -414,6 +415,43 @@ KINDS = (
         ),
     ),
     Kind(
+        id="setup.entry_at_margin",
+        stage="entry point",
+        title=msg("the entry in setup.cfg is not indented"),
+        why=msg(
+            "In setup.cfg, a line that begins with spaces belongs to the name above it. A line at "
+            "the left margin begins a name of its own, so this entry is not one of console_scripts, "
+            "and the build stops."
+        ),
+        fix=msg("Write 4 spaces before {code}, then build again."),
+        link=links.ENTRY_POINTS,
+        fixed_by=(setup_cfg.entry_indented,),
+        examples=(
+            example(
+                "entry_of_setup_cfg_at_the_margin",
+                Replace(
+                    CFG,
+                    "install_scripts=$base/lib/my_robot_controller\n",
+                    "install_scripts=$base/lib/my_robot_controller\n\n[options.entry_points]\n"
+                    "console_scripts =\ntest_node = my_robot_controller.my_first_node:main\n",
+                ),
+                Replace(
+                    SETUP,
+                    (
+                        "    entry_points={\n"
+                        "        'console_scripts': [\n"
+                        "            'test_node = my_robot_controller.my_first_node:main',\n"
+                        "        ],\n"
+                        "    },\n"
+                    ),
+                    "",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNBUILT,
+            ),
+        ),
+    ),
+    Kind(
         id="setup.misplaced_entry",
         stage="entry point",
         title=msg("the entry is in the wrong place of setup.py"),
@@ -749,6 +787,10 @@ KINDS = (
             **dict.fromkeys(
                 ("folder", "import", "other_folder", "library", "unknown_folder"), FOLDERS
             ),
+            "made_name": msg(
+                "setup() gets its name and its packages from {name}, and code works out the value "
+                "of {name}. In the build it becomes a name for which there is no folder."
+            ),
             **dict.fromkeys(("argument", "misspelt"), NO_PACKAGES),
             "text": msg(
                 "packages= is a list of folders. This value is a text, and setuptools takes each "
@@ -769,6 +811,7 @@ KINDS = (
                 "Find what makes setup.py name {path}: packages= together with package_dir=, or the "
                 "values that they are made of. Correct it, then build again."
             ),
+            "made_name": msg("Write the name itself in this line: {wanted}. Then build again."),
             "misspelt": msg("Write packages= instead of {name}= in setup(), then build again."),
             "import": msg(
                 "Write at the top of setup.py: {statement}, and in setup(): {wanted}, then build "
@@ -802,6 +845,16 @@ KINDS = (
                     "find_packages(exclude=['test'])",
                     "[package_name, package_name + '.utils']",
                 ),
+                fails="build.colcon",
+            ),
+            example(
+                "package_name_of_a_path",
+                Replace(
+                    SETUP,
+                    "package_name = 'my_robot_controller'",
+                    "import sys\n\npackage_name = sys.argv[1]",
+                ),
+                Replace(SETUP, "find_packages(exclude=['test'])", "[package_name]"),
                 fails="build.colcon",
             ),
             example(
@@ -877,6 +930,10 @@ KINDS = (
         },
         fix=msg("Write the entry into setup.py's entry_points, under console_scripts: '{wanted}',"),
         fixes={
+            "made": msg(
+                "Write the entry itself instead of the code that makes it: '{wanted}'. Or correct the "
+                "values from which that code makes it. Then build again."
+            ),
             "twice": msg("Delete this call of setup()."),
             "replaced": msg(
                 "Delete this statement, or write the entry into it, under console_scripts: '{wanted}',"
@@ -899,6 +956,16 @@ KINDS = (
                 ),
                 fails="entry_point.mapping",
                 blocks=UNINSTALLED,
+            ),
+            example(
+                "entry_made_with_the_ending",
+                Replace(
+                    SETUP,
+                    "'test_node = my_robot_controller.my_first_node:main',",
+                    "*[f'test_node = {package_name}.{name}:main' for name in ('my_first_node.py',)],",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNSTARTED,
             ),
             example(
                 "setup_called_twice",

@@ -28,6 +28,11 @@ CRLF = msg(
     "Windows line end is read as part of the program's name, and the start fails: "
     "/usr/bin/env: 'python3\\r': No such file or directory. (ros2 run does not need this line.)"
 )
+CR = msg(
+    "The first line tells Linux which program reads the file when you start it as ./{file}. For "
+    "Linux, only LF ends a line. Without it, the name of the program has no end, and the start "
+    "fails. (ros2 run does not need this line.)"
+)
 OTHER_PROGRAM = msg(
     "The first line tells Linux which program reads the file when you start it as ./{file}. "
     "A program that is not installed, or that is not Python 3, cannot: for example "
@@ -109,12 +114,16 @@ KINDS = (
             "sed -i 's/\\r$//' {path}"
         ),
         CRLF,
+        whys={"cr": CR},
         fixes={
+            "cr": msg(
+                "Change each CR to LF. In the package's folder, run: sed -i 's/\\r/\\n/g' {there}"
+            ),
             "elsewhere": msg(
                 "Change CRLF to LF (in VS Code: at the bottom right). Or run, in the package's "
                 "folder: sed -i 's/\\r$//' {there} (or, if you have already moved or renamed the "
                 "file: sed -i 's/\\r$//' {path})"
-            )
+            ),
         },
         seen=r"python3(?:\\r|\r|\^M)['\u2019]?: No such file or directory",
         fixed_by=(first_line.line_ends,),

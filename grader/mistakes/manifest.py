@@ -170,6 +170,10 @@ KINDS = (
                 "Delete everything below the first </package>, from this line to the end of the file."
             ),
             "typed": msg("A sign of a tag in this line is missing or wrong. Write: {wanted}"),
+            "typed_lines": msg(
+                "A sign of a tag in this line is missing or wrong, and so in other lines of the file. "
+                "Write here: {wanted} Correct the other lines in the same way."
+            ),
             "line_twice": msg(
                 "This line and line {wanted} above it are the same. Delete one of them."
             ),
@@ -282,6 +286,26 @@ KINDS = (
             example(
                 "email_twice_in_a_tag",
                 Replace(MANIFEST, "<maintainer ", '<maintainer email="a@todo.todo" '),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "quotes_of_two_kinds",
+                Replace(MANIFEST, '@todo.todo">', "@todo.todo'>"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "blanks_at_the_start_of_tags",
+                Replace(MANIFEST, "<depend>", "< depend>"),
+                Replace(MANIFEST, "</depend>", "</ depend>"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "blanks_in_tags_of_two_lines",
+                Replace(MANIFEST, "<license>", "< license>"),
+                Replace(MANIFEST, "<depend>", "< depend>"),
                 fails="package.manifest",
                 blocks=UNBUILT,
             ),
@@ -402,6 +426,13 @@ KINDS = (
                 "license_in_a_comment",
                 Replace(MANIFEST, "<license>", "<!-- <license>"),
                 Replace(MANIFEST, "</license>", "</license> -->"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "all_tags_in_one_comment",
+                Replace(MANIFEST, "  <name>", "  <!--\n  <name>"),
+                Replace(MANIFEST, "</package>", "  -->\n</package>"),
                 fails="package.manifest",
                 blocks=UNBUILT,
             ),

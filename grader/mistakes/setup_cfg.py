@@ -20,7 +20,7 @@ TWO_SECTIONS = msg(
 )
 OTHER_PLACE = msg(
     "setup.cfg sets where executables are installed. ros2 run looks only in lib/<package>. With "
-    "another path they are installed in another folder, and ros2 run answers: No executable found. "
+    "another path they can get into another folder, and then ros2 run answers: No executable found. "
     "[develop] is for colcon build --symlink-install, [install] for a build without it."
 )
 NEW_CFG = msg(
@@ -166,7 +166,9 @@ KINDS = (
         title=msg("setup.cfg installs executables where ros2 run does not look"),
         why=OTHER_PLACE,
         whys={
-            **dict.fromkeys(("key", "misspelt", "heading", "section", "swapped"), TWO_SECTIONS),
+            **dict.fromkeys(
+                ("key", "misspelt", "heading", "section", "swapped", "one_line"), TWO_SECTIONS
+            ),
             "indented": msg(
                 "In setup.cfg, a line that begins with a space continues the line above. So this "
                 "line, and those below it, belong to the value above, and begin no section."
@@ -181,6 +183,11 @@ KINDS = (
                 "setup.cfg sets where executables are installed, and ros2 run looks only in "
                 "lib/<package>. setup.cfg does not know the variables of setup.py: a build that uses "
                 "this path stops at {name}."
+            ),
+            "capitals": msg(
+                "setup.cfg sets where executables are installed, and ros2 run looks only in "
+                "lib/<package>. This variable has a name in small letters: a build that uses this "
+                "path stops at {name}."
             ),
             "quotes": msg(
                 "setup.cfg sets where executables are installed, and ros2 run looks only in "
@@ -208,6 +215,13 @@ KINDS = (
             "variable": msg(
                 "Write the whole path without {name} (lines: {line}), so that it is {wanted}. Then "
                 "build again."
+            ),
+            "capitals": msg(
+                "Write the variable in small letters (lines: {line}): {wanted}. Then build again."
+            ),
+            "one_line": msg(
+                "What is behind [{section}] is not read. Begin a new line there: below [{section}], "
+                "write {key}={wanted}. Then build again."
             ),
             "both": msg(
                 "Write below [develop] script_dir={wanted}, and below [install] "
@@ -270,6 +284,20 @@ KINDS = (
                         "install_scripts=$base/lib/my_robot_controller  # for ros2 run\n"
                     ),
                 ),
+                fails="package.setup_cfg",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "setup_cfg_base_in_capitals",
+                Replace(CFG, "script_dir=$base", "script_dir=$BASE"),
+                Replace(CFG, "install_scripts=$base", "install_scripts=$BASE"),
+                fails="package.setup_cfg",
+                blocks=UNBUILT,
+            ),
+            example(
+                "setup_cfg_settings_behind_headings",
+                Replace(CFG, "[develop]\n", "[develop] "),
+                Replace(CFG, "[install]\n", "[install] "),
                 fails="package.setup_cfg",
                 blocks=UNINSTALLED,
             ),

@@ -118,6 +118,12 @@ FORMS = {
     "equals_of_argument": msg(
         "The = between the name of an argument and its value is missing. Write: {wanted}"
     ),
+    "entry_quote": msg(
+        "An entry of console_scripts is one text: the quote is before its name. Write: {wanted}"
+    ),
+    "semicolon_in_call": msg(
+        "Arguments and elements are separated by commas, and not by semicolons. Write: {wanted}"
+    ),
     "line_twice": msg("This line and line {line} above it are the same. Delete one of them."),
     "def_at_margin": msg(
         "This def is at the left margin, and belongs to the class. Indent this line by 4 spaces."

@@ -31,7 +31,7 @@ def line_ends(case: Case) -> Files | None:
         return None
     if not found.partition(b"\n")[0].endswith(b"\r"):
         return None
-    new = found.replace(b"\r\n", b"\n")
+    new = found.replace(b"\r\n", b"\n") if b"\n" in found else found.replace(b"\r", b"\n")
     return case.with_data(case.judged_path, new) if _same_code(found, new) else None
 
 

@@ -14,6 +14,7 @@ from grader.package.source.setup_cfg import (
     NO_EQUALS,
     SetupCfg,
     SetupCfgFault,
+    behind_heading,
     indented_heading,
     is_swapped,
     read_setup_cfg,
@@ -53,6 +54,8 @@ def setting(case: Case) -> Files | None:
         return _unindented(case, text)
     if is_swapped(cfg):
         return _swapped(case, text)
+    if behind_heading(text.text, section):
+        return _broken_line(case, text)
     change = _change(cfg, text, section, f"{KEYS[section]}={wanted(case.package)}")
     return case.with_data(FILE, text.spliced([change])) if change else None
 
@@ -74,6 +77,18 @@ def _unindented(case: Case, text: SourceText) -> Files | None:
     there = read_setup_cfg(new).sections
     right = all(key in there.get(section, {}) for section, key in KEYS.items())
     return case.with_data(FILE, new) if right else None
+
+
+def _broken_line(case: Case, text: SourceText) -> Files | None:
+    """Begin a new line behind each heading."""
+    splices = []
+    for number in _numbers(text):
+        match = re.match(r"\[\w+\](?P<gap>[ \t]*)(?=[\w-]+[ \t]*[=:])", text.line(number))
+        start = text.start_of(number)
+        ends = (start + match.start("gap"), start + match.end()) if match else (0, 0)
+        splices += [Splice(*ends, text.newline)] if match is not None else []
+    new = text.spliced(splices) if splices else None
+    return case.with_data(FILE, new) if new and _is_read(new) else None
 
 
 def _swapped(case: Case, text: SourceText) -> Files | None:
@@ -206,6 +221,22 @@ def _other_section(case: Case, text: SourceText, line: str) -> Files | None:
         return None
     start = text.start_of(case.finding.line or 0)
     new = text.spliced([Splice(start, start + len(line), other)])
+    return case.with_data(FILE, new) if new and _is_read(new) else None
+
+
+def entry_indented(case: Case) -> Files | None:
+    """Indent the entry, and the entries below it that are not indented either."""
+    found, line = case.files.data(FILE), case.finding.line
+    text = read_text(found)
+    if text is None or line is None:
+        return None
+    splices = []
+    for number in range(line, len(text.lines) + 1):
+        if not re.match(r"\w[\w.-]*[ \t]*=[ \t]*[\w.]+:\w+[ \t]*$", text.line(number)):
+            break
+        at = text.start_of(number)
+        splices.append(Splice(at, at, "    "))
+    new = text.spliced(splices) if splices else None
     return case.with_data(FILE, new) if new and _is_read(new) else None
 
 

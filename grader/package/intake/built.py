@@ -29,7 +29,9 @@ def newer_copy(tree: Tree, root: str, *, package: str, node_file: str) -> str:
     path = join(root, f"{package}/{node_file}")
     source = tree.file(path)
     own = tree.place.read(source.path, MOST_BYTES) if source is not None else b""
-    for copy in _copies(tree, package, node_file):
+    copies = list(_copies(tree, package, node_file))
+    copies += _written_there(tree, package, node_file) if source is None else []
+    for copy in copies:
         entry = tree.place.entry(copy)
         found = tree.place.read(copy, MOST_BYTES)
         if entry is None or isinstance(found, Unread) or not found.strip() or found == own:
@@ -48,6 +50,14 @@ def _copies(tree: Tree, package: str, node_file: str) -> Iterator[str]:
             copy = f"{path}/{package}/{node_file}"
             if _is_own(tree, copy):
                 yield copy
+
+
+def _written_there(tree: Tree, package: str, node_file: str) -> Iterator[str]:
+    """Yield a file that no build makes: the student wrote the node in the build folder."""
+    for folder in tree.made[:MOST_FOLDERS]:
+        path = f"{folder}/{package}/{node_file}"
+        if folder.rpartition("/")[2] == "build" and _is_own(tree, path):
+            yield path
 
 
 def _places(tree: Tree, folder: str, package: str) -> Iterator[str]:

@@ -24,7 +24,7 @@ TAGS = (
 """The tags of REP 149."""
 Variant = Literal[
     "unclosed", "again", "unopened", "misspelt", "unfinished", "quotes", "ampersand", "before",
-    "after", "outside", "bare", "comment", "declaration", "blank", "declared_twice", "package_twice", "no_tags", "end_twice", "root_first", "typed", "line_twice", "lines_swapped",
+    "after", "outside", "bare", "comment", "declaration", "blank", "declared_twice", "package_twice", "no_tags", "end_twice", "root_first", "typed", "typed_lines", "line_twice", "lines_swapped",
     "hyphens", "hyphens_lines", "comment_start", "less",
 ]  # fmt: skip
 END_TAG = re.compile(rb"</\s{0,9}(?P<name>[^<>\s]{1,100})\s{0,9}>")
@@ -147,6 +147,9 @@ TYPED = (
     (re.compile(rb"(?<=[^<>])<(?=(?P<name>%s)/>)" % NAME), b"</"),
     (re.compile(rb"(?P<start><\w+(?:[ \t]+\w+=(?:\"[^\"<>]*\"|'[^'<>]*'))*[ \t]+\w+=(?P<quote>[\"'])[^\"'<>]*)(?=>)"),
      rb"\g<start>\g<quote>"),
+    (re.compile(rb"(?P<start><\w+(?:[ \t]+\w+=(?:\"[^\"<>]*\"|'[^'<>]*'))*[ \t]+\w+=(?P<quote>[\"'])[^\"'<>]*)[\"'](?=[ \t]*/?>)"),
+     rb"\g<start>\g<quote>"),
+    (re.compile(rb"(?P<start></?)[ \t]+(?=(?:%s)\b)" % NAME), rb"\g<start>"),
 )  # fmt: skip
 """A sign of a tag that is missing or wrong, and what to write instead."""
 MOST_TRIED = 20
@@ -155,24 +158,42 @@ MOST_ROWS = 100
 
 def _typed(reader: _Reader) -> XmlFault | None:
     """Return a tag with one sign missing or wrong, if the file is well-formed after the change."""
-    found = reader.found
     for pattern, new in TYPED:
-        for match in list(pattern.finditer(found))[:MOST_TRIED]:
-            start, end = match.span()
-            written = match.expand(new)
-            change = [(start, end, written)]
-            if pattern is TYPED[5][0]:  # <depend>rclpy<depend/>
-                slash = end + len(match["name"])
-                change.append((slash, slash + 1, b""))
-            fixed = found
-            for first, last, piece in reversed(change):
-                fixed = fixed[:first] + piece + fixed[last:]
-            if _Reader(fixed).stop() is not None:
-                continue
-            line = reader.line(start)
-            wanted = fixed.splitlines()[line - 1].decode("utf-8", "replace").strip()
-            return reader.fault("typed", "", start, *change, wanted=wanted)
+        changes = [_written(pattern, match, new) for match in pattern.finditer(reader.found)]
+        for change in changes[:MOST_TRIED]:
+            fault = _if_right(reader, change)
+            if fault is not None:
+                return fault
+        if 1 < len(changes) <= MOST_TRIED:
+            fault = _if_right(reader, [one for change in changes for one in change])
+            if fault is not None:
+                return fault
     return None
+
+
+def _written(
+    pattern: re.Pattern[bytes], match: re.Match[bytes], new: bytes
+) -> list[tuple[int, int, bytes]]:
+    """Return the change of one tag."""
+    start, end = match.span()
+    change = [(start, end, match.expand(new))]
+    if pattern is TYPED[5][0]:  # <depend>rclpy<depend/>
+        slash = end + len(match["name"])
+        change.append((slash, slash + 1, b""))
+    return change
+
+
+def _if_right(reader: _Reader, change: list[tuple[int, int, bytes]]) -> XmlFault | None:
+    """Return the fault that a change corrects, if the file is well-formed after it."""
+    fixed = reader.found
+    for first, last, piece in sorted(change, reverse=True):
+        fixed = fixed[:first] + piece + fixed[last:]
+    if _Reader(fixed).stop() is not None:
+        return None
+    lines = sorted({reader.line(first) for first, _, _ in change})
+    wanted = fixed.splitlines()[lines[0] - 1].decode("utf-8", "replace").strip()
+    variant: Variant = "typed" if len(lines) == 1 else "typed_lines"
+    return reader.fault(variant, "", change[0][0], *change, wanted=wanted)
 
 
 def _rows(reader: _Reader) -> XmlFault | None:

@@ -158,6 +158,13 @@ def is_swapped(cfg: SetupCfg) -> bool:
     return there == {"develop": {KEYS["install"]}, "install": {KEYS["develop"]}}
 
 
+def behind_heading(text: str, section: str) -> int:
+    """Return the line of a heading with a setting behind it, which is not read; 0 if none has one."""
+    pattern = re.compile(rf"\[{re.escape(section)}\][ \t]*[\w-]+[ \t]*[=:]")
+    rows = enumerate(text.splitlines(), 1)
+    return next((number for number, row in rows if pattern.match(row)), 0)
+
+
 def slip_of_path(value: str, wanted: str) -> tuple[str, str]:
     """Return how a path differs from the right one, and a name that setup.cfg does not know.
 
@@ -168,6 +175,8 @@ def slip_of_path(value: str, wanted: str) -> tuple[str, str]:
     if re.split(r"\s[#;]", value, maxsplit=1)[0].rstrip().rstrip("/") == wanted != value:
         return "comment", ""
     names = [m for m in VARIABLE.finditer(value) if m["name"] not in KNOWN]
+    if names and value.replace(names[0][0], names[0][0].lower()).rstrip("/") == wanted:
+        return "capitals", names[0][0]
     return ("variable", names[0][0]) if names else ("", "")
 
 

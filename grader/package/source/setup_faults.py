@@ -14,6 +14,7 @@ from grader.package.source.module import Module
 from grader.package.source.names import dotted
 from grader.package.source.python import can_parse
 from grader.package.source.setup_packages import FINDERS, parsed_setup, setup_call, value_of
+from grader.package.source.setup_pairs import PairFault, absolute_file, absolute_folder, pair_fault
 from grader.package.source.setup_values import (
     RefusedValue,
     path_object,
@@ -380,7 +381,18 @@ def _never_called(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
             guard = _wrong_guard(reader, statement)
             if guard is not None or statement.orelse:
                 return guard
+        if isinstance(statement, ast.If) and _calls_setup(reader, statement):
+            guard = _wrong_guard(reader, statement)
+            if guard is not None:
+                return guard
     return _entries_form(reader) or _of_value(refused_value(reader.module, reader.call))
+
+
+def _calls_setup(reader: _Reader, statement: ast.If) -> bool:
+    """Whether a statement calls a function of the file that calls setup()."""
+    calls = [n for s in statement.body for n in ast.walk(s) if isinstance(n, ast.Call)]
+    called = [reader.module.functions.get(dotted(call.func)) for call in calls]
+    return any(f is not None and reader.call in ast.walk(f) for f in called)
 
 
 def _of_value(found: RefusedValue | None) -> SetupFault | None:
@@ -409,6 +421,45 @@ def _wrong_form(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
     return _of_value(wrong_form(reader.module, reader.call))
 
 
+def _pair_form(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """A line of data_files without its brackets, or with its two parts exchanged."""
+    del match
+    return _of_pair(reader, pair_fault(reader.module, reader.argument("data_files")))
+
+
+def _absolute(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """A file of data_files whose path begins at the root."""
+    data_files = reader.argument("data_files")
+    return _of_pair(reader, absolute_file(reader.module, data_files, match["path"], reader.package))
+
+
+def _folder_absolute(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """A folder of data_files that begins with a slash."""
+    del match
+    return _of_pair(reader, absolute_folder(reader.module, reader.argument("data_files")))
+
+
+def _of_pair(reader: _Reader, found: PairFault | None) -> SetupFault | None:
+    if found is None:
+        return None
+    code = reader.module.text.code(found.node)
+    return reader.fault(found.variant, found.node, *found.splices, found=code, wanted=found.wanted)
+
+
+def _py_modules(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """The node's module in py_modules, which is for files beside setup.py."""
+    keyword = next((k for k in reader.call.keywords if k.arg == "py_modules"), None)
+    if keyword is None or any(k.arg is None for k in reader.call.keywords):
+        return None
+    if reader.argument("packages") is not None:
+        splices = reader.without(keyword, reader.call.keywords)
+        return reader.fault("py_modules_too", keyword, *splices, name=match["name"])
+    q = reader.module.text.quote
+    wanted = f"packages=[{q}{reader.package}{q}]"
+    swap = reader.module.text.swap(keyword, wanted)
+    return reader.fault("py_modules", keyword, swap, name=match["name"], wanted=wanted)
+
+
 def _wrong_guard(reader: _Reader, statement: ast.If) -> SetupFault | None:
     """`if __name__ == 'main':`."""
     test, text = statement.test, reader.module.text
@@ -425,8 +476,10 @@ def _wrong_guard(reader: _Reader, statement: ast.If) -> SetupFault | None:
 
 def _entries_form(reader: _Reader) -> SetupFault | None:
     """Entry points as a list, or console_scripts as a dict of executables."""
-    points, text = reader.argument("entry_points"), reader.module.text
+    points, text = reader.argument("entry_points") or _in_settings(reader), reader.module.text
     q = text.quote
+    if isinstance(points, ast.Set):
+        return _entries_set(reader, points)
     if isinstance(points, ast.List | ast.Tuple) and points.elts:
         pair = points.elts
         if len(pair) == 2 and isinstance(pair[0], ast.Constant) and isinstance(pair[1], ast.List):
@@ -451,6 +504,36 @@ def _entries_form(reader: _Reader) -> SetupFault | None:
         swap = text.swap(value, wanted)
         return reader.fault("entries_dict", value, swap, wanted=wanted, name=str(key.value))
     return None
+
+
+def _in_settings(reader: _Reader) -> ast.expr | None:
+    """Return entry_points in `dict(…)` or `….update(…)`, if setup() gets a dict with two stars."""
+    given = {dotted(k.value) for k in reader.call.keywords if k.arg is None} - {""}
+    for node in reader.module.nodes:
+        call = node.value if isinstance(node, ast.Assign | ast.Expr) else None
+        if not isinstance(call, ast.Call):
+            continue
+        targets = {dotted(t) for t in node.targets} if isinstance(node, ast.Assign) else set()
+        is_dict = dotted(call.func) == "dict" and targets & given
+        if is_dict or dotted(call.func) in {f"{name}.update" for name in given}:
+            found = [k.value for k in call.keywords if k.arg == "entry_points"]
+            if found:
+                return found[0]
+    return None
+
+
+def _entries_set(reader: _Reader, points: ast.Set) -> SetupFault | None:
+    """A comma instead of the colon between the name of a group and its entries."""
+    text = reader.module.text
+    if len(points.elts) != 2 or not all(
+        isinstance(e, ast.Constant | ast.Tuple) for e in points.elts
+    ):
+        return None
+    group, entries = points.elts
+    items = entries.elts if isinstance(entries, ast.Tuple) else [entries]
+    codes = ", ".join(text.code(item) for item in items)
+    wanted = f"{{{text.code(group)}: [{codes}]}}"
+    return reader.fault("entries_set", points, text.swap(points, wanted), wanted=wanted)
 
 
 def _no_source_folder(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
@@ -615,6 +698,13 @@ LOOKS: tuple[tuple[str, Callable[[_Reader, re.Match[str]], SetupFault | None]], 
     (r"TypeError: 'module' object is not callable", _glob),
     (r"AttributeError: 'function' object has no attribute 'glob'", _glob),
     (r"AssertionError$", _file_alone),
+    (r"AssertionError$", _folder_absolute),
+    (r"TypeError: expected str, bytes or os\.PathLike object, not list", _pair_form),
+    (
+        r"AssertionError: 'data_files' must be relative, '(?P<path>[^'\n]{1,300})' is absolute",
+        _absolute,
+    ),
+    (r"RuntimeError: Provided py_modules '(?P<name>[^'\n]{1,100})' does not exist", _py_modules),
     (r"error: can't copy '(?P<path>[^'\n]{1,300})': doesn't exist", _not_copied),
     (r"colcon cannot read", _function_given),
     (r"setup\(\) was never called", _never_called),
@@ -624,6 +714,7 @@ LOOKS: tuple[tuple[str, Callable[[_Reader, re.Match[str]], SetupFault | None]], 
     (r"ValueError: malformed node or string", _path_object),
     (r"AttributeError: '\w{0,20}Path' object has no attribute", _path_object),
     (r"InvalidVersion: ", _refused_version),
+    (r"inside of setup\(\)", _pair_form),
     (r"inside of setup\(\)", _wrong_form),
     (r"inside of setup\(\)", _comma_behind),
 )

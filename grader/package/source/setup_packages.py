@@ -24,6 +24,8 @@ class Packages:
     `misspelt` is the argument that was meant. `fixed` is the file after the change; None if no
     change is certain. `is_there` is whether the source says it already, `extra` the line of the
     other names in the list, by the name. `is_moved`: something else can change the folders.
+    `variable` is the name that both `name` and `packages` get, if code works out its value: then
+    `wanted` is its assignment.
     """
 
     wanted: str
@@ -35,6 +37,7 @@ class Packages:
     is_there: bool = False
     extra: Mapping[str, int] = field(default_factory=dict)
     is_moved: bool = False
+    variable: str = ""
 
 
 def setup_call(module: Module) -> ast.Call | None:
@@ -85,6 +88,9 @@ def packages_of(found: bytes, package: str, *, nested: bool) -> Packages:
         new = module.text.spliced([Splice(start, start + len(name), "packages")])
         given = f"packages={module.text.code(meant.value)}"
         return Packages(given, meant.value.lineno, fixed=new, misspelt=name)
+    made = _made_name(module, package)
+    if made is not None:
+        return made
     call, known = setup_call(module), "find_packages" in module.imports
     named = value_of(module, ast.Name("package_name", ast.Load())) == package
     name = "package_name" if named else f"{q}{package}{q}"
@@ -102,6 +108,25 @@ def packages_of(found: bytes, package: str, *, nested: bool) -> Packages:
         extra={name: at for name, at in items.items() if name != package},
         is_moved=any(k.arg in (None, "package_dir") for k in _keywords(module)),
     )  # fmt: skip
+
+
+def _made_name(module: Module, package: str) -> Packages | None:
+    """Return what to assign, if name and packages get one variable whose value code works out."""
+    given = {keyword.arg: keyword.value for keyword in _keywords(module)}
+    name, packages = given.get("name"), given.get("packages")
+    items = packages.elts if isinstance(packages, ast.List | ast.Tuple) else []
+    if not isinstance(name, ast.Name) or len(items) != 1:
+        return None
+    same = isinstance(items[0], ast.Name) and items[0].id == name.id
+    value = resolved(module, name)
+    known = isinstance(Evaluator(module.tree, module.text.text).value(value), Text)
+    plain = [s for s in module.tree.body if isinstance(s, ast.Assign) and s.value is value]
+    if not same or known or not plain:
+        return None
+    code = f"{module.text.quote}{package}{module.text.quote}"
+    new = module.text.spliced([module.text.swap(value, code)]) if module.exact else None
+    fixed = new if new is not None and can_parse(new) else None
+    return Packages(f"{name.id} = {code}", value.lineno, fixed=fixed, variable=name.id)
 
 
 def _named(module: Module, node: ast.expr) -> dict[str, int]:

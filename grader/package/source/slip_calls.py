@@ -17,6 +17,9 @@ VALUE_ENDS = re.compile(r"[\w)\]}'\"][ \t]*$")
 IMPORTS = re.compile(
     r"[ \t]*from[ \t]+[\w.]+[ \t]+import[ \t]+(?P<names>\w+(?:[ \t]*,?[ \t]+\w+)+)[ \t]*$"
 )
+ENTRY_QUOTE = re.compile(
+    r"[ \t]*(?P<name>[A-Za-z_][\w-]*)[ \t]*=[ \t]*(?P<quote>['\"])(?P<target>[\w.]+:\w+)(?P=quote),?[ \t]*$"
+)
 MISMATCH = re.compile(
     r"closing parenthesis '(?P<closer>[\])}])' does not match opening parenthesis"
 )
@@ -55,6 +58,33 @@ def _equals_of_argument(text: Broken) -> Slip | None:
         found = _slip(text, "equals_of_argument", number, Splice(at, end, "="))
         if found is not None:
             return found
+    return None
+
+
+def _entry_quote(text: Broken) -> Slip | None:
+    """Return an entry of console_scripts whose first quote is behind the = and not before it."""
+    for number in _nearby(text):
+        match = ENTRY_QUOTE.match(text.source.line(number))
+        if match is None:
+            continue
+        at = text.source.start_of(number)
+        entry = f"{match['quote']}{match['name']} = {match['target']}{match['quote']}"
+        splice = Splice(at + match.start("name"), at + match.end("target") + 1, entry)
+        found = _slip(text, "entry_quote", number, splice)
+        if found is not None:
+            return found
+    return None
+
+
+def _semicolon_in_call(text: Broken) -> Slip | None:
+    """Return a line of a call that ends with a semicolon."""
+    for number in _nearby(text):
+        row = text.code.line(number).rstrip()
+        at = text.source.start_of(number) + len(row)
+        if row.endswith(";"):
+            found = _slip(text, "semicolon_in_call", number, Splice(at - 1, at, ","))
+            if found is not None:
+                return found
     return None
 
 
@@ -197,6 +227,8 @@ def _import_names(text: Broken) -> Slip | None:
 
 CALL_LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
     _import_names,
+    _entry_quote,
+    _semicolon_in_call,
     _line_twice,
     _lines_swapped,
     _call_open,

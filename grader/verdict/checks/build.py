@@ -65,6 +65,7 @@ IGNORED = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 """Files for which colcon passes over a folder."""
 EXITS = ("exit", "quit", "sys.exit", "os._exit", "os.abort")
 NEVER_CALLED = "was never called"
+NO_MARKER = "doesn't explicitly install a marker in the package index"
 BAD_GROUP = "ValueError: ('Invalid group name', "
 ANSWER = 'File "<unknown>", line '  # colcon evaluates setup.py's output, which has no file name
 
@@ -97,7 +98,8 @@ def colcon_builds(evidence: Evidence) -> Passed:
                 "{command}: 1 package finished in {seconds} s",
                 command=build.command,
                 seconds=f"{build.seconds:.1f}",
-            )
+            ),
+            advice=_no_marker(evidence),
         )
     for cause in ("package.manifest", "package.marker"):
         if evidence.has_failed(cause) and (build.status == 0 or _is_about(cause, evidence)):
@@ -113,7 +115,8 @@ def colcon_builds(evidence: Evidence) -> Passed:
     if evidence.has_failed("package.setup_cfg") and option and option[2] in KEYS.values():
         raise Blocked(by="package.setup_cfg")
     of_group = evidence.has_mistake("entry_point.mapping", "setup.group_misspelt")
-    if of_group and BAD_GROUP in build.log:
+    at_margin = evidence.has_mistake("entry_point.mapping", "setup.entry_at_margin")
+    if at_margin or (of_group and BAD_GROUP in build.log):
         raise Blocked(by="entry_point.mapping")
     if evidence.has_failed("entry_point.mapping") and NEVER_CALLED in build.log:
         raise Blocked(by="entry_point.mapping")
@@ -122,6 +125,20 @@ def colcon_builds(evidence: Evidence) -> Passed:
     if is_inner and evidence.has_failed("source.node_file"):
         raise Blocked(by="source.node_file")  # (the inner folder has another name)
     raise _encoding(evidence) or _broken(evidence)
+
+
+def _no_marker(evidence: Evidence) -> list[str]:
+    """Return advice if the build installed no marker, and package.marker has not said so."""
+    if evidence.has_failed("package.marker") or NO_MARKER not in evidence.build.log:
+        return []
+    return [
+        say(
+            "Look at data_files in setup.py: the build gets no line from it that installs "
+            "resource/{package} as the marker. colcon added it this time, but warns that it will "
+            "stop doing so.",
+            package=evidence.assignment.package,
+        )
+    ]
 
 
 def _must_be_the_only_one(evidence: Evidence) -> None:
@@ -373,6 +390,7 @@ def _not_packaged(evidence: Evidence, expected: str, folder: str) -> Failed:
             variant = "library" if folder in LIBRARIES else variant
         elif found.is_there or (found.is_moved and not found.is_text):
             variant = "unknown_folder"
+        variant = "made_name" if found.variable else variant
     return Failed(
         "setup.not_packaged",
         expected=expected,
@@ -383,7 +401,7 @@ def _not_packaged(evidence: Evidence, expected: str, folder: str) -> Failed:
         words={
             "wanted": found.wanted,
             "statement": found.statement,
-            "name": found.misspelt,
+            "name": found.variable or found.misspelt,
             "path": folder,
         },
     )
@@ -462,10 +480,10 @@ def _plain(body: list[ast.stmt]) -> list[ast.stmt]:
 
 def _never(variant: str) -> Message:
     """Return what is known if setup() did not finish its work."""
-    if variant in ("entries_list", "entries_pair", "entries_dict") or variant.startswith("refused"):
+    if variant.startswith("entries_") or variant.startswith("refused"):
         return say("setuptools stopped in setup(), and gave no reason")
     if variant == "guard":
-        return say("the condition above setup() is never true, so nothing calls it")
+        return say("the condition in this line is never true, so nothing calls setup()")
     if variant == "not_done":
         return say("setup.py ended, and setup() had not done its work")
     return say("setup.py ended before it called setup()")

@@ -141,11 +141,30 @@ def missing(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed:
             meant_to_be=wanted,
             name=name,
         )
+    at_margin = _at_margin(evidence, points)
+    if at_margin is not None:
+        return at_margin
     for group, others in points.groups.items():
         holds_it = any(entry.name == wanted for entry in others)
         if holds_it or nearest("console_scripts", [group], cutoff=0.75):
             return _other_group(evidence, points, group)
     return _no_entry(evidence, points, setup)
+
+
+def _at_margin(evidence: Evidence, points: EntryPoints) -> Failed | None:
+    """Return that the entry begins at the margin of setup.cfg, so that it is a group of its own."""
+    wanted = evidence.assignment.executable
+    rows = points.group(wanted)
+    if "console_scripts" not in points.groups or [row.file for row in rows] != ["setup.cfg"]:
+        return None
+    text = shown(f"{wanted} = {rows[0].text}")
+    return Failed(
+        "setup.entry_at_margin",
+        expected=say("an indented line below console_scripts ="),
+        actual=say("the line begins at the left margin: {entry}", entry=text),
+        where=Where(file="setup.cfg", line=points.lines.get(wanted)),
+        words={"code": text},
+    )
 
 
 def _group_twice(evidence: Evidence, points: EntryPoints, entry: Entry) -> Failed:

@@ -9,7 +9,8 @@ import ast
 import re
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import say
+from grader.base.i18n.message import joined, say
+from grader.base.nearest import with_difference
 from grader.base.shown import shown
 from grader.package.source.names import dotted
 from grader.package.source.setup_packages import parsed_setup, setup_call
@@ -48,10 +49,11 @@ def mapping(evidence: Evidence) -> Passed:
             if target.replace(" ", "") == assignment.target:
                 entry = f"{name} = {target}"
                 return Passed(actual=say("{entry} (as setup.py computes it)", entry=entry))
-            raise _computed(evidence, f"{name} = {target}")
+            found = f"{name} = {target}"
+            raise _computed(evidence, with_difference(found, found, wanted_entry(evidence)))
     if evidence.build.status != 0 and setup_error(evidence.build.log)[0]:
         raise Blocked(by="build.colcon")
-    none = say("no entry named {executable}", executable=assignment.executable)
+    none = _other_names(evidence)
     raise _computed(evidence, none)
 
 
@@ -82,6 +84,13 @@ def _other_name(evidence: Evidence) -> list[str]:
     ]
 
 
+def _other_names(evidence: Evidence) -> str:
+    """Return that no entry has the name, and the names that setup.py makes."""
+    names = ", ".join(shown(name) for name, _ in scripts(evidence.build.entry_points)[:4])
+    none = say("no entry named {executable}", executable=evidence.assignment.executable)
+    return joined(none, say("there are only: {names}", names=names), by=", ") if names else none
+
+
 def _computed(evidence: Evidence, actual: str) -> Failed:
     entry, found = wanted_entry(evidence), _below_setup(evidence)
     variant = "below"
@@ -90,14 +99,27 @@ def _computed(evidence: Evidence, actual: str) -> Failed:
     if found is None:
         found, variant = _called_twice(evidence), "twice"
     variant = "project" if _in_project(evidence) else variant if found else ""
+    line = found[1] if found else None
+    if not variant and scripts(evidence.build.entry_points):
+        line = _line_of_group(evidence)
+        variant = "made" if line else ""
     return Failed(
         "entry_point.computed_mapping",
         expected=say("'{entry}' among the console_scripts", entry=entry),
         actual=actual,
-        where=Where(file="setup.py", line=found[1] if found else None),
+        where=Where(file="setup.py", line=line),
         variant=variant,
         words={"wanted": entry, "line": str(found[0]) if found else ""},
     )
+
+
+def _line_of_group(evidence: Evidence) -> int | None:
+    """Return the one line of setup.py that names console_scripts; None if there are others."""
+    file = file_of(evidence, "setup.py")
+    module = parsed_setup(file.data) if file is not None else None
+    texts = [n for n in module.nodes if isinstance(n, ast.Constant)] if module is not None else []
+    lines = [text.lineno for text in texts if text.value == "console_scripts"]
+    return lines[0] if len(lines) == 1 else None
 
 
 def _called_twice(evidence: Evidence) -> tuple[int, int] | None:

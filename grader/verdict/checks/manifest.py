@@ -185,6 +185,7 @@ def _described(fault: XmlFault) -> Message:
         "package_twice": say("<package> is in the file twice"),
         "no_tags": say("the file has no tag"),
         "typed": say("a sign of a tag is missing or wrong"),
+        "typed_lines": say("signs of tags are missing or wrong"),
         "line_twice": say("a line is in the file twice"),
         "lines_swapped": say("two lines are in the wrong order"),
         "end_twice": say("</package> is in the file twice"),
@@ -261,7 +262,9 @@ def _line_of_comment(evidence: Evidence, tag: str) -> int:
     for match in re.finditer(r"<!--(.*?)-->", text, re.DOTALL):
         inside = match[1].strip()
         closed = f"<{tag}>" in inside and f"</{tag}>" in inside
-        if closed and inside.startswith("<") and inside.endswith(">") and inside.count("<") < 9:
+        whole = all(f"<{name}" in inside for name in REQUIRED)
+        few = whole or inside.count("<") < 9
+        if closed and few and inside.startswith("<") and inside.endswith(">"):
             lines.append(text.count("\n", 0, match.start()) + 1)
     return lines[0] if len(lines) == 1 else 0
 

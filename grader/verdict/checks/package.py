@@ -14,6 +14,7 @@ from grader.package.source.setup_cfg import (
     KEYS,
     SetupCfg,
     SetupCfgFault,
+    behind_heading,
     indented_heading,
     is_swapped,
     read_setup_cfg,
@@ -382,6 +383,8 @@ def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) 
             line = settings[close].line
             right = settings[close].value.rstrip("/") == wanted
             variant = "misspelt" if right else "key"
+        elif behind_heading(cfg.text, section):
+            line, variant = behind_heading(cfg.text, section), "one_line"
         said = say("[{section}] has no {key}", section=section, key=key) + there_is(close)
         actual = with_difference(said, close, key)
     else:

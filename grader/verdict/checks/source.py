@@ -494,6 +494,8 @@ def _no_shebang(evidence: Evidence, path: str, data: bytes, first: bytes) -> Fai
     elif first[:2] == b"#!" and (b"\r" in first):
         mistake = "source.crlf"
         actual = say("line 1 has a Windows line end (CRLF): Linux looks for a program 'python3\\r'")
+        if b"\n" not in data:
+            actual = say("the lines end with CR alone: Linux takes the whole file for one line")
     elif first[:2] == b"#!":
         mistake, actual = "source.wrong_shebang", with_difference(text, text, SHEBANG)
         if PYTHON3.fullmatch(first):
@@ -510,6 +512,8 @@ def _no_shebang(evidence: Evidence, path: str, data: bytes, first: bytes) -> Fai
     variant, words = _named(evidence, path)
     if slip is not None and slip.cause == "shebang":
         variant = slip.variant
+    if mistake == "source.crlf" and b"\n" not in data:
+        variant, words = "cr", {**words, "there": shlex.quote(shown(path))}
     return Failed(
         mistake,
         expected=say("line 1: {shebang}", shebang=SHEBANG),
