@@ -50,7 +50,10 @@ def _loops(suspect: Suspect) -> RecognisedMistake | None:
             number = block.target if isinstance(block, ast.For) else None
             inside = {dotted(n) for log in suspect.source.logs(block) for n in ast.walk(log)}
             if isinstance(number, ast.Name) and number.id in inside:
-                found = replace(found, variant="counts", words={**found.words, "number": number.id})
+                known = node_loops.counter_beside(suspect.source, block, suspect.output)
+                counter = known or node_loops.free_counter(suspect.source)
+                words = {**found.words, "number": number.id, "counter": counter}
+                return replace(found, variant="counts_beside" if known else "counts", words=words)
             return found
     return None
 
@@ -279,11 +282,26 @@ KINDS = (
                 "Without it there is no {number}: write {counter} = {start} in __init__, log "
                 "{counter} instead of {number}, and write {counter} += {step} below the line that "
                 "logs."
-            )
+            ),
+            "counts_beside": msg(
+                "Remove this {name}, and indent its lines as far as the {name} is indented now. "
+                "Without it there is no {number}: log {counter} instead of {number}. The lines that "
+                "set {counter} and add to it are there already."
+            ),
         },
         behind={"run.twice": _loops, "run.wrong_step": _loops},
         fixed_by=(lines.unwrapped, node_loops.counted_by_calls),
         examples=(
+            example(
+                "loop_to_the_counter",
+                Replace(
+                    NODE,
+                    LOG_LINE,
+                    "        for i in range(self.counter_):\n"
+                    "            self.get_logger().info('Hello time: ' + str(i))\n",
+                ),
+                fails="run.output",
+            ),
             example(
                 "loop_logs_its_number",
                 Replace(NODE, "        self.counter_ = 0\n", ""),
