@@ -28,8 +28,10 @@ from grader.package.source.counter import (
     targets_of,
 )
 from grader.package.source.module import Function, Module
-from grader.package.source.names import dotted, last_part
+from grader.package.source.names import dotted, last_part, own_name
+from grader.package.source.node import NodeSource
 from grader.package.source.plain_counter import plain_start
+from grader.package.source.sure_errors import is_never_set
 
 SET_AGAIN = msg("This line sets {name} to {value} again in each call.")
 SUM = ast.Add | ast.Sub
@@ -206,6 +208,10 @@ def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
         return None
     if _changes_elsewhere(suspect, counter.name) or change_of(suspect, "name") is not None:
         return None
+    if any(
+        _is_misspelt_step(source, node) for node in ast.walk(source.callback or source.entry.tree)
+    ):
+        return None
     found = suspect.finding("counter_not_increased", counter.logged, name=counter.name)
     around = source.function_around(counter.logged)
     word = outer_word(source, around, counter.name) if around is not None else ""
@@ -213,6 +219,12 @@ def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
         return found
     words = {**found.words, "word": word, "function": around.name}
     return replace(found, words=words, variant="outer")
+
+
+def _is_misspelt_step(source: NodeSource, node: ast.AST) -> bool:
+    """Whether a statement adds to an attribute that nothing sets: it raises an error, hidden or not."""
+    name = own_name(node.target) if isinstance(node, ast.AugAssign) else ""
+    return bool(name) and is_never_set(source, name)
 
 
 def _changes_elsewhere(suspect: Suspect, name: str) -> bool:

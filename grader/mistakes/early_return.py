@@ -14,10 +14,10 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import logged_counter, targets_of
+from grader.package.source.counter import adds_to, logged_counter, parts_of_callback, targets_of
 from grader.package.source.imported import full_name
 from grader.package.source.module import Function
-from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.names import called_name, calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of
 from grader.package.source.truth import OK, Truth, always_set_to, truth_of
@@ -177,6 +177,9 @@ def _condition_changed(case: Case) -> Files | None:
 def _step_after_return(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a step below the return of a method that the callback calls."""
     source = suspect.source
+    helper = _step_in_helper(suspect)
+    if helper is not None:
+        return helper
     found, log = node_order.after_return(source), logged_counter(source)
     around = source.function_around(log[0]) if log is not None else None
     if found is None or log is None or around is None:
@@ -191,6 +194,25 @@ def _step_after_return(suspect: Suspect) -> RecognisedMistake | None:
     }
     mistake = suspect.finding("step_after_return", step, **params)
     return replace(mistake, variant="above" if around is method else "")
+
+
+def _step_in_helper(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a method that returns a number, and that adds to it only below the return."""
+    source = suspect.source
+    called = {called_name(c) for part in parts_of_callback(source) for c, _ in calls_in(part)}
+    for function in source.all_nodes:
+        if not isinstance(function, Function) or function.name not in called:
+            continue
+        for one in node_order.early_returns(function):
+            below = function.body[function.body.index(one) + 1 :]
+            name = dotted(one.value) if one.value is not None else ""
+            if len(below) == 1 and name and adds_to(below[0], name):
+                code = source.module_of(one).text.code
+                params: dict[str, str | int] = {"line": one.lineno, "method": function.name}
+                mistake = suspect.finding("step_after_return", below[0], **params)
+                words = {**mistake.words, "name": name, "step": code(below[0])}
+                return replace(mistake, words=words, variant="value")
+    return None
 
 
 def _returns_before_spin(suspect: Suspect) -> RecognisedMistake | None:
@@ -254,11 +276,31 @@ KINDS = (
         msg("The line that counts is below a return, so it never runs"),
         msg("return ends the function: line {line} comes first, and this line does not run."),
         msg("Move this line to {method}, below line {below}, which logs."),
-        fixes={"above": msg("Move this line above line {line}.")},
+        fixes={
+            "above": msg("Move this line above line {line}."),
+            "value": msg(
+                "Keep the number before it changes. Write three lines instead of line {line} and this "
+                "line: value = {name}, then {step}, then return value."
+            ),
+        },
         behind={"run.constant_counter": _step_after_return},
         deletes=("", "above"),
         fixed_by=(node_order.before_return,),
         examples=(
+            example(
+                "helper_counts_after_return",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class NextNumber:\n\n    def __init__(self):\n        self.n = 0\n\n"
+                    "    def take(self):\n        return self.n\n        self.n += 1\n\n\n"
+                    "class MyFirstNode",
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = NextNumber()"),
+                Replace(NODE, "str(self.counter_)", "str(self.counter_.take())"),
+                Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
+            ),
             example(
                 "counts_after_return",
                 Replace(NODE, STEP_LINE, ""),

@@ -13,7 +13,8 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import DEAD, LOG, LOG_LINE, NODE, example
+from grader.mistakes.example import DEAD, LOG, LOG_LINE, NODE, STEP_LINE, example
+from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromError, Raised, RecognisedMistake, always, on_line
@@ -24,6 +25,7 @@ from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, own_name
 from grader.package.source.place import statement_at
 
+PLACE = re.compile(r"%[-+ 0-9.]{0,8}[a-z]")
 MOST_CODE = 60  # characters of a piece of code that a text shows
 NONE = msg(
     "A function without return gives back None, and a name that was set to None has this value."
@@ -101,6 +103,24 @@ def _too_many_values(raised: Raised, match: re.Match[str]) -> RecognisedMistake 
     return _told("text_and_values", "" if written else "left")(raised, match)
 
 
+def _too_few_values(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The text gets too few values; those behind a comma can belong to a call around it."""
+    text = raised.module.text
+    for call in (n for n in _on_line(raised) if isinstance(n, ast.Call)):
+        made = call.args[0] if len(call.args) > 1 and not call.keywords else None
+        if not isinstance(made, ast.BinOp) or not isinstance(made.op, ast.Mod):
+            continue
+        form, code = text.plain_string(made.left), text.code(call)
+        if form is None or isinstance(made.right, ast.Tuple | ast.Dict) or "\n" in code:
+            continue
+        if len(PLACE.findall(form.replace("%%", ""))) == len(call.args):
+            values = ", ".join(text.code(n) for n in (made.right, *call.args[1:]))
+            written = f"{text.code(call.func)}({text.code(made.left)} % ({values}))"
+            found = raised.finding("text_and_values", name=code, written=written)
+            return replace(found, variant="comma")
+    return _told("text_and_values")(raised, match)
+
+
 def _no_items(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """Items are needed: by += if what it adds to is a list."""
     statement = statement_at(raised.module, raised.line)
@@ -117,6 +137,33 @@ def _no_file(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """The path is relative, or a whole one."""
     whole = match["name"].startswith("'/")
     return _told("no_such_file", "whole" if whole else "")(raised, match)
+
+
+def _value_of_parameter(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The line sets .value of what get_parameter returned, if the file calls that."""
+    del match
+    calls = any(
+        called_name(n) == "get_parameter" for n in raised.module.nodes if isinstance(n, ast.Call)
+    )
+    return raised.finding("parameter_value_set") if calls else None
+
+
+def _frozen(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The only frozen dataclass of the files that has the field."""
+    name, found = match["name"], []
+    statement = statement_at(raised.module, raised.line)
+    sets = statement is not None and any(t.endswith(f".{name}") for t in targets_of(statement))
+    for own in (c for c in raised.module.classes if sets):
+        fields = [s for s in own.body if name in targets_of(s)]
+        for given in own.decorator_list:
+            for keyword in given.keywords if isinstance(given, ast.Call) else ():
+                if fields and keyword.arg == "frozen":
+                    found.append((own, keyword.value.lineno))
+    if len(found) != 1:
+        return None
+    own, line = found[0]
+    mistake = raised.finding("fields_frozen", name=name)
+    return replace(mistake, words={**mistake.words, "type": own.name, "line": str(line)})
 
 
 def _not_for_with(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -344,6 +391,69 @@ KINDS = (
         ),
     ),
     _node(
+        "parameter_value_set",
+        "parameter",
+        msg("The value of a Parameter can only be read"),
+        msg(
+            "get_parameter returns a Parameter with the present value. An assignment to its .value is "
+            "not allowed, and would not change the parameter of the node."
+        ),
+        msg(
+            "Keep a number that changes in an attribute of the node: set it once in __init__, log it, "
+            "and add to it instead of to .value."
+        ),
+        raised={
+            r"AttributeError: (?:property 'value' of 'Parameter' object has no setter"
+            r"|can't set attribute 'value')": on_line(_value_of_parameter)
+        },
+        examples=(
+            example(
+                "adds_to_a_parameter",
+                Replace(NODE, "self.counter_ = 0", "self.declare_parameter('number', 0)"),
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    "        number = self.get_parameter('number')\n"
+                    "        self.get_logger().info('Hello time: ' + str(number.value))\n"
+                    "        number.value += 1\n",
+                ),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+        ),
+    ),
+    _node(
+        "fields_frozen",
+        "counter",
+        msg("A field of a frozen dataclass is set"),
+        msg(
+            "With frozen=True (line {line}), the fields of {type} can be set only when an object is "
+            "made. An assignment to {name} raises this error."
+        ),
+        msg("Remove frozen=True in line {line}: then this line can set {name}."),
+        raised={r"FrozenInstanceError: cannot assign to field '(?P<name>\w{1,120})'": _frozen},
+        examples=(
+            example(
+                "counts_in_a_frozen_dataclass",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "@dataclass(frozen=True)\nclass FrozenCount:\n    number: int = 0\n\n\nclass MyFirstNode",
+                ),
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "from dataclasses import dataclass\nimport rclpy\nfrom",
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = FrozenCount()"),
+                Replace(NODE, "str(self.counter_)", "str(self.counter_.number)"),
+                Replace(NODE, "self.counter_ += 1", "self.counter_.number += 1"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+        ),
+    ),
+    _node(
         "recursion",
         "callback",
         msg("Functions call each other without end"),
@@ -426,6 +536,10 @@ KINDS = (
             "type": msg(
                 "The place %d in a text needs a number, and gets a value of the type {first}."
             ),
+            "comma": msg(
+                "% takes only the value directly behind it. Several values for a text have to be in "
+                "round brackets of their own: here the comma ends the value of %."
+            ),
             "left": msg(
                 "The value before % is a text on this line. Then % puts values into the places of the text, "
                 "such as %d, and this text has fewer places than there are values. Between two numbers, % "
@@ -434,6 +548,7 @@ KINDS = (
         },
         fixes={
             "type": msg("Write %s in the text, or give it a number."),
+            "comma": msg("Write {written} instead of {name}."),
             "left": msg(
                 "If you want the remainder, find the line that gives the value before %, and make it a "
                 "number there. If you want to fill a text, give it one place for each value."
@@ -441,11 +556,24 @@ KINDS = (
         },
         raised={
             r"not all arguments converted during string formatting": on_line(_too_many_values),
-            r"not enough arguments for format string": _told("text_and_values"),
+            r"not enough arguments for format string": on_line(_too_few_values),
             r"%[a-z] format: a (?:real )?number is required, not (?P<first>\w{1,60})": (
                 _told("text_and_values", "type")
             ),
         },
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "percent_without_brackets",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "'%s: %d' % 'Hello time', self.counter_",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
     ),
     _node(
         "no_such_item",

@@ -46,6 +46,9 @@ def logger(use: Use[Logged]) -> Passed:
         )
     gone = run.ended_by_itself or bool(run.watch.missing)
     for event in events:
+        other = event.record is not None and event.record.level != LEVELS[level]
+        if other and event.n is None and _is_of_error(use):
+            raise Blocked(by=use.evidence.id_of("log.counts"))
         if gone and event.source == "faked" and event.wall > events[-1].wall - LOST:
             continue  # the last records of a node that ends or is destroyed may be lost
         _judge_record(event, names, level, expected, line_of(use.evidence, event.record))
@@ -55,6 +58,12 @@ def logger(use: Use[Logged]) -> Passed:
         "{count} records of [{name}], {level}", count=len(events), name=name, level=level.upper()
     )
     return Passed(actual=said)
+
+
+def _is_of_error(use: Use[Logged]) -> bool:
+    """Whether the line that came is the text of an error, which an except logs at its own level."""
+    result = use.evidence.results.get(use.evidence.id_of("log.counts"))
+    return result is not None and any(m.id == "node.error_logged" for m in result.mistakes)
 
 
 def _counted(use: Use[Logged]) -> list[Event]:
