@@ -12,6 +12,7 @@ from grader.mistakes.fixes import lines, node_order
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.mistakes.worked_out import first_of
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import adds_to, logged_counter, parts_of_callback, targets_of
@@ -196,6 +197,25 @@ def _step_after_return(suspect: Suspect) -> RecognisedMistake | None:
     return replace(mistake, variant="above" if around is method else "")
 
 
+def _returns_after_log(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a return directly below the log line that came, above the only line that counts."""
+    source, callback = suspect.source, suspect.source.callback
+    row = suspect.place.line if suspect.place is not None else None
+    steps = [n for n in ast.walk(callback) if isinstance(n, ast.AugAssign)] if callback else []
+    for found in (n for n in ast.walk(callback) if isinstance(n, ast.Return)) if callback else ():
+        module = source.module_of(found)
+        block = block_of(module, found)
+        above = block[block.index(found) - 1] if found in block[1:] else None
+        test = _condition_of(source, found)
+        if above is None or above.lineno != row or test is None or len(steps) != 1:
+            continue
+        if found.value is None and steps[0].lineno > found.lineno:
+            step = module.text.code(steps[0])
+            mistake = suspect.finding("return_early", found, line=steps[0].lineno, written=step)
+            return replace(mistake, variant="counts")
+    return None
+
+
 def _step_in_helper(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a method that returns a number, and that adds to it only below the return."""
     source = suspect.source
@@ -325,6 +345,10 @@ KINDS = (
         msg("return ends the function: the lines below it do not run any more."),
         msg("Delete this return: a function without it returns at its end."),
         whys={
+            "counts": msg(
+                "return ends the function: line {line}, which counts, does not run after this line was "
+                "logged."
+            ),
             "choice": IF_TRUE,
             "alone": IF_TRUE,
             "limit": IF_TRUE,
@@ -348,6 +372,7 @@ KINDS = (
             ),
         },
         fixes={
+            "counts": msg("Write {written} above this return, in a line of its own."),
             "word": msg("Delete only the word return in this line: what follows it stays."),
             "block": msg(
                 "If this return belongs to the if in line {line}, indent it by 4 more spaces, like the "
@@ -377,12 +402,22 @@ KINDS = (
         behind={
             "run.no_lines": _returns_before_log,
             "run.stops": _limits,
-            "run.constant_counter": _returns,
+            "run.constant_counter": first_of(_returns, _returns_after_log),
             "run.exits_at_once": _returns_before_spin,
             "run.no_node": _returns_before_spin,
         },
         fixed_by=(_condition_changed, node_order.returned),
         examples=(
+            example(
+                "returns_before_it_counts",
+                Replace(
+                    NODE,
+                    LOG_LINE,
+                    "        if self.counter_ == 0:\n            self.get_logger().info('Hello time: 0')\n"
+                    f"            return\n{LOG_LINE}",
+                ),
+                fails="run.output",
+            ),
             example(
                 "returns_before_log",
                 Replace(NODE, LOG_LINE, f"        return\n{LOG_LINE}"),

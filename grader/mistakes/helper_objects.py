@@ -14,7 +14,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, on_line
 from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import parts_of_callback, targets_of
+from grader.package.source.counter import adds_to, parts_of_callback, targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
 from grader.package.source.node import NodeSource
@@ -145,6 +145,32 @@ def _read_counts(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+def _setter_adds(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a setter that adds the value which it gets, where a sum is assigned to its property."""
+    source = suspect.source
+    for method in (n for n in source.all_nodes if isinstance(n, Function)):
+        marks = [dotted(d) for d in method.decorator_list]
+        given = [a.arg for a in method.args.args]
+        if marks != [f"{method.name}.setter"] or len(given) != 2:
+            continue
+        adds = [n for n in method.body if isinstance(n, ast.AugAssign)]
+        value = adds[0].value if len(adds) == 1 else None
+        if value is None or dotted(value) != given[1] or not isinstance(adds[0].op, ast.Add):
+            continue
+        sums = [
+            name
+            for n in source.all_nodes
+            for name in targets_of(n)
+            if last_part(name) == method.name and adds_to(n, name)
+        ]
+        if sums:
+            code, target = source.module_of(method).text.code, dotted(adds[0].target)
+            params = {"name": code(adds[0]), "written": f"{target} = {given[1]}"}
+            mistake = suspect.finding("setter_adds", adds[0], **params)
+            return replace(mistake, words={**mistake.words, "attribute": sums[0]})
+    return None
+
+
 def _is_read(node: ast.Attribute) -> bool:
     return isinstance(node.ctx, ast.Load)
 
@@ -236,6 +262,32 @@ KINDS = (
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = HelperOfCount()"),
                 Replace(NODE, "str(self.counter_)", "str(self.counter_.total)"),
                 Replace(NODE, "self.counter_ += 1", "self.counter_.one_more"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "setter_adds",
+        "counter",
+        msg("The setter adds the value that it gets"),
+        msg(
+            "Another line assigns a sum to {attribute}: the number with the step already in it. This "
+            "setter adds that whole sum to the number."
+        ),
+        msg("Write {written} instead of {name}."),
+        behind=dict.fromkeys(("run.wrong_step", "run.wrong_start"), _setter_adds),
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "setter_of_the_count_adds",
+                Replace(NODE, "self.counter_ = 0", "self._number = 0"),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    @property\n    def counter_(self):\n        return self._number\n\n"
+                    "    @counter_.setter\n    def counter_(self, value):\n"
+                    "        self._number += value\n\n    def timer_callback",
+                ),
                 fails="run.output",
             ),
         ),
