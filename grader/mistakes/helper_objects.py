@@ -55,7 +55,7 @@ def _class_itself(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     code = raised.source.module_of(found[0]).text.code(found[0])
     target = next(iter(owners & set(targets_of(found[0]))))
     params = {"name": code, "written": f"{code}()"}
-    mistake = raised.finding("class_not_called", at=found[0], params=params)
+    mistake = raised.finding("helper_not_made", at=found[0], params=params)
     return replace(mistake, words={**mistake.words, "type": kind, "attribute": target})
 
 
@@ -184,7 +184,7 @@ def _free(function: Function) -> str:
 _node = Family("node", links.PYTHON_CLASSES)
 KINDS = (
     _node(
-        "class_not_called",
+        "helper_not_made",
         "class",
         msg("The class itself is used instead of an object"),
         msg(

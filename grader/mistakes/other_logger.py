@@ -24,7 +24,8 @@ def _of_other_node(suspect: Suspect) -> RecognisedMistake | None:
     """Look for the only call that logs, with the logger of a second node that the node makes."""
     source = suspect.source
     logs = [log for part in source.own_methods for log in source.logs(part)]
-    receiver = logs[0].func.value if len(logs) == 1 and _has_owner(logs[0]) else None
+    method = logs[0].func if len(logs) == 1 else None
+    receiver = method.value if isinstance(method, ast.Attribute) else None
     if not isinstance(receiver, ast.Call) or called_name(receiver) != "get_logger":
         return None
     owner = dotted(receiver.func).rpartition(".")[0]
@@ -42,10 +43,6 @@ def _of_other_node(suspect: Suspect) -> RecognisedMistake | None:
     found = suspect.finding("logger_of_other_node", receiver, name=code, written=OWN)
     values = {**found.words, "attribute": owner, "line": str(made[0].lineno)}
     return replace(found, words=values)
-
-
-def _has_owner(call: ast.Call) -> bool:
-    return isinstance(call.func, ast.Attribute)
 
 
 def _by_name(suspect: Suspect) -> RecognisedMistake | None:
