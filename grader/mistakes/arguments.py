@@ -211,17 +211,29 @@ def _many_given(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
         return None  # (super() passes self on its own)
     if own and call is not None and raised.line in lines_of(call):
         return replace(found, variant="super")
+    if name == "__exit__":
+        return _exit(raised, found)
     return _only_self(raised, match["function"]) or found
+
+
+def _exit(raised: Raised, found: RecognisedMistake) -> RecognisedMistake:
+    """With calls __exit__ with three values."""
+    made = [n for n in raised.module.nodes if isinstance(n, Function) and n.name == "__exit__"]
+    if len(made) != 1:
+        return found
+    return replace(raised.finding("arguments_many", at=made[0], name="__exit__"), variant="exit")
 
 
 def _without_self(raised: Raised, taken: Function) -> RecognisedMistake | None:
     """The method has no self: the object goes into its first parameter."""
     first = taken.args.args[0].arg
     read = [n for n in ast.walk(taken) if isinstance(n, ast.Name) and n.id == first]
+    owner = raised.module.parents.get(taken)
+    made = owner.name if isinstance(owner, ast.ClassDef) and taken.name == "__init__" else ""
     given = [
         call
         for call, name in raised.source.calls
-        if name == f"self.{taken.name}" and raised.line in lines_of(call)
+        if name in (f"self.{taken.name}", made) and raised.line in lines_of(call)
     ]
     if len(given) != 1 or not read or taken.decorator_list:
         return None
@@ -537,12 +549,17 @@ KINDS = (
             "only_self": msg(
                 "The def has only self in its brackets, which Python passes on its own."
             ),
+            "exit": msg(
+                "with calls __exit__ at its end, with three values: the class of the exception, the "
+                "exception, and its traceback. Python passes self on its own."
+            ),
             "no_self": msg(
                 "The def of {method} has no self. Python passes the object as the first argument, so "
                 "{parameter} gets the object, and the value of the call has no place."
             ),
         },
         fixes={
+            "exit": msg("Write: def __exit__(self, kind, value, trace):"),
             "no_self": msg("Write self before {parameter} in this line: {head}"),
             "super": msg("Write super().__init__('{node_name}')."),
             "only_self": msg("Write {written} instead of {name}."),

@@ -22,9 +22,11 @@ from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import starts_of, targets_of
+from grader.package.source.imported import imports
 from grader.package.source.module import Module
 from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS
+from grader.package.source.node_here import node_here
 from grader.package.source.place import function_at, statement_at
 from grader.package.source.scopes import class_of, scope_of
 
@@ -97,16 +99,66 @@ def _is_written(raised: Raised, name: str) -> bool:
 
 
 def _method_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    if not _is_written(raised, match["name"]):
+    if not _is_written(raised, match["name"]) or _without_dot(raised, match["name"]) is not None:
         return None
     close = _close_method(raised, match)
     return raised.finding("method_misspelt", name=match["name"], close=close) if close else None
 
 
+def _private(raised: Raised, name: str) -> RecognisedMistake | None:
+    """A name with two underscores that only another class of the files sets."""
+    node_class = raised.source.node_class
+    if name.startswith("__") and node_class is not None:
+        name = f"_{node_class.name.lstrip('_')}{name}"
+    told = re.fullmatch(r"_+(?P<type>\w+?)__(?P<rest>\w+)", name)
+    if told is None:
+        return None
+    own = f"self.__{told['rest']}"
+    for module in raised.source.modules:
+        for node in module.nodes:
+            owner = class_of(module, scope_of(module, node)) if own in targets_of(node) else None
+            if owner is None or owner[0].name.lstrip("_") == told["type"]:
+                continue
+            return _told_private(raised, own, owner[0].name)
+    bases = node_class.bases if node_class is not None else []
+    mine = node_class is not None and node_class.name.lstrip("_") == told["type"]
+    base = last_part(dotted(bases[0])) if bases and mine else ""
+    if not base or base == "Node":
+        return None
+    return _told_private(raised, own, base)
+
+
+def _told_private(raised: Raised, name: str, kind: str) -> RecognisedMistake:
+    found = raised.finding("attribute_not_set")
+    words = {"name": name, "written": name.replace("__", "_", 1), "type": kind}
+    return replace(found, variant="private", words={**found.words, **words})
+
+
+def _without_dot(raised: Raised, name: str) -> ast.stmt | None:
+    """Return the line that assigns to the name with self and without a dot: `selfname = 0`."""
+    for node in raised.module.nodes:
+        if isinstance(node, ast.stmt) and f"self{name}" in targets_of(node):
+            return node
+    return None
+
+
 def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if not of_self(raised, match) or match["name"] in raised.module.functions:
         return None
+    private = _private(raised, match["name"])
+    if private is not None:
+        return private
     name, close = match["name"], _close_attribute(raised, match["name"])
+    owner = class_of(raised.module, function_at(raised.module, raised.line))
+    helper = owner is not None and not owner[0].bases and owner[0] not in raised.source.family
+    if owner is not None and helper and name in NODE_METHODS:
+        found = raised.finding("attribute_not_set", name=name)
+        return replace(found, variant="no_node", words={**found.words, "type": owner[0].name})
+    held = raised.source.held_node
+    if held and name in NODE_METHODS:
+        params = {"name": f"self.{name}", "written": f"{held}.{name}"}
+        found = raised.finding("attribute_not_set", params=params)
+        return replace(found, variant="held", words={**found.words, "held": held})
     elsewhere = _set_elsewhere(raised, name)
     if elsewhere is not None:
         return elsewhere
@@ -126,11 +178,11 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
                 "attribute_not_set", at=node, name=value, written=_assigned(raised, node)
             )
             return replace(found, variant="annotated", words={**found.words, "attribute": name})
-    for node in raised.source.own_nodes:
-        if isinstance(node, ast.stmt) and f"self{name}" in targets_of(node):
-            params = {"name": f"self{name}", "written": f"self.{name}"}
-            found = raised.finding("attribute_not_set", at=node, params=params)
-            return replace(found, variant="dot", words={**found.words, "attribute": name})
+    dot = _without_dot(raised, name)
+    if dot is not None:
+        params = {"name": f"self{name}", "written": f"self.{name}"}
+        found = raised.finding("attribute_not_set", at=dot, params=params)
+        return replace(found, variant="dot", words={**found.words, "attribute": name})
     called = _called(raised, name)
     if called is not None:
         return called
@@ -266,8 +318,14 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
             rf"rclpy\.{match['name']}\([^()]{{0,80}}\)", raised.module.line(raised.line)
         )
         if call is not None:
-            found = raised.finding("attribute_unknown", name=call[0], written="self.get_logger()")
+            node = node_here(raised.source, raised.module, raised.line) or "self"
+            written = f"{node}.get_logger()"
+            found = raised.finding("attribute_unknown", name=call[0], written=written)
             return replace(found, variant="written")
+    node = node_here(raised.source, raised.module, raised.line)
+    if match["type"] == "rclpy" and match["name"] in NODE_METHODS and node:
+        params = {"name": f"rclpy.{match['name']}", "written": f"{node}.{match['name']}"}
+        return replace(raised.finding("attribute_unknown", params=params), variant="of_node")
     if match["type"] in ("NoneType", "rclpy"):
         found = raised.finding("attribute_unknown", name=match["name"])
         return replace(found, variant="none" if match["type"] == "NoneType" else "module")
@@ -277,6 +335,9 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return replace(found, variant="function")
     if match["type"] == "Parameter":
         return _of_parameter(raised, match["name"])
+    uncalled = _class_kept(raised, match)
+    if uncalled is not None:
+        return uncalled
     made = _from_its_making(raised, match)
     if made is not None:
         return made
@@ -288,6 +349,22 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         found = raised.finding("attribute_unknown", name=code, written=own)
         return replace(found, variant="written")
     return _similar(raised, match)
+
+
+def _class_kept(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """An attribute or a variable has a class of the file, where an object of it is meant."""
+    name = match["type"]
+    if not match.string.startswith("AttributeError: type object") or not any(
+        c.name == name for module in raised.source.modules for c in module.classes
+    ):
+        return None
+    for node in raised.source.all_nodes:
+        value = node.value if isinstance(node, ast.Assign) else None
+        if isinstance(node, ast.Assign) and isinstance(value, ast.Name) and value.id == name:
+            params = {"name": f"= {name}", "written": f"= {name}()"}
+            found = raised.finding("attribute_unknown", at=node, params=params)
+            return replace(found, variant="class_kept", words={**found.words, "type": name})
+    return None
 
 
 def _from_its_making(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -401,7 +478,8 @@ def _of_rclpy(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         before, _, method = called.rpartition(".")
         if method == name and before and before != "rclpy":
             written = f"{called}()"
-            new = f"rclpy.{name}({before})"
+            library = next((b for b, full, _ in imports(raised.module) if full == "rclpy"), "rclpy")
+            new = f"{library}.{name}({before})"
             found = raised.finding("attribute_unknown", at=call, name=written, written=new)
             return replace(found, variant="written")
     return None
@@ -463,6 +541,14 @@ KINDS = (
                 "Write self.{close} on that line: the other lines use this name, not self.{name}."
             ),
             "annotated": msg("Write {written} instead of {name}."),
+            "private": msg(
+                "Write {written} instead of {name} in all lines of both classes: one underscore is enough."
+            ),
+            "no_node": msg(
+                "Pass the node to {type} when it is made, as self in {type}(self). Keep it in its "
+                "__init__(self, node) with self.node = node, and write self.node.{name} here."
+            ),
+            "held": msg("Write {written} instead of {name}."),
             "dot": msg("A dot is missing. Write {written} instead of {name}."),
             "period": msg(
                 "Write the period in seconds instead of self.{name}: {written}. Or write self.{name} "
@@ -505,6 +591,18 @@ KINDS = (
             ),
         },
         whys={
+            "private": msg(
+                "A name that begins with two underscores belongs to its class alone. The class {type} sets "
+                "{name}, and a class that inherits from it does not see that attribute."
+            ),
+            "no_node": msg(
+                "{name} belongs to the node. The class {type} does not inherit from Node, so its objects "
+                "do not have it."
+            ),
+            "held": msg(
+                "This class is no node: it does not inherit from Node. Its node is {held}, which has "
+                "this method."
+            ),
             "dot": msg(
                 "{name} is a name of its own, and no attribute, so self.{attribute} does not exist."
             ),
@@ -562,6 +660,40 @@ KINDS = (
                 ),
                 fails="run.output",
                 blocks=DEAD,
+            ),
+            example(
+                "private_name_of_a_base_class",
+                Replace(
+                    NODE,
+                    "class MyFirstNode(Node):",
+                    "class Counting(Node):\n    def __init__(self, name):\n        super().__init__(name)\n"
+                    "        self.__count = 0\n\n\nclass MyFirstNode(Counting):",
+                ),
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(NODE, "str(self.counter_)", "str(self.__count)"),
+                Replace(NODE, "self.counter_ += 1", "self.__count += 1"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "helper_without_a_node",
+                Replace(NODE, "self.get_logger().info(", "Speaker().speak("),
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class Speaker:\n    def speak(self, text):\n        self.get_logger().info(text)\n\n\nclass MyFirstNode",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "node_kept_in_an_attribute",
+                Replace(NODE, "class MyFirstNode(Node)", "class MyFirstNode"),
+                Replace(
+                    NODE, "super().__init__('my_first_node')", "self.node = Node('my_first_node')"
+                ),
+                Replace(NODE, "node = MyFirstNode()", "node = MyFirstNode().node"),
+                fails="run.starts",
             ),
             example(
                 "counter_set_by_named_method",
@@ -645,6 +777,10 @@ KINDS = (
                 "A value on that line is None: nothing was assigned to it, or a function returned "
                 "nothing."
             ),
+            "class_kept": msg(
+                "Without (), {type} is the class itself. Only an object of it has what its __init__ sets."
+            ),
+            "of_node": msg("This is a method of the node, and no function of the module rclpy."),
             "module": msg("The module rclpy has nothing with the name {name}."),
             "bare_object": msg(
                 "An object that object() makes cannot get attributes, such as {name}."
@@ -659,6 +795,8 @@ KINDS = (
         },
         fixes={
             "written": msg("Write {written} instead of {name}."),
+            "of_node": msg("Write {written} instead of {name}."),
+            "class_kept": msg("Write {written} instead of {name}."),
             "similar": msg(
                 "Look up what a {type} can do. It has the similar name {other}: write that only if "
                 "it does what you want."
@@ -700,6 +838,18 @@ KINDS = (
                 Replace(NODE, "self.counter_ += 1", "MyFirstNode.counter_ += 1"),
                 fails="run.output",
                 blocks=("run.interrupt",),
+            ),
+            example(
+                "class_kept_for_an_object",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class Texts:\n    def __init__(self):\n        self.text = 'Hello time: '\n\n\nclass MyFirstNode",
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.texts = Texts"),
+                Replace(NODE, "'Hello time: ' + str", "self.texts.text + str"),
+                fails="run.output",
+                blocks=DEAD,
             ),
             example(
                 "number_to_text_as_a_column",

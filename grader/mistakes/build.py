@@ -10,6 +10,7 @@ from grader.mistakes.encodings import DECLARED, ENCODINGS, NOT_UTF8
 from grader.mistakes.example import CFG, SETUP, example
 from grader.mistakes.fixes import setup_cfg, setup_py, syntax
 from grader.mistakes.kind import Kind, Parts, Variants
+from grader.mistakes.package_dir import SOURCE_FOLDERS
 from grader.mistakes.slips import (
     DOCUMENTS,
     LANGUAGE,
@@ -265,6 +266,16 @@ KINDS = (
                 "Each value in setup() has a name and an = before it. Write: {wanted}, then build "
                 "again."
             ),
+            "py_modules": msg(
+                "py_modules is for files beside setup.py, and the node is in the inner folder. Delete "
+                "py_modules=…, and write {wanted}. Then build again."
+            ),
+            "no_comma": msg(
+                "A comma is between a folder and the list of its files. Write {wanted} instead of {name}."
+            ),
+            "no_colon": msg(
+                "A colon is between a key and its value. Write {wanted} instead of {name}."
+            ),
             "unpacked": msg(
                 "{name} is a dict with the values of setup(). Write setup({wanted}): the two stars "
                 "give each value under its name. Then build again."
@@ -333,6 +344,36 @@ KINDS = (
                     "            'test_node = my_robot_controller.my_first_node:main',\n        ],\n",
                     "        ],\n        'test_node = my_robot_controller.my_first_node:main',\n",
                 ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "setup_called_by_a_misspelt_name",
+                Replace(SETUP, "\nsetup(\n", "\nsetu(\n"),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "py_modules_for_packages",
+                Replace(
+                    SETUP,
+                    "packages=find_packages(exclude=['test'])",
+                    "packages=[],\n    py_modules=['my_first_node']",
+                ),
+                fails="build.colcon",
+            ),
+            example(
+                "folder_without_comma_in_data_files",
+                Replace(
+                    SETUP,
+                    "        ('share/' + package_name, ['package.xml']),\n",
+                    "        ('share/my_robot_controller' ['package.xml']),\n",
+                ),
+                fails="build.colcon",
+            ),
+            example(
+                "key_without_colon_in_setup",
+                Replace(SETUP, "'console_scripts': [", "'console_scripts' ["),
                 fails="build.colcon",
                 blocks=("entry_point.mapping",),
             ),
@@ -885,15 +926,7 @@ KINDS = (
             "no_copy_close": msg(
                 "Write {wanted} instead of {name} in data_files, then build again."
             ),
-            "package_dir_alone": msg(
-                "package_dir leads to the folder {name}, and the package has no such folder. Delete "
-                "package_dir, then build again: without it, setuptools looks for the packages beside "
-                "setup.py."
-            ),
-            "package_dir": msg(
-                "package_dir leads to the folder {name}, and the package has no such folder. Delete "
-                "package_dir and write {wanted}, then build again."
-            ),
+            **SOURCE_FOLDERS,
             "no_copy": msg(
                 "data_files in setup.py lists {name}, and the package has no such file (a folder is "
                 "none). Delete it from data_files, or create the file, then build again."

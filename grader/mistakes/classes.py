@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
@@ -58,6 +59,63 @@ def _base_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
         if base is not None and raised.line in (found.lineno, base.lineno):
             name = dotted(base.func)
             return raised.finding("base_called", at=base, name=found.name, base=name)
+    return None
+
+
+def _not_overridden(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a method that nothing calls, with nearly the name of an empty one of a base class."""
+    source = suspect.source
+    named = {n.attr for n in source.all_nodes if isinstance(n, ast.Attribute)}
+    classes = [c for module in source.modules for c in module.classes]
+    for derived in classes:
+        bases = {dotted(base).rpartition(".")[2] for base in derived.bases}
+        empty = [
+            m
+            for owner in classes
+            if owner.name in bases
+            for m in owner.body
+            if isinstance(m, ast.FunctionDef) and m.name in named and _is_empty(m)
+        ]
+        for method in derived.body:
+            if not isinstance(method, ast.FunctionDef) or method.name in named:
+                continue
+            plain = method.name.replace("_", "").lower()
+            for base in empty:
+                if base.name != method.name and base.name.replace("_", "").lower() == plain:
+                    params = {"name": f"def {method.name}", "written": f"def {base.name}"}
+                    found = suspect.finding("not_overridden", method, **params)
+                    words = {"method": base.name, "line": str(base.lineno)}
+                    return replace(found, words={**found.words, **words})
+    return None
+
+
+def _is_empty(method: ast.FunctionDef) -> bool:
+    """Whether a method does nothing: pass, ..., a text, or raise NotImplementedError."""
+    return all(
+        isinstance(s, ast.Pass)
+        or (isinstance(s, ast.Expr) and isinstance(s.value, ast.Constant))
+        or (
+            isinstance(s, ast.Raise)
+            and s.exc is not None
+            and "NotImplemented" in ast.unparse(s.exc)
+        )
+        for s in method.body
+    )
+
+
+def _not_overridden_raised(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    return _not_overridden(Suspect(raised.source, raised.assignment))
+
+
+def _field_order(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A field of a dataclass without a value stands below one that has a value."""
+    for owner in raised.module.classes:
+        for node in owner.body:
+            named = isinstance(node, ast.AnnAssign) and dotted(node.target) == match["name"]
+            if named and isinstance(node, ast.AnnAssign) and node.value is None:
+                found = raised.finding("field_order", at=node, name=match["name"])
+                return replace(found, words={**found.words, "type": owner.name})
     return None
 
 
@@ -221,12 +279,57 @@ KINDS = (
             "name, Python tries to create a {base} object there."
         ),
         msg("Remove the () after {base}: class {name}({base}):"),
-        raised={r"\ATypeError": _base_called},
+        raised={r"\ATypeError|NotInitializedException": _base_called},
         fixed_by=(node_classes.base,),
         examples=(
             example(
                 "base_class_called",
                 Replace(NODE, "(Node):", "(Node()):"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "not_overridden",
+        "class",
+        msg("A method does not replace that of the base class, because the names differ"),
+        msg(
+            "A class replaces a method of its base class with one of exactly the same name. {method} of "
+            "the base class (line {line}) is empty, and it is the one that is called."
+        ),
+        msg("Write {written} instead of {name}."),
+        links.PYTHON_CLASSES,
+        raised={r"NotImplementedError": _not_overridden_raised},
+        behind={"run.no_lines": _not_overridden, "run.constant_counter": _not_overridden},
+    ),
+    _node(
+        "field_order",
+        "class",
+        msg("A field of a dataclass stands below fields that have a value"),
+        msg(
+            "The fields of {type} become the parameters of its __init__, in their order. One without a "
+            "value cannot follow one that has a value."
+        ),
+        msg("Move this line above the fields of {type} that have a value, or give {name} a value."),
+        links.PYTHON_CLASSES,
+        raised={
+            r"TypeError: non-default argument '(?P<name>\w{1,80})' follows default argument": (
+                _field_order
+            )
+        },
+        examples=(
+            example(
+                "field_without_value_last",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "from dataclasses import dataclass\n\nimport rclpy\nfrom",
+                ),
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "@dataclass\nclass State:\n    count: int = 0\n    text: str\n\n\nclass MyFirstNode",
+                ),
                 fails="run.starts",
             ),
         ),

@@ -131,6 +131,17 @@ def _underscores(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
     return raised.finding("init_underscores", at=methods[near], name=near) if near else None
 
 
+def _misspelt_init(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A class of the node has no __init__, but a method with nearly this name that calls super()."""
+    del match
+    for own in raised.module.classes:
+        methods = {m.name: m for m in own.body if isinstance(m, ast.FunctionDef)}
+        near = "" if "__init__" in methods else nearest("__init__", methods, cutoff=0.8)
+        if near and _calls_super(methods[near]):
+            return raised.finding("init_underscores", at=methods[near], name=near)
+    return None
+
+
 def _dunder(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A name of Python has one underscore on each side instead of two."""
     name = match["name"]
@@ -381,12 +392,23 @@ KINDS = (
             "created. A method with another name is not called, so Node gets no name."
         ),
         msg("Rename {name} to __init__: two underscores before and after."),
-        raised={NO_NODE_NAME: _underscores},
+        raised={r"TypeError: ": _misspelt_init, NO_NODE_NAME: _underscores},
         fixed_by=(node_life.constructor,),
         examples=(
             example(
                 "init_single_underscores",
                 Replace(NODE, "    def __init__(self)", "    def _init_(self)"),
+                fails="run.starts",
+            ),
+            example(
+                "init_as_int_below_a_base_class",
+                Replace(
+                    NODE,
+                    "class MyFirstNode(Node):",
+                    "class Named(Node):\n    def __init__(self, name):\n        super().__init__(name)\n\n\n"
+                    "class MyFirstNode(Named):",
+                ),
+                Replace(NODE, "    def __init__(self):", "    def __int__(self):"),
                 fails="run.starts",
             ),
         ),

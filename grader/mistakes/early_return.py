@@ -244,11 +244,31 @@ def _returns_before_spin(suspect: Suspect) -> RecognisedMistake | None:
     return _ends_if_called_so(suspect)
 
 
+def _asks_before_init(source: NodeSource) -> ast.If | None:
+    """Return an if that ends the entry function unless ROS runs, above the call of init."""
+    main = source.main
+    inits = [c.lineno for c in source.calls_of("init", within=main)] if main is not None else []
+    for block in main.body if main is not None else ():
+        if not isinstance(block, ast.If) or block.orelse or not inits or block.lineno > min(inits):
+            continue
+        test = block.test
+        asks = isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not)
+        call = test.operand if isinstance(test, ast.UnaryOp) and asks else None
+        if isinstance(call, ast.Call) and last_part(dotted(call.func)) == "ok":
+            last = block.body[-1]
+            return block if isinstance(last, ast.Return) or exits(last) else None
+    return None
+
+
 def _ends_if_called_so(suspect: Suspect) -> RecognisedMistake | None:
     """Look for an if that ends the entry function, and is always true for ros2 run."""
     source, main = suspect.source, suspect.source.main
     spins = source.calls_of(*node_order.SPINS, within=main) if main is not None else []
     first = min((call.lineno for call in spins), default=0)
+    early = _asks_before_init(source)
+    if early is not None:
+        found = suspect.finding("return_early", early, lines=_rows(early))
+        return replace(found, variant="before_init")
     for block in ast.walk(main) if main is not None else ():
         if not isinstance(block, ast.If) or (block.end_lineno or 0) >= first or block.orelse:
             continue
@@ -349,6 +369,10 @@ KINDS = (
                 "return ends the function: line {line}, which counts, does not run after this line was "
                 "logged."
             ),
+            "before_init": msg(
+                "rclpy.ok() tells whether rclpy.init() has run in this program, and above that call it is "
+                "always false. So the program ends here."
+            ),
             "choice": IF_TRUE,
             "alone": IF_TRUE,
             "limit": IF_TRUE,
@@ -373,6 +397,7 @@ KINDS = (
         },
         fixes={
             "counts": msg("Write {written} above this return, in a line of its own."),
+            "before_init": msg("Delete line {lines}."),
             "word": msg("Delete only the word return in this line: what follows it stays."),
             "block": msg(
                 "If this return belongs to the if in line {line}, indent it by 4 more spaces, like the "
@@ -438,6 +463,15 @@ KINDS = (
                 "returns_before_spin",
                 Replace(
                     NODE, "    node = MyFirstNode()\n", "    node = MyFirstNode()\n    return\n"
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "asks_for_ros_before_init",
+                Replace(
+                    NODE,
+                    "    rclpy.init(args=args)\n",
+                    "    if not rclpy.ok():\n        return\n    rclpy.init(args=args)\n",
                 ),
                 fails="run.starts",
             ),

@@ -21,7 +21,8 @@ from grader.mistakes.example import (
 )
 from grader.mistakes.fixes import entries, layout, setup_py
 from grader.mistakes.kind import Kind, Parts
-from grader.package.edit.tree import Delete, Replace, Write
+from grader.mistakes.package_dir import SOURCE_FOLDER, SOURCE_FOLDERS
+from grader.package.edit.tree import Delete, Move, Replace, Write
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -139,11 +140,20 @@ KINDS = (
             "inner": msg(
                 "Move it out of the inner folder. In the package's folder, run: mv {there} ."
             ),
+            "renamed": msg(
+                "Rename it, then build again. In the package's folder, run: mv {there} setup.py"
+            ),
         },
-        fixed_by=(layout.out_of_inner_folder,),
+        fixed_by=(layout.out_of_inner_folder, layout.setup_renamed),
         link=links.PACKAGE,
         seen=r"can't open file '[^'\n]{0,300}setup\.py'",
         examples=(
+            example(
+                "setup_with_a_capital_letter",
+                Move(SETUP, "Setup.py"),
+                fails="entry_point.mapping",
+                blocks=UNBUILT,
+            ),
             example("setup_missing", Delete(SETUP), fails="entry_point.mapping", blocks=UNBUILT),
         ),
     ),
@@ -736,7 +746,9 @@ KINDS = (
             "entry point leads to a module that does not exist."
         ),
         whys={
-            **dict.fromkeys(("folder", "import", "other_folder", "unknown_folder"), FOLDERS),
+            **dict.fromkeys(
+                ("folder", "import", "other_folder", "library", "unknown_folder"), FOLDERS
+            ),
             **dict.fromkeys(("argument", "misspelt"), NO_PACKAGES),
             "text": msg(
                 "packages= is a list of folders. This value is a text, and setuptools takes each "
@@ -748,6 +760,10 @@ KINDS = (
             "other_folder": msg(
                 "Delete the name of the folder {path} from packages=, or create that folder with an "
                 "__init__.py in it. Then build again."
+            ),
+            "library": msg(
+                "Delete {path} from packages=: it is a library, and no folder of this package. It is named "
+                "in package.xml. Then build again."
             ),
             "unknown_folder": msg(
                 "Find what makes setup.py name {path}: packages= together with package_dir=, or the "
@@ -803,8 +819,11 @@ KINDS = (
             "setup.py is a program: what it does besides setup() can change what is installed. "
             "Others read the sources, and expect the package to be what they say."
         ),
+        whys=dict.fromkeys(SOURCE_FOLDERS, SOURCE_FOLDER),
         fix=msg("Remove what setup.py does besides calling setup()."),
+        fixes=SOURCE_FOLDERS,
         link=links.DEVELOPING,
+        fixed_by=(setup_py.fault,),
         examples=(
             example(
                 "script_rewritten",
@@ -821,6 +840,16 @@ KINDS = (
                 ),
                 fails="entry_point.executable",
             ),
+            example(
+                "package_dir_leads_nowhere",
+                Replace(
+                    SETUP,
+                    "    packages=find_packages(exclude=['test']),",
+                    "    packages=find_packages(exclude=['test']),\n    package_dir={'': 'src'},",
+                ),
+                fails="entry_point.executable",
+                note="the entry's module is looked for in src/, which is not there",
+            ),
         ),
     ),
     Kind(
@@ -833,6 +862,10 @@ KINDS = (
                 "The entry is in pyproject.toml, which colcon build --symlink-install does not "
                 "read: it runs setup.py in a folder without that file."
             ),
+            "twice": msg(
+                "setup.py calls setup() twice, and the last call counts. Line {line} has the entry, in a "
+                "call above this one."
+            ),
             "replaced": msg(
                 "Line {line} has the entry. This line, which runs later, gives entry_points another "
                 "value, so that setup() does not get the entry."
@@ -844,6 +877,7 @@ KINDS = (
         },
         fix=msg("Write the entry into setup.py's entry_points, under console_scripts: '{wanted}',"),
         fixes={
+            "twice": msg("Delete this call of setup()."),
             "replaced": msg(
                 "Delete this statement, or write the entry into it, under console_scripts: '{wanted}',"
             ),
@@ -865,6 +899,16 @@ KINDS = (
                 ),
                 fails="entry_point.mapping",
                 blocks=UNINSTALLED,
+            ),
+            example(
+                "setup_called_twice",
+                Replace(
+                    SETUP,
+                    "    },\n)\n",
+                    "    },\n)\n\nsetup(name=package_name, version='0.0.1', packages=[package_name])\n",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNSTARTED,
             ),
             example(
                 "entry_appended_after_setup",

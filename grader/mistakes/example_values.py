@@ -705,6 +705,25 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.thread_goes_on": {"name": "run"},
     "node.asyncio_used": {"name": "asyncio.sleep(…)", "method": "on_timer"},
     "node.timer_hides_method": {"name": "on_timer"},
+    "node.not_overridden": {
+        "name": "def onCycle",
+        "written": "def on_cycle",
+        "method": "on_cycle",
+        "line": "12",
+    },
+    "node.field_order": {"name": "text", "type": "State"},
+    "node.self_late": {
+        "method": "text_of",
+        "parameter": "number",
+        "parameters": "self, number",
+    },
+    "node.error_logged": {
+        "line": "12",
+        "at": "12",
+        "row": "14",
+        "error": "NameError: name 'count' is not defined",
+        "correction": "Write self.counter instead of count.",
+    },
     "node.error_hidden": {
         "name": "count",
         "written": "counter",
@@ -780,18 +799,6 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "run.ended_early": {"library": "rclpy"},
     "run.error_at_stop": {"library": "rclpy"},
     "node.spin_of_object": {"name": "app", "type": "App", "attribute": "node"},
-    "node.helper_not_made": {
-        "name": "self.helper = Helper",
-        "written": "self.helper = Helper()",
-        "attribute": "self.helper",
-        "type": "Helper",
-    },
-    "node.helper_is_no_node": {
-        "name": "self.get_logger",
-        "written": "self.node.get_logger",
-        "method": "get_logger",
-        "type": "Helper",
-    },
     "node.helper_not_called": {
         "name": "self.helper.add",
         "written": "self.helper.add()",
@@ -817,12 +824,6 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "error": "AttributeError: 'MyNode' object has no attribute 'conter'",
         "at": "17",
         "correction": "Write self.counter instead of self.conter.",
-    },
-    "node.logger_of_other_node": {
-        "name": "self.other.get_logger()",
-        "written": "self.get_logger()",
-        "attribute": "self.other",
-        "line": "9",
     },
     "node.logger_by_name": {
         "name": "rclpy.logging.get_logger('name')",

@@ -23,7 +23,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.worked_out import first_of, worked_out
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import logged_counter, targets_of
+from grader.package.source.counter import adds_to, logged_counter, starts_of, targets_of
 from grader.package.source.endless import methods_run_by
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
@@ -50,12 +50,26 @@ def _loops(suspect: Suspect) -> RecognisedMistake | None:
             number = block.target if isinstance(block, ast.For) else None
             inside = {dotted(n) for log in suspect.source.logs(block) for n in ast.walk(log)}
             if isinstance(number, ast.Name) and number.id in inside:
-                known = node_loops.counter_beside(suspect.source, block, suspect.output)
-                counter = known or node_loops.free_counter(suspect.source)
-                words = {**found.words, "number": number.id, "counter": counter}
-                return replace(found, variant="counts_beside" if known else "counts", words=words)
+                found = replace(found, variant="counts", words={**found.words, "number": number.id})
+                kept = _counter_of_range(suspect, block)
+                if kept:
+                    words = {**found.words, "kept": kept}
+                    params = {**found.params, "kept": kept}
+                    found = replace(found, variant="counts_kept", words=words, params=params)
             return found
     return None
+
+
+def _counter_of_range(suspect: Suspect, block: ast.For | ast.While) -> str:
+    """Return the attribute up to which a for counts, if the callback adds to it; "" if none."""
+    rounds = block.iter if isinstance(block, ast.For) else None
+    callback = suspect.source.callback
+    if not isinstance(rounds, ast.Call) or dotted(rounds.func) != "range" or callback is None:
+        return ""
+    names = [dotted(n) for given in rounds.args for n in ast.walk(given)]
+    kept = [name for name in names if name.startswith("self.") and name.count(".") == 1]
+    added = [n for n in ast.walk(callback) if any(adds_to(n, name) for name in kept)]
+    return kept[0] if kept and added and kept[0] in starts_of(suspect.source) else ""
 
 
 def _chooses(block: ast.If) -> bool:
@@ -198,6 +212,12 @@ def _is_text(statement: ast.stmt) -> bool:
     return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
 
 
+def _spins_again(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The line spins once more after Ctrl+C, in a loop whose except lets it go on."""
+    del match
+    return _swallowed(Suspect(raised.source, raised.assignment))
+
+
 def _swallowed(suspect: Suspect) -> RecognisedMistake | None:
     """Look for an except in a loop that catches Ctrl+C and lets the loop go on."""
     for handler in suspect.source.all_nodes:
@@ -253,9 +273,23 @@ KINDS = (
                 "line {line}."
             ),
         },
+        raised={r"RCLError: failed to initialize wait set": _spins_again},
         behind={"run.ignores_interrupt": _swallowed},
         fixed_by=(node_try.break_in_except,),
         examples=(
+            example(
+                "spins_once_more_after_ctrl_c",
+                Replace(
+                    NODE,
+                    SPIN_UNTIL_CTRL_C,
+                    "    while True:\n"
+                    "        try:\n"
+                    "            rclpy.spin_once(node)\n"
+                    "        except KeyboardInterrupt:\n"
+                    "            continue\n",
+                ),
+                fails="run.interrupt",
+            ),
             example(
                 "loop_goes_on_after_ctrl_c",
                 Replace(
@@ -294,31 +328,20 @@ KINDS = (
         ),
         msg("Remove this {name}, and indent its lines as far as the {name} is indented now."),
         fixes={
+            "counts_kept": msg(
+                "Remove this {name}, and indent its lines as far as the {name} is indented now. "
+                "Without it there is no {number}: log {kept} instead, which counts already."
+            ),
             "counts": msg(
                 "Remove this {name}, and indent its lines as far as the {name} is indented now. "
                 "Without it there is no {number}: write {counter} = {start} in __init__, log "
                 "{counter} instead of {number}, and write {counter} += {step} below the line that "
                 "logs."
             ),
-            "counts_beside": msg(
-                "Remove this {name}, and indent its lines as far as the {name} is indented now. "
-                "Without it there is no {number}: log {counter} instead of {number}. The lines that "
-                "set {counter} and add to it are there already."
-            ),
         },
         behind={"run.twice": _loops, "run.wrong_step": _loops},
         fixed_by=(lines.unwrapped, node_loops.counted_by_calls),
         examples=(
-            example(
-                "loop_to_the_counter",
-                Replace(
-                    NODE,
-                    LOG_LINE,
-                    "        for i in range(self.counter_):\n"
-                    "            self.get_logger().info('Hello time: ' + str(i))\n",
-                ),
-                fails="run.output",
-            ),
             example(
                 "loop_logs_its_number",
                 Replace(NODE, "        self.counter_ = 0\n", ""),
@@ -328,6 +351,12 @@ KINDS = (
                     "        for i in range(10):\n"
                     "            self.get_logger().info('Hello time: ' + str(i))\n",
                 ),
+                fails="run.output",
+            ),
+            example(
+                "loop_up_to_the_counter",
+                Replace(NODE, LOG_LINE, f"        for i in range(self.counter_):\n    {LOG_LINE}"),
+                Replace(NODE, "str(self.counter_)", "str(i)"),
                 fails="run.output",
             ),
             example(

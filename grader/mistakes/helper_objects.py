@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import ast
-import re
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import DEAD, LOG_LINE, NODE, STEP_LINE, example
+from grader.mistakes.example import LOG_LINE, NODE, STEP_LINE, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, on_line
-from grader.mistakes.scope import NODE_METHODS
+from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import adds_to, parts_of_callback, targets_of
 from grader.package.source.module import Function
@@ -27,64 +25,6 @@ PROPERTY = (
     "class CountOnRead:\n\n    def __init__(self):\n        self._n = -1\n\n    @property\n"
     "    def number(self):\n        self._n += 1\n        return self._n\n\n\nclass MyFirstNode"
 )
-GREETER = (
-    "class Speaker:\n\n    def __init__(self):\n        self.n = 0\n\n    def speak(self):\n"
-    "        self.get_logger().info('Hello time: ' + str(self.n))\n"
-    "        self.n += 1\n\n\nclass MyFirstNode"
-)
-
-
-def _class_itself(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """A class of the student's is used where one of its objects is meant: the () is missing."""
-    kind, name = match["type"], match["name"]
-    owners = {
-        dotted(n.value)
-        for n in raised.module.nodes
-        if isinstance(n, ast.Attribute) and n.attr == name and n.lineno == raised.line
-    }
-    found = [
-        n
-        for n in raised.source.all_nodes
-        if isinstance(n, ast.Assign)
-        and owners & set(targets_of(n))
-        and last_part(dotted(n.value)) == kind
-    ]
-    own = [c for m in raised.source.modules for c in m.classes if c.name == kind]
-    if len(found) != 1 or len(own) != 1 or not _needs_nothing(own[0]):
-        return None
-    code = raised.source.module_of(found[0]).text.code(found[0])
-    target = next(iter(owners & set(targets_of(found[0]))))
-    params = {"name": code, "written": f"{code}()"}
-    mistake = raised.finding("helper_not_made", at=found[0], params=params)
-    return replace(mistake, words={**mistake.words, "type": kind, "attribute": target})
-
-
-def _needs_nothing(own: ast.ClassDef) -> bool:
-    """Whether an object of a class can be made without arguments, as far as the class shows it."""
-    inits = [s for s in own.body if isinstance(s, Function) and s.name == "__init__"]
-    given = [i.args for i in inits]
-    return all(len(a.args) - len(a.defaults) <= 1 and not a.kwonlyargs for a in given)
-
-
-def _needs_node(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """A method of Node is called on self in a class that is no node."""
-    kind, name = match["type"], match["name"]
-    own = [c for m in raised.source.modules for c in m.classes if c.name == kind]
-    if len(own) != 1 or name not in NODE_METHODS or own[0] in raised.source.family:
-        return None
-    if own[0].bases or f"self.{name}" not in raised.module.line(raised.line):
-        return None
-    mistake = raised.finding("helper_is_no_node", name=f"self.{name}", written=f"self.node.{name}")
-    words = {**mistake.words, "type": kind, "method": name}
-    made = [call for call, called in raised.source.calls if last_part(called) == kind]
-    function = raised.source.function_around(made[0]) if len(made) == 1 else None
-    inside = function is not None and function in raised.source.own_methods
-    inits = [s for s in own[0].body if isinstance(s, Function) and s.name == "__init__"]
-    plain = len(inits) == 1 and len(inits[0].args.args) == 1 and not made[0].args if made else False
-    if not inside or not plain or made[0].keywords:
-        return replace(mistake, words=words)
-    words |= {"line": str(made[0].lineno), "row": str(inits[0].lineno)}
-    return replace(mistake, words=words, variant="made")
 
 
 def _only_named(suspect: Suspect) -> RecognisedMistake | None:
@@ -183,67 +123,6 @@ def _free(function: Function) -> str:
 
 _node = Family("node", links.PYTHON_CLASSES)
 KINDS = (
-    _node(
-        "helper_not_made",
-        "class",
-        msg("The class itself is used instead of an object"),
-        msg(
-            "An object is made by a call of its class, with (). This line gives {attribute} the class "
-            "{type} itself, and the __init__ of {type} does not run."
-        ),
-        msg("Write {written} instead of {name}."),
-        raised={
-            r"AttributeError: type object '(?P<type>\w{1,120})' has no attribute "
-            r"'(?P<name>\w{1,120})'": on_line(_class_itself)
-        },
-        fixed_by=(lines.written,),
-        examples=(
-            example(
-                "class_of_the_helper",
-                Replace(NODE, "class MyFirstNode", HELPER),
-                Replace(NODE, "self.counter_ = 0", "self.counter_ = HelperOfCount"),
-                Replace(NODE, "str(self.counter_)", "str(self.counter_.total)"),
-                Replace(NODE, "self.counter_ += 1", "self.counter_.one_more()"),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-        ),
-    ),
-    _node(
-        "helper_is_no_node",
-        "class",
-        msg("A method of Node is called on an object that is no node"),
-        msg(
-            "{method} is a method of Node. The class {type} is not derived from Node, so its objects "
-            "do not have it."
-        ),
-        msg(
-            "Give the object the node: the __init__ of {type} gets it as one more argument, node, and "
-            "keeps it with self.node = node. Where the object is made, pass the node, which is self in "
-            "the methods of the node. Then write {written} instead of {name}."
-        ),
-        fixes={
-            "made": msg(
-                "Give the object the node: write {type}(self) instead of {type}() in line {line}, and "
-                "def __init__(self, node): with the first line self.node = node in line {row}. Then "
-                "write {written} instead of {name}."
-            )
-        },
-        raised={
-            r"AttributeError: '(?P<type>\w{1,120})' object has no attribute "
-            r"'(?P<name>\w{1,120})'": on_line(_needs_node)
-        },
-        examples=(
-            example(
-                "helper_logs_without_node",
-                Replace(NODE, "class MyFirstNode", GREETER),
-                Replace(NODE, "self.counter_ = 0", "self.counter_ = Speaker()"),
-                Replace(NODE, LOG_LINE + STEP_LINE, "        self.counter_.speak()\n"),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-        ),
-    ),
     _node(
         "helper_not_called",
         "counter",

@@ -65,6 +65,8 @@ def _dataclass(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
 
 def _read_only(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name = match["name"] or match["old"] or ""
+    if "'Parameter'" in match[0]:
+        return replace(raised.finding("property_set", name=name), variant="parameter")
     for method in raised.source.own_methods:
         if method.name == name and any(dotted(d) == "property" for d in method.decorator_list):
             found = raised.finding("property_set", at=method, name=name)
@@ -458,7 +460,16 @@ KINDS = (
         msg("A value is assigned to a property that has no setter"),
         msg("@property makes {name} a value that can only be read."),
         msg("Delete the property {name}: in Python an attribute needs no method that returns it."),
+        whys={
+            "parameter": msg(
+                "get_parameter returns an object of the type Parameter. Its {name} can only be read."
+            )
+        },
         fixes={
+            "parameter": msg(
+                "Keep the number in an attribute: in __init__, give it the value of the parameter, with "
+                "self.count = self.get_parameter(…).value. Log and increase self.count in {callback}."
+            ),
             "kept": msg(
                 "The property only returns {written}. Assign to that attribute: write {written} "
                 "instead of self.{name} in line {line}."
@@ -472,6 +483,17 @@ KINDS = (
             r"|can't set attribute(?: '(?P<old>\w{1,120})')?)": _read_only
         },
         examples=(
+            example(
+                "value_of_a_parameter_set",
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "self.declare_parameter('n', 0)\n        self.counter_ = 0",
+                ),
+                Replace(NODE, "self.counter_ += 1", "self.get_parameter('n').value += 1"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
             example(
                 "property_set",
                 Replace(

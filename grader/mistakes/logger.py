@@ -154,21 +154,6 @@ def _debug(suspect: Suspect) -> RecognisedMistake | None:
     return replace(mistake, variant="written")
 
 
-def _debug_in_one_branch(suspect: Suspect) -> RecognisedMistake | None:
-    """Look for two calls with the same text in two branches, of which one is not shown."""
-    source, callback = suspect.source, suspect.source.callback
-    logs = source.logs(callback) if callback is not None else []
-    debug = [log for log in logs if last_part(dotted(log.func)) == "debug"]
-    shown = {ast.dump(log.args[0]) for log in logs if log not in debug and log.args}
-    same = debug and debug[0].args and ast.dump(debug[0].args[0]) in shown
-    if len(debug) != 1 or not same:
-        return None
-    name = source.module_of(debug[0]).text.code(debug[0].func)
-    written = f"{name.removesuffix('debug')}info"
-    found = suspect.finding("debug_level", debug[0], name=name, written=written)
-    return replace(found, variant="written")
-
-
 def _methods_of_loggers(source: NodeSource) -> list[ast.Attribute]:
     """Return where the files name a method of a logger, called or not."""
     loggers = {*source.loggers, *_parameters_for_loggers(source)}
@@ -493,24 +478,20 @@ KINDS = (
         msg("Write self.get_logger().info(…) instead of .debug(…)."),
         links.LOGGING,
         fixes={"written": INSTEAD},
-        behind={
-            "run.no_lines": _debug,
-            "run.wrong_step": _debug_in_one_branch,
-            "run.wrong_start": _debug_in_one_branch,
-            "run.wrong_period": _debug_in_one_branch,
-        },
-        fixed_by=(lines.written, node_log.level),
+        behind={"run.no_lines": _debug, "run.wrong_step": _debug, "run.wrong_start": _debug},
+        fixed_by=(node_log.level, lines.written),
         examples=(
             example(
-                "every_second_line_as_debug",
+                "each_second_line_as_debug",
                 Replace(
                     NODE,
                     LOG_LINE,
-                    f"        if self.counter_ % 2:\n            {LOG.replace('info', 'debug')}\n"
+                    "        if self.counter_ % 2:\n"
+                    "            self.get_logger().debug('odd')\n"
                     f"        else:\n    {LOG_LINE}",
                 ),
                 fails="run.output",
-                also={"run.period": "node.debug_level"},
+                also={"run.period": "run.wrong_period"},
             ),
             example(
                 "logged_as_debug",

@@ -169,6 +169,19 @@ KINDS = (
             "package_twice": msg(
                 "Delete everything below the first </package>, from this line to the end of the file."
             ),
+            "typed": msg("A sign of a tag in this line is missing or wrong. Write: {wanted}"),
+            "line_twice": msg(
+                "This line and line {wanted} above it are the same. Delete one of them."
+            ),
+            "lines_swapped": msg(
+                "Line {wanted} and this one are in the wrong order. Exchange the two lines."
+            ),
+            "end_twice": msg("Delete this line: </package> is only at the end of the file."),
+            "root_first": msg(
+                "All tags are between <package …> and </package>. Move this line below the one that begins "
+                "with <package."
+            ),
+            "first_line": msg('Write as the first line: <?xml version="1.0"?>'),
             "no_tags": msg(
                 "package.xml is XML: it consists of tags, such as <package>. Copy the one that ros2 pkg "
                 "create makes, and write your values into it."
@@ -194,7 +207,7 @@ KINDS = (
             "comment_start": msg("Write <!-- where the comment begins, and --> where it ends."),
             "less": msg("Write &lt; instead of this <."),
         },
-        fixed_by=(manifest.well_formed,),
+        fixed_by=(manifest.well_formed, manifest.declared_encoding),
         examples=(
             example(
                 "license_not_closed",
@@ -202,6 +215,36 @@ KINDS = (
                 fails="package.manifest",
                 blocks=UNBUILT,
                 note="expat names the line of </package>",
+            ),
+            example(
+                "end_tag_with_a_backslash",
+                Replace(MANIFEST, "rclpy</depend>", "rclpy<\\depend>"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "tag_without_its_first_sign",
+                Replace(MANIFEST, "<depend>rclpy", "depend>rclpy"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "end_tag_with_its_slash_at_the_end",
+                Replace(MANIFEST, "rclpy</depend>", "rclpy<depend/>"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "end_tag_twice",
+                Replace(MANIFEST, "  </export>\n", "  </export>\n  </export>\n"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "end_tags_in_the_wrong_order",
+                Replace(MANIFEST, "  </export>\n</package>\n", "</package>\n  </export>\n"),
+                fails="package.manifest",
+                blocks=UNBUILT,
             ),
             example(
                 "manifest_pasted_twice",

@@ -54,6 +54,10 @@ KINDS = (
                 "the empty file, then build again. In the package's folder, run: "
                 "mkdir -p resource && touch resource/{package}"
             ),
+            "file": msg(
+                "resource has to be a folder with the empty file in it. In the package's folder, run: "
+                "rm resource && mkdir resource && touch resource/{package}. Then build again."
+            ),
             "folder": msg(
                 "Delete that folder and create an empty file with the same name. In the package's "
                 "folder, run: rm -r resource/{package} && touch resource/{package}"

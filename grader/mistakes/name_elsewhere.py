@@ -92,6 +92,13 @@ def _lines(parts: Iterable[ast.AST]) -> str:
     return ", ".join(map(str, rows))
 
 
+def _is_above(raised: Raised, owner: Function) -> bool:
+    """Whether the line stands directly above the def of a function, with only blank lines between."""
+    rows = range((raised.line or owner.lineno) + 1, owner.lineno)
+    above = raised.line is not None and raised.line < owner.lineno
+    return above and not any(raised.module.line(row) for row in rows)
+
+
 def _local(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """Only another function has the name: as its variable, its parameter or its inner function."""
     name, module = match["name"], raised.module
@@ -110,6 +117,8 @@ def _local(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return None
     params = {"name": name, "line": str(found[0].line), "function": owner.name}
     mistake = raised.finding("name_local", params=params)
+    if not isinstance(here, Function) and _is_above(raised, owner):
+        return replace(mistake, variant="above")
     kept = _as_attribute(raised, owner, here, found)
     if kept is not None:
         variant, more = kept
@@ -266,6 +275,10 @@ KINDS = (
             "functions and classes, if it needs nothing of {function}."
         ),
         fixes={
+            "above": msg(
+                "This line stands above def {function}, outside of it. Move it below the line "
+                "def {function}(…), indented by 4 spaces like the other lines of {function}."
+            ),
             "self": msg(
                 "Write {written} instead of {name} in line {lines}: an attribute of self is known "
                 "in all methods of the class."
@@ -290,6 +303,14 @@ KINDS = (
         raised={NAME_ERROR: _local},
         fixed_by=(_kept,),
         examples=(
+            example(
+                "init_above_main",
+                Replace(NODE, "    rclpy.init(args=args)\n", ""),
+                Replace(
+                    NODE, "def main(args=None)", "rclpy.init(args=args)\n\n\ndef main(args=None)"
+                ),
+                fails="run.starts",
+            ),
             example(
                 "text_of_init_in_callback",
                 Replace(

@@ -21,9 +21,10 @@ from grader.mistakes.imports import IMPORTS, RCLPY
 from grader.mistakes.kind import Family
 from grader.mistakes.order import spun_names
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
-from grader.mistakes.scope import NODE_METHODS
+from grader.mistakes.scope import CALLBACK, NODE_METHODS, OUTSIDE
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
+from grader.package.source.imported import imports
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node_here import node_here
@@ -76,18 +77,39 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return replace(found, variant="period")
     if (own := _class_for(raised, name)) is not None:
         return _instead(raised.finding("name_unknown", name=name, close=own))
+    parts = [full for _, full, _ in imports(raised.module) if full.rpartition(".")[2] == name]
+    plain = [p for p in parts if f"import {p}" in raised.module.text.text and "." in p]
+    if plain and f"{name}." in raised.module.line(raised.line):
+        return _instead(raised.finding("name_unknown", name=name, close=plain[0]))
     seen = {*visible_names(raised.module, raised.line, name), *IMPORTS}
     known = (_known(raised, name) & seen) - {name, "None", "True", "False"}
     if bindings(raised.module, name):
         known = {other for other in known if other.lower() == name.lower()}
+    known |= {other for other in dir(builtins) if other.lower() == name.lower() != name}
     close = meant_by(name, known, 0.7)
     if isinstance(statement, ast.ClassDef) and close:
         return _instead(raised.finding("name_unknown", name=name, close=close, written=close))
     variables = raised.source.node_variables
     if name in spun_names(raised.source) and len(variables) == 1 and variables < seen - {name}:
         return _instead(raised.finding("name_unknown", name=name, close=min(variables)))
+    binding = _binding(raised, name, close) if close else None
+    if binding is not None:
+        return binding
     found = raised.finding("name_unknown", name=name, close=close)
     return _instead(found) if close and nearest(name, [close], cutoff=MISSPELT) else found
+
+
+def _binding(raised: Raised, name: str, close: str) -> RecognisedMistake | None:
+    """The line that gives the value has the misspelt name: other lines use the right one."""
+    names = [n for n in raised.module.nodes if isinstance(n, ast.Name) and n.id in (name, close)]
+    set_as = [n for n in names if n.id == close]
+    used = [n for n in names if n.id == name and isinstance(n.ctx, ast.Load)]
+    if len(set_as) != 1 or not isinstance(set_as[0].ctx, ast.Store) or len(used) < 2:
+        return None
+    params = {"name": close, "written": name, "close": ""}
+    found = raised.finding("name_unknown", at=set_as[0], params=params)
+    lines = ", ".join(str(row) for row in sorted({n.lineno for n in used}))
+    return replace(found, variant="binding", words={**found.words, "lines": lines})
 
 
 def _joined(raised: Raised, name: str) -> RecognisedMistake | None:
@@ -200,6 +222,12 @@ def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         found = raised.finding("argument_missing", name="get_logger()", written="self.get_logger()")
         return replace(found, variant="logger", words={**found.words, "function": "get_logger"})
     foreign = match["function"].partition(".")[0] not in raised.source.known_classes
+    timers = [t for t in raised.source.timers if t.callback is not None]
+    outside = [t for t in timers if t.callback and dotted(t.callback) == match["function"]]
+    if match["name"] == "self" and outside and match["function"] in raised.module.functions:
+        words = {"name": function, "written": f"self.{function}", "function": function}
+        found = raised.finding("argument_missing", at=outside[0].call)
+        return replace(found, variant="outside", words={**found.words, **words})
     if match["name"] == "self" and "." in match["function"]:
         return replace(found, variant="class")
     if function in own and not foreign:
@@ -336,6 +364,9 @@ KINDS = (
         links.PYTHON_ERRORS,
         close=msg("Write {close} instead of {name}, or define {name} first."),
         fixes={
+            "binding": msg(
+                "Write {written} instead of {name} here: lines {lines} use the name {written}."
+            ),
             "alone": msg(
                 "Delete this line if it was typed by accident: it contains only {name}, which "
                 "nothing defines."
@@ -365,6 +396,13 @@ KINDS = (
         raised={NAME_ERROR: _undefined},
         fixed_by=(lines.written, rename.variable, lines.deleted_name),
         examples=(
+            example(
+                "node_set_by_another_case",
+                Replace(NODE, "    node = MyFirstNode()", "    Node_ = MyFirstNode()"),
+                Replace(NODE, "rclpy.spin(node)", "rclpy.spin(node_)"),
+                Replace(NODE, "node.destroy_node()", "node_.destroy_node()"),
+                fails="run.starts",
+            ),
             example(
                 "base_in_small_letters",
                 Replace(NODE, "class MyFirstNode(Node)", "class MyFirstNode(node)"),
@@ -518,9 +556,17 @@ KINDS = (
                 "line {line} passes no value."
             ),
             "logger": msg("Write {written} instead of {name}."),
+            "outside": msg(
+                "Indent {function} and its lines by 4 more spaces and move them into the class, among "
+                "its methods. Write {written} instead of {name} on this line."
+            ),
             "spin": msg("Write rclpy.spin({node}): spin needs the node that was created."),
         },
         whys={
+            "outside": msg(
+                "The timer calls {function} without arguments. Only a method of an object gets self, "
+                "and {function} is outside of the class."
+            ),
             "property": PROPERTY,
             "property_used": PROPERTY,
             "logger": msg(
@@ -542,6 +588,18 @@ KINDS = (
             lines.written,
         ),
         examples=(
+            example(
+                "callback_with_self_outside",
+                Replace(NODE, CALLBACK, ""),
+                Replace(NODE, "class MyFirstNode(Node)", f"{OUTSIDE}\n\nclass MyFirstNode(Node)"),
+                Replace(
+                    NODE,
+                    "self.create_timer(1.0, self.timer_callback)",
+                    "self.create_timer(1.0, timer_callback)",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "init_wants_name",
                 Replace(NODE, "def __init__(self)", "def __init__(self, name)"),

@@ -19,6 +19,7 @@ from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.names import dotted, last_part
 from grader.package.source.node import LOG_METHODS
+from grader.package.source.node_here import node_here
 from grader.package.source.place import block_of, function_at
 
 OF_RCLPY = r"module '(?P<module>rclpy(?:\.\w{1,60})?)' has no attribute '(?P<name>\w{1,120})'"
@@ -92,6 +93,10 @@ def _sleep(raised: Raised, call: ast.Call) -> RecognisedMistake | None:
     if not isinstance(statement, ast.stmt):
         return None
     found = _instead(raised, call, raised.module.text.code(call), "")
+    node = node_here(raised.source, raised.module, raised.line) or "node"
+    looped = any(isinstance(n, ast.While | ast.For) for n in raised.module.around(statement))
+    if looped and not raised.source.timers:
+        return replace(found, variant="sleep_loop", words={**found.words, "node": node})
     if len(block_of(raised.module, statement)) > 1:
         return replace(found, variant="sleep")
     around = raised.module.parents.get(statement)
@@ -166,6 +171,10 @@ KINDS = (
             "sleep_alone": msg(
                 "rclpy has no sleep. The timer calls the callback once in each period, without it."
             ),
+            "sleep_loop": msg(
+                "rclpy has no sleep. In ROS 2, a timer calls a function once in each period, and spin "
+                "waits for the timer."
+            ),
             "duration": msg("create_timer takes the period as a number of seconds."),
         },
         fixes={
@@ -174,6 +183,11 @@ KINDS = (
                 "what Ctrl+C raises."
             ),
             "sleep": msg("Delete this line."),
+            "sleep_loop": msg(
+                "Write the lines of the loop that log and count into a function of their own, and let "
+                "a timer call it: {node}.create_timer({period}, and the name of that function). Then "
+                "write rclpy.spin({node}) instead of the loop."
+            ),
             "sleep_alone": msg(
                 "Delete this line, and line {line}, which begins its block: the block has no other "
                 "line."

@@ -19,7 +19,7 @@ from grader.package.source.counter import starts_of, targets_of
 from grader.package.source.imported import full_name, imports, name_of_node
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, last_part, module_name, own_name
-from grader.package.source.place import statement_at
+from grader.package.source.place import function_at, statement_at
 
 NO_BASE = (
     r"TypeError: (?:module|str|int)\(\) takes at most|metaclass conflict"
@@ -285,6 +285,12 @@ def _taken_inside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
 def _hides_property(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A method has the name of what rclpy reads from the node, and the error comes from rclpy."""
     del match
+    here = function_at(raised.module, raised.line)
+    own = raised.source.methods.get(here.name) if here is not None else None
+    started = raised.source.super_init
+    replaces = own is here and here is not None and here.name in {*ALSO_OF_NODE, *NODE_METHODS}
+    if own is not None and replaces and started is not None and not raised.inside:
+        return _own_method(raised, own, own.name)
     for name in node_objects.PROPERTIES if raised.inside else ():
         method = raised.source.methods.get(name)
         if method is not None and not method.decorator_list:

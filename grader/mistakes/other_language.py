@@ -31,6 +31,13 @@ WORDS = {
     ),
     "this": "self",
 }
+FUNCTIONS = {
+    **dict.fromkeys(("num2str", "int2str", "to_string", "itoa", "String"), "str"),
+    **dict.fromkeys(("length", "numel", "sizeof", "strlen"), "len"),
+    **dict.fromkeys(("str2num", "str2double", "atof", "parseFloat"), "float"),
+    **dict.fromkeys(("atoi", "parseInt"), "int"),
+}
+"""Functions of other languages, and Python's own."""
 PRINTS = (
     *("printf", "println", "puts", "echo", "console", "cout", "std", "System", "Console"),
     *("RCLCPP_INFO", "RCLCPP_DEBUG", "RCLCPP_WARN", "RCLCPP_ERROR", "ROS_INFO", "ROS_INFO_STREAM"),
@@ -51,6 +58,8 @@ SHOWN = "|".join((*WORDS, *PRINTS))
 
 def _word(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name = match["name"]
+    if name in FUNCTIONS and re.search(rf"\b{name}\s*\(", raised.module.line(raised.line)):
+        return raised.finding("other_language", name=name, close=FUNCTIONS[name])
     if name in WORDS:
         return raised.finding("other_language", name=name, close=WORDS[name])
     if name.lower() == "override" and raised.module.line(raised.line).lstrip().startswith("@"):
@@ -262,6 +271,12 @@ KINDS = (
                 "null_for_none",
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.last_ = null"),
                 fails="run.starts",
+            ),
+            example(
+                "number_to_text_of_matlab",
+                Replace(NODE, "str(self.counter_)", "num2str(self.counter_)"),
+                fails="run.output",
+                blocks=DEAD,
             ),
             example(
                 "override_of_java",

@@ -13,7 +13,7 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import DEAD, LOG, LOG_LINE, NODE, STEP_LINE, example
+from grader.mistakes.example import DEAD, LOG, LOG_LINE, NODE, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
@@ -25,7 +25,6 @@ from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, own_name
 from grader.package.source.place import statement_at
 
-PLACE = re.compile(r"%[-+ 0-9.]{0,8}[a-z]")
 OF_LISTS = ("append", "extend", "insert", "sort", "reverse", "clear", "update", "add")
 MOST_CODE = 60  # characters of a piece of code that a text shows
 NONE = msg(
@@ -164,24 +163,6 @@ def _too_many_values(raised: Raised, match: re.Match[str]) -> RecognisedMistake 
     return _told("text_and_values", "" if written else "left")(raised, match)
 
 
-def _too_few_values(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """The text gets too few values; those behind a comma can belong to a call around it."""
-    text = raised.module.text
-    for call in (n for n in _on_line(raised) if isinstance(n, ast.Call)):
-        made = call.args[0] if len(call.args) > 1 and not call.keywords else None
-        if not isinstance(made, ast.BinOp) or not isinstance(made.op, ast.Mod):
-            continue
-        form, code = text.plain_string(made.left), text.code(call)
-        if form is None or isinstance(made.right, ast.Tuple | ast.Dict) or "\n" in code:
-            continue
-        if len(PLACE.findall(form.replace("%%", ""))) == len(call.args):
-            values = ", ".join(text.code(n) for n in (made.right, *call.args[1:]))
-            written = f"{text.code(call.func)}({text.code(made.left)} % ({values}))"
-            found = raised.finding("text_and_values", name=code, written=written)
-            return replace(found, variant="comma")
-    return _told("text_and_values")(raised, match)
-
-
 def _no_items(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """Items are needed: by += if what it adds to is a list."""
     statement = statement_at(raised.module, raised.line)
@@ -198,15 +179,6 @@ def _no_file(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """The path is relative, or a whole one."""
     whole = match["name"].startswith("'/")
     return _told("no_such_file", "whole" if whole else "")(raised, match)
-
-
-def _value_of_parameter(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """The line sets .value of what get_parameter returned, if the file calls that."""
-    del match
-    calls = any(
-        called_name(n) == "get_parameter" for n in raised.module.nodes if isinstance(n, ast.Call)
-    )
-    return raised.finding("parameter_value_set") if calls else None
 
 
 def _frozen(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -233,6 +205,30 @@ def _not_for_with(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     named = [i for i in items if dotted(i.context_expr) and i.optional_vars is None]
     alone = len(items) == len(named) == 1
     return _told("not_for_with", "name" if alone else "")(raised, match)
+
+
+def _values_outside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The values behind % lack their brackets, so that the call gets all but the first."""
+    found = _told("text_and_values")(raised, match)
+    calls = [n for n in _on_line(raised) if isinstance(n, ast.Call) and len(n.args) > 1]
+    calls = [
+        c for c in calls if isinstance(c.args[0], ast.BinOp) and isinstance(c.args[0].op, ast.Mod)
+    ]
+    if found is None or len(calls) != 1 or calls[0].keywords:
+        return found
+    text, first = raised.module.text, calls[0].args[0]
+    code = text.text[text.span(first)[0] : text.span(calls[0].args[-1])[1]]
+    if not isinstance(first, ast.BinOp) or isinstance(first.right, ast.Tuple) or "\n" in code:
+        return found
+    values = ", ".join(text.code(value) for value in (first.right, *calls[0].args[1:]))
+    params = {**match.groupdict(""), "name": code, "text": f"{text.code(first.left)} % ({values})"}
+    return replace(raised.finding("text_and_values", at=calls[0], params=params), variant="outside")
+
+
+def _values_inside(case: Case) -> Files | None:
+    """Write the values behind % in brackets."""
+    params = {**case.finding.params, "written": case.finding.params.get("text", "")}
+    return lines.written(replace(case, finding=replace(case.finding, params=params)))
 
 
 def _comma(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -487,38 +483,6 @@ KINDS = (
         ),
     ),
     _node(
-        "parameter_value_set",
-        "parameter",
-        msg("The value of a Parameter can only be read"),
-        msg(
-            "get_parameter returns a Parameter with the present value. An assignment to its .value is "
-            "not allowed, and would not change the parameter of the node."
-        ),
-        msg(
-            "Keep a number that changes in an attribute of the node: set it once in __init__, log it, "
-            "and add to it instead of to .value."
-        ),
-        raised={
-            r"AttributeError: (?:property 'value' of 'Parameter' object has no setter"
-            r"|can't set attribute 'value')": on_line(_value_of_parameter)
-        },
-        examples=(
-            example(
-                "adds_to_a_parameter",
-                Replace(NODE, "self.counter_ = 0", "self.declare_parameter('number', 0)"),
-                Replace(
-                    NODE,
-                    LOG_LINE + STEP_LINE,
-                    "        number = self.get_parameter('number')\n"
-                    "        self.get_logger().info('Hello time: ' + str(number.value))\n"
-                    "        number.value += 1\n",
-                ),
-                fails="run.output",
-                blocks=("run.interrupt",),
-            ),
-        ),
-    ),
-    _node(
         "fields_frozen",
         "counter",
         msg("A field of a frozen dataclass is set"),
@@ -629,12 +593,12 @@ KINDS = (
         ),
         msg("Give the text one place for each value. A text with {{}} needs .format(…) and no %."),
         whys={
+            "outside": msg(
+                "% takes several values only in brackets. Without them it takes the first one, and the "
+                "others are further arguments of the call."
+            ),
             "type": msg(
                 "The place %d in a text needs a number, and gets a value of the type {first}."
-            ),
-            "comma": msg(
-                "% takes only the value directly behind it. Several values for a text have to be in "
-                "round brackets of their own: here the comma ends the value of %."
             ),
             "left": msg(
                 "The value before % is a text on this line. Then % puts values into the places of the text, "
@@ -643,8 +607,8 @@ KINDS = (
             ),
         },
         fixes={
+            "outside": msg("Write {text} instead of {name}."),
             "type": msg("Write %s in the text, or give it a number."),
-            "comma": msg("Write {written} instead of {name}."),
             "left": msg(
                 "If you want the remainder, find the line that gives the value before %, and make it a "
                 "number there. If you want to fill a text, give it one place for each value."
@@ -652,15 +616,15 @@ KINDS = (
         },
         raised={
             r"not all arguments converted during string formatting": on_line(_too_many_values),
-            r"not enough arguments for format string": on_line(_too_few_values),
+            r"not enough arguments for format string": on_line(_values_outside),
             r"%[a-z] format: a (?:real )?number is required, not (?P<first>\w{1,60})": (
                 _told("text_and_values", "type")
             ),
         },
-        fixed_by=(lines.written,),
+        fixed_by=(_values_inside,),
         examples=(
             example(
-                "percent_without_brackets",
+                "values_outside_of_brackets",
                 Replace(
                     NODE,
                     "'Hello time: ' + str(self.counter_)",

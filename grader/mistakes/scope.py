@@ -13,8 +13,9 @@ from grader.mistakes.fixes import lines, node_count, node_scope
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, OWN_ATTRIBUTE, Raised, RecognisedMistake, of_self
 from grader.package.edit.tree import Replace
+from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
-from grader.package.source.names import called_name, own_name
+from grader.package.source.names import called_name, dotted, own_name
 from grader.package.source.place import function_at, method_above, statement_at
 from grader.package.source.scopes import has_self, visible_names
 
@@ -49,7 +50,8 @@ IN_CLASS = "".join(f"    {line}" for line in MAIN.splitlines(keepends=True))
 def _quotes(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name = match["name"]
     places = node_scope.names_as_text(raised.module, name)
-    if not places:
+    of_class = any(name in targets_of(n) for c in raised.module.classes for n in c.body)
+    if not places or of_class:
         return None
     found = raised.finding("quotes_missing", at=places[0], name=name)
     return replace(found, variant="guard") if name == "__main__" else found
@@ -113,8 +115,30 @@ def _self_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
 def _self_in_function(raised: Raised) -> RecognisedMistake:
     """Return the mistake of a function that is no method: it knows the node by a variable."""
     variables = sorted(raised.source.node_variables)
+    kept = _kept_as_attribute(raised)
+    if kept is not None:
+        return kept
     found = raised.finding("self_outside", name=variables[0] if variables else "")
     return replace(found, variant="variable") if len(variables) == 1 else found
+
+
+def _kept_as_attribute(raised: Raised) -> RecognisedMistake | None:
+    """A function of a program without a class keeps a value in an attribute of self."""
+    statement = statement_at(raised.module, raised.line)
+    function = function_at(raised.module, raised.line)
+    parts = ast.walk(statement) if statement is not None else ()
+    names = [n.attr for n in parts if isinstance(n, ast.Attribute) and dotted(n.value) == "self"]
+    own = [name for name in names if name not in NODE_METHODS]
+    if raised.source.node_class is not None or not own or function is None:
+        return None
+    if any(isinstance(n, Function) and n.name == own[0] for n in raised.module.nodes):
+        params = {"name": f"self.{own[0]}", "written": own[0]}
+        return replace(raised.finding("self_outside", params=params), variant="function")
+    inner = any(isinstance(n, Function) for n in raised.module.around(function))
+    words = {"attribute": own[0], "function": function.name}
+    words["word"] = "nonlocal" if inner else "global"
+    found = raised.finding("self_outside", name=own[0])
+    return replace(found, words={**found.words, **words}, variant="attribute")
 
 
 def _main_in_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -252,6 +276,12 @@ KINDS = (
                 "Indent the line as far as the other lines of {name}, the method above it."
             ),
             "variable": msg("Write {name} instead of self."),
+            "function": msg("Write {written} instead of {name}: the function belongs to no class."),
+            "attribute": msg(
+                "Use a variable: give {attribute} its first value on a line above def {function}, in "
+                "the same column as that def. Write {word} {attribute} as the first line of "
+                "{function}, and {attribute} instead of self.{attribute} everywhere."
+            ),
         },
         seen=r"NameError: name 'self' is not defined",
         raised={NAME_ERROR: _self_outside},

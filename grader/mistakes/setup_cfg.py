@@ -99,6 +99,7 @@ KINDS = (
             "mark": msg(
                 "Save the file again with the encoding UTF-8, without a BOM (byte order mark)."
             ),
+            "equals": msg("The = behind the name is missing. Write: {other}"),
             "section": msg("Write [{other}] on that line: setup.cfg needs both sections."),
             "headings": msg(
                 "Write [develop] on a line of its own above script_dir, and [install] above "
@@ -117,6 +118,12 @@ KINDS = (
             example(
                 "setup_cfg_section_twice",
                 Replace(CFG, "[install]", "[develop]"),
+                fails="package.setup_cfg",
+                blocks=UNBUILT,
+            ),
+            example(
+                "setup_cfg_without_equals",
+                Replace(CFG, "script_dir=", "script_dir "),
                 fails="package.setup_cfg",
                 blocks=UNBUILT,
             ),

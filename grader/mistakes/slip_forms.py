@@ -115,6 +115,70 @@ FORMS = {
         "return gives back a value and cannot assign one. Write on a line of its own: {step} Write "
         "below it, if the value is to be given back: {wanted}"
     ),
+    "equals_of_argument": msg(
+        "The = between the name of an argument and its value is missing. Write: {wanted}"
+    ),
+    "line_twice": msg("This line and line {line} above it are the same. Delete one of them."),
+    "def_at_margin": msg(
+        "This def is at the left margin, and belongs to the class. Indent this line by 4 spaces."
+    ),
+    "super_open": msg("super is called: ( and ) are behind it. Write: {wanted}"),
+    "main_gone": msg(
+        "The def of the function to which these lines belong is missing. Write above this line, without "
+        "spaces before it: {wanted}"
+    ),
+    "def_below": msg(
+        "This line belongs to the def in line {line}, and stands above it. Exchange the two lines."
+    ),
+    "lines_swapped": msg(
+        "Line {line} and this one are in the wrong order. Exchange the two lines."
+    ),
+    "argument_in_braces": msg(
+        "This argument is inside of the braces that begin in line {line}. Move it above line {line}."
+    ),
+    "opener_missing": msg("The first bracket of a value is missing. Write: {wanted}"),
+    "data_files_gone": msg(
+        "The line that begins this list is missing. Write above this line, indented by 4 spaces less: "
+        "data_files=["
+    ),
+    "marker_line_gone": msg(
+        "The second half of this line is missing. Write below it, indented by 4 spaces more: "
+        "['resource/' + package_name]),"
+    ),
+    "call_open": msg("The bracket of the call is missing. Write: {wanted}"),
+    "comma_at_end": msg("The comma at the end of this line is missing. Write: {wanted}"),
+    "import_names": msg("Between the names of an import are commas. Write: {wanted}"),
+    "class_for_def": msg("A method begins with def, and not with class. Write: {wanted}"),
+    "def_for_class": msg("A class begins with class, and not with def. Write: {wanted}"),
+    "def_unfinished": msg(
+        "The line of a def ends with its parameters, ) and a colon. Complete this line: {wanted} and "
+        "behind it the parameters that are missing, and ):"
+    ),
+    "def_square": msg("The parameters of a function are in round brackets. Write: {wanted}"),
+    "handler_several": msg(
+        "Several classes behind except are in brackets, with commas between them, and as is before "
+        "the name of the error. Write: {wanted}"
+    ),
+    "lambda_colon": msg("A colon is behind lambda, before its value. Write: {wanted}"),
+    "cut_off": msg(
+        "This line is cut off: behind its last dot a name is missing, and then ). Complete the line."
+    ),
+    "docstring_quotes": msg(
+        "A text that describes the code has three quotes at its beginning and three at its end. Write: "
+        "{wanted}"
+    ),
+    "except_empty": msg(
+        "The block of this except is missing. If nothing is to be done there, write {wanted} below this "
+        "line, indented by 4 spaces more."
+    ),
+    "def_self": msg(
+        "In the class, the name alone stands behind def. Only a call has self. before it. Write: "
+        "{wanted}"
+    ),
+    "closed_early": msg(
+        "The {step} at the end of this line ends the call too early: line {line} and those below it "
+        "belong to it too. Delete that {step}: {wanted}"
+    ),
     "global_set": msg(
         "global contains only the name, and line {line} gives it its first value already. Write: "
         "{wanted}"

@@ -35,7 +35,10 @@ NO_TEXT = msg(
 PASTED_WHYS = {
     "sign": KEYBOARD,
     **dict.fromkeys(("command", "heredoc", "editor"), TYPED),
-    **dict.fromkeys(("page", "markup", "word", "conflict", "numbers", "prose", "around"), NO_CODE),
+    **dict.fromkeys(
+        ("page", "markup", "word", "conflict", "conflict_rest", "numbers", "prose", "around"),
+        NO_CODE,
+    ),
     **dict.fromkeys(("office", "pdf", "compiled", "archive"), NO_TEXT),
     **dict.fromkeys(("output", "note", "patch", "number_lines", "jupyter"), NO_CODE),
     **dict.fromkeys(("notebook", "notebook_below"), IN_JSON),
@@ -84,6 +87,10 @@ PASTED = {
     "numbers": msg("Remove the line numbers from the start of the lines: they are not code."),
 }
 DOCUMENTS = {
+    "conflict_rest": msg(
+        "Delete this line: git writes such lines where two versions of a file differ. Check that the "
+        "code above it is the version that you want."
+    ),
     "page": msg(
         "This file is a web page, not the code that the page shows. Copy only the code into the "
         "file (on GitHub: the button Raw)."
@@ -268,6 +275,10 @@ SIGNS = {
     "bracket_open": msg(
         "A bracket of this line is not closed. Write {wanted} where the part in brackets ends."
     ),
+    "bracket_opener": msg(
+        "The }} in line {line} closes a {{, and keys with their values (key: value) are between braces. "
+        "Write: {wanted}"
+    ),
     "bracket_before": msg(
         "Line {line} has a closing bracket, but the last open one is in this line and of another "
         "kind. Write {wanted} where the part in brackets ends, or instead of the bracket in line "
@@ -402,6 +413,10 @@ SIGNS = {
     "character_note": msg(
         "Python does not know the sign {wanted}. Delete it; or, if the line is a note and not code, "
         "write a # before the line."
+    ),
+    "decorator_head": msg(
+        "A decorator belongs to the def or the class directly below it, and that line is missing: "
+        "line {line} is already of its block. Write the class … or def … line between the two."
     ),
     "decorated_def": msg("The word def is missing in this line. Write: {wanted}"),
     "decorator": msg(

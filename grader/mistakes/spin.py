@@ -210,14 +210,36 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
 def _sleep_loop(suspect: Suspect) -> RecognisedMistake | None:
     """Look for the loop that does a timer's work."""
     idle = idle_loop(suspect.source, suspect.function) if suspect.function else None
+    in_method = _sleeps_in_method(suspect)
+    if in_method is not None:
+        return in_method
     for node in suspect.source.all_nodes:
         if node is not idle and isinstance(node, ast.While | ast.For):
             for call, name in calls_in(node):
-                if last_part(name) == "sleep":
+                if last_part(name) in PAUSES:
                     found = suspect.finding("sleep_loop", call)
                     return _spins_and_sleeps(suspect, node, found) or _with_class(
                         suspect, node, found
                     )
+    return None
+
+
+def _sleeps_in_method(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a loop of main that calls a method of the node, which logs and sleeps."""
+    source, main = suspect.source, suspect.source.main
+    if source.timers or source.node_class is None:
+        return None
+    for loop in ast.walk(main) if main is not None else ():
+        if not isinstance(loop, ast.While):
+            continue
+        for call, name in calls_in(loop):
+            method = source.methods.get(last_part(name))
+            sleeps = [c for c, n in calls_in(method) if last_part(n) in PAUSES] if method else []
+            if method is not None and len(sleeps) == 1 and source.logs(method):
+                found = suspect.finding("sleep_loop", loop)
+                words = {"method": method.name, "line": str(sleeps[0].lineno)}
+                return replace(found, variant="in_method", words={**found.words, **words})
+            del call
     return None
 
 
@@ -375,6 +397,11 @@ INTO_FUNCTION = msg(
     "variable outside of all functions: global) with the variable's name. Then write two lines "
     "instead of the whole {loop} loop: {node}.create_timer({period}, tick), and below it {wanted}."
 )
+PAUSES = ("sleep", "sleep_for", "sleep_until")
+IN_METHOD = msg(
+    "Write in __init__: self.create_timer({period}, self.{method}) Delete the sleep in {method} (line {line}), "
+    "and write rclpy.spin({node}) in {function} instead of this loop."
+)
 BESIDE_SPIN = msg(
     "A loop with sleep beside rclpy.spin does not follow ROS time: in a simulation or a replay it runs "
     "at the wrong speed, and it does not stop when time stops. A timer follows ROS time."
@@ -402,6 +429,7 @@ KINDS = (
         links.EXECUTORS,
         whys={"beside": BESIDE_SPIN, "threaded": BESIDE_SPIN},
         fixes={
+            "in_method": IN_METHOD,
             "function": INTO_FUNCTION,
             "threaded": msg(
                 "Put what the loop does into a method, and call it with a timer that __init__ "

@@ -208,37 +208,51 @@ KINDS = (
             r"TypeError: not all arguments converted during string formatting": _overwritten_raised
         },
         fixed_by=(_kept_apart,),
-        examples=tuple(
+        examples=(
             example(
-                name,
+                "template_overwritten",
                 Replace(
-                    NODE, "self.counter_ = 0", f"self.text = {template}\n        self.counter_ = 0"
+                    NODE,
+                    "self.counter_ = 0",
+                    "self.text = 'Hello time: NN'\n        self.counter_ = 0",
                 ),
-                Replace(NODE, LOG_LINE, f"        self.text = {fill}\n{LOG_LINE}"),
+                Replace(
+                    NODE,
+                    LOG_LINE,
+                    f"        self.text = self.text.replace('NN', str(self.counter_))\n{LOG_LINE}",
+                ),
                 Replace(NODE, TEXT, "self.text"),
                 fails="run.output",
-                blocks=blocks,
-            )
-            for name, template, fill, blocks in (
-                (
-                    "template_overwritten",
-                    "'Hello time: NN'",
-                    "self.text.replace('NN', str(self.counter_))",
-                    (),
+            ),
+            example(
+                "format_overwritten",
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "self.text = 'Hello time: {}'\n        self.counter_ = 0",
                 ),
-                (
-                    "format_overwritten",
-                    "'Hello time: {}'",
-                    "self.text.format(self.counter_)",
-                    (),
+                Replace(
+                    NODE,
+                    LOG_LINE,
+                    f"        self.text = self.text.format(self.counter_)\n{LOG_LINE}",
                 ),
-                (
-                    "percent_overwritten",
-                    "'Hello time: %d'",
-                    "self.text % self.counter_",
-                    ("run.period", "run.interrupt"),
+                Replace(NODE, TEXT, "self.text"),
+                fails="run.output",
+            ),
+            example(
+                "percent_overwritten",
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "self.text = 'Hello time: %d'\n        self.counter_ = 0",
                 ),
-            )
+                Replace(
+                    NODE, LOG_LINE, f"        self.text = self.text % self.counter_\n{LOG_LINE}"
+                ),
+                Replace(NODE, TEXT, "self.text"),
+                fails="run.output",
+                blocks=("run.period", "run.interrupt"),
+            ),
         ),
     ),
     _node(

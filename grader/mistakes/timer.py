@@ -47,6 +47,11 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
         return None
     found = suspect.finding("timer_missing", suspect.source.methods.get("__init__"))
     callback = suspect.source.callback
+    if suspect.source.node_class is None:
+        inside = (n for n in suspect.source.all_nodes if isinstance(n, ast.FunctionDef))
+        logging = [n.name for n in inside if suspect.source.logs(n) and n is not suspect.function]
+        if len(logging) == 1:
+            found = replace(found, words={**found.words, "callback": logging[0]})
     loop = endless_loop(suspect.source, callback) if callback is not None else None
     if loop is None:
         return found
@@ -58,11 +63,28 @@ def _called_once(suspect: Suspect) -> RecognisedMistake | None:
     source, init = suspect.source, suspect.source.methods.get("__init__")
     if source.timers or source.calls_of("create_timer"):
         return None
+    if source.node_class is None:
+        return _function_called_once(suspect)
     for call, _ in calls_in(init) if init is not None else ():
         method = source.methods.get(own_name(call.func))
         if method is not None and source.logs(method):
             code = source.module_of(call).text.code(call)
             new = f"self.create_timer({suspect.output.period!r}, self.{method.name})"
+            found = suspect.finding("timer_missing", call, name=code, written=new)
+            return replace(found, variant="by_hand")
+    return None
+
+
+def _function_called_once(suspect: Suspect) -> RecognisedMistake | None:
+    """No timer is created, and the entry function calls the function that logs."""
+    source, node = suspect.source, min(suspect.source.node_variables, default="")
+    logging = {
+        n.name for n in source.all_nodes if isinstance(n, ast.FunctionDef) and source.logs(n)
+    }
+    for call, name in calls_in(suspect.function) if suspect.function is not None else ():
+        if name in logging and not call.args and node:
+            code = source.module_of(call).text.code(call)
+            new = f"{node}.create_timer({suspect.output.period!r}, {name})"
             found = suspect.finding("timer_missing", call, name=code, written=new)
             return replace(found, variant="by_hand")
     return None

@@ -71,7 +71,19 @@ def _swapped(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     here = [call for call in timers if raised.line is None or raised.line in lines_of(call)]
     if not here or kind not in (None, *CALLABLE):
         return None
-    return _given_swapped(raised, here[0]) or raised.finding("timer_arguments_swapped")
+    return _given_swapped(raised, here[0]) or _call_swapped(raised, here[0])
+
+
+def _call_swapped(raised: Raised, timer: ast.Call) -> RecognisedMistake:
+    """The call with its two arguments in the right order."""
+    text = raised.source.module_of(timer).text
+    code = text.code(timer)
+    if len(timer.args) != 2 or timer.keywords or "\n" in code:
+        return raised.finding("timer_arguments_swapped")
+    first, second = map(text.code, timer.args)
+    written = f"{text.code(timer.func)}({second}, {first})"
+    found = raised.finding("timer_arguments_swapped", at=timer, name=code, written=written)
+    return replace(found, variant="call")
 
 
 def _given_swapped(raised: Raised, timer: ast.Call) -> RecognisedMistake | None:
@@ -272,7 +284,7 @@ KINDS = (
                 "call gives them in the other order."
             )
         },
-        fixes={"given": msg("Write {written} instead of {name}.")},
+        fixes=dict.fromkeys(("given", "call"), msg("Write {written} instead of {name}.")),
         seen=r"float\(\) argument must be a string or a real number, not '(?:method|function)'",
         raised={
             REAL_NUMBER: _swapped,

@@ -62,6 +62,20 @@ def _other_nodes_timer(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+def _other_nodes_logger(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a log call of a second node's logger, which the class makes."""
+    made, callback = _nodes_made(suspect), suspect.source.callback
+    for call in suspect.source.logs(callback) if callback is not None else ():
+        owner = dotted(call.func).partition(".get_logger")[0]
+        logger = ast.unparse(call.func).partition(".get_logger()")[0]
+        for name in (owner, logger):
+            if name in made:
+                params = {"name": f"{name}.get_logger()", "written": "self.get_logger()"}
+                found = suspect.finding("logger_of_other_node", call, **params)
+                return replace(found, words={**found.words, "node": name})
+    return None
+
+
 def _nodes_made(suspect: Suspect) -> set[str]:
     """Return the names that get a plain node within the node's class."""
     found: set[str] = set()
@@ -574,6 +588,33 @@ KINDS = (
                 ),
                 fails="run.output",
                 blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "logger_of_other_node",
+        "logger",
+        msg("The lines are logged with the logger of another node"),
+        msg(
+            "{node} is a second node that the class makes, and its logger has its name. The node that "
+            "the exercise asks for is self."
+        ),
+        msg("Write {written} instead of {name}. Delete {node} if nothing else uses it."),
+        behind={
+            "run.wrong_node_name": _other_nodes_logger,
+            "run.other_logger": _other_nodes_logger,
+        },
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "logs_with_a_second_node",
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "self.counter_ = 0\n        self.out = rclpy.create_node('out')",
+                ),
+                Replace(NODE, "self.get_logger()", "self.out.get_logger()"),
+                fails="run.node_name",
             ),
         ),
     ),

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import Message, joined, say
+from grader.base.i18n.message import Message, joined, reworded, say
 from grader.base.nearest import compared, meant, nearest
 from grader.base.shown import shown
 from grader.course.assignment import OWN
@@ -27,6 +27,7 @@ from grader.verdict.checks.parsed import file_of, has_subpackages, names_in
 from grader.verdict.circular import circular_import
 from grader.verdict.follows import followed
 from grader.verdict.node_files import source_around, source_of_node
+from grader.verdict.node_words import words_for
 from grader.verdict.other_version import other_version
 from grader.verdict.outcome import Failed
 from grader.verdict.own_modules import main_in_copy, own_module
@@ -105,6 +106,11 @@ def diagnose(failed: Failed, evidence: Evidence) -> Diagnosis:
         return _left_to(diagnosis, failed.follows)
     _show_line(diagnosis, evidence)
     diagnosis.mistakes.sort(key=lambda mistake: RANK[mistake.id])
+    node = source_of_node(evidence)
+    if node is not None:
+        words = words_for(node)
+        diagnosis.rationale = reworded(diagnosis.rationale, words)
+        diagnosis.fix = reworded(diagnosis.fix, words)
     diagnosis.consequence_of = _same_root(diagnosis, evidence)
     return diagnosis
 
@@ -136,8 +142,9 @@ def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedM
     source = source_of_node(evidence)
     if source is None:
         return None
-    if symptom == "run.wrong_node_name" and source.name_given is not None:
-        diagnosis.where = place_of(source, source.name_given)
+    given = source.name_given or source.created_node
+    if symptom == "run.wrong_node_name" and given is not None:
+        diagnosis.where = place_of(source, given)
     other = other_version(symptom, source, evidence)
     if other is not None:
         return other

@@ -17,6 +17,7 @@ FOLLOWS = {
         "source.no_node_file",
     ),
     "source.empty_node_file": ("source.no_shebang",),
+    "source.misplaced_node_file": ("setup.other_module",),
 }
 """By the mistake that is the cause: those that disappear with it, or are to be fixed after it."""
 

@@ -28,7 +28,7 @@ NOT_FIXED = {
     "main_of_the_class",
     *("entity_of_html", "email_twice_in_a_tag", "license_in_a_comment"),
     *("maintainer_in_a_comment_with_words", "entry_points_without_console_scripts"),
-    "manifest_in_utf_16",
+    *("manifest_in_utf_16", "manifest_as_json", "maintainer_with_tags_inside"),
 }
 NOTHING_TO_MARK = {
     *("empty_folder", "only_a_text", "only_the_node", "manifest_and_setup_missing"),

@@ -20,7 +20,7 @@ def notebook(*cells: str) -> bytes:
     ("found", "variant"),
     [
         (notebook("a = 1"), "notebook"),
-        (b"#!/usr/bin/env python3\n" + notebook("a = 1"), "notebook"),
+        (b"#!/usr/bin/env python3\n" + notebook("a = 1"), "notebook_below"),
         (b'{"metadata": null, "cells": []}', "notebook"),
         (b"<!-- saved from -->\n<html><body>", "page"),
         (b" {\\rtf1 a", "word"),

@@ -81,6 +81,37 @@ class Plural(Message):
         return catalogue.ngettext(self.template, self.many, self.number)
 
 
+class Reworded(Message):
+    """A text whose template names some code in another way, in every language.
+
+    The values of its parameters stay as they are.
+    """
+
+    __slots__ = ("words",)
+
+    words: tuple[tuple[str, str], ...]
+
+    def __new__(
+        cls, template: str, params: Mapping[str, Value], words: tuple[tuple[str, str], ...]
+    ) -> Reworded:
+        """Fill the template after these replacements, which may contain placeholders."""
+        made = str.__new__(cls, _replaced(template, words).format(**params))
+        made.template, made.params, made.words = template, dict(params), words
+        return made
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Reworded, (self.template, dict(self.params), self.words)
+
+    def _translated_template(self, catalogue: Catalogue) -> str:
+        return _replaced(catalogue.gettext(self.template), self.words)
+
+
+def _replaced(template: str, words: tuple[tuple[str, str], ...]) -> str:
+    for old, new in words:
+        template = template.replace(old, new)
+    return template
+
+
 class Joined(Message):
     """A sequence of texts, each translated by itself."""
 
@@ -121,6 +152,15 @@ def say_plural(one: str, many: str, count: int, **params: Value) -> Message:
 def msg(template: str) -> str:
     """Mark a template for translation; it is filled later."""
     return template
+
+
+def reworded(text: str, words: tuple[tuple[str, str], ...]) -> str:
+    """Return a text with other code in its templates; one that is no message as it is."""
+    if isinstance(text, Joined):
+        return Joined(tuple(reworded(part, words) for part in text.parts), text.by)
+    if type(text) is not Message or not words:
+        return text
+    return Reworded(text.template, text.params, words)
 
 
 def joined(*parts: str, by: str = " ") -> Message:

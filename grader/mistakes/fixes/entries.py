@@ -144,6 +144,9 @@ def moved(case: Case) -> Files | None:
     """Move the entry from another argument of setup() to console_scripts."""
     setup = read_setup_call(case)
     holder = setup.argument(str(case.finding.params.get("argument", ""))) if setup else None
+    if isinstance(holder, ast.Dict):
+        lists = [v for v in holder.values if isinstance(v, ast.List) and _has(case, v)]
+        holder = lists[0] if len(lists) == 1 else None
     if setup is None or not isinstance(holder, ast.List):
         return None
     items = [
@@ -156,6 +159,12 @@ def moved(case: Case) -> Files | None:
     if without is None or not can_parse(without):
         return None
     return added(replace(case, files=case.files.with_data(FILE, without)))
+
+
+def _has(case: Case, holder: ast.List) -> bool:
+    """Whether a list has the entry of the finding."""
+    items = [item.value for item in holder.elts if isinstance(item, ast.Constant)]
+    return any(shown(str(item).strip()) == _text(case) for item in items)
 
 
 def _text(case: Case) -> str:

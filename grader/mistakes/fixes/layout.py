@@ -115,6 +115,14 @@ def out_of_inner_folder(case: Case) -> Files | None:
     return case.files.with_move(old, name) if case.files.file(old) else None
 
 
+def setup_renamed(case: Case) -> Files | None:
+    """Rename a file with nearly the name of setup.py, if there is no setup.py."""
+    old = str(case.finding.params.get("there", ""))
+    if "/" in old or "setup.py" in case.files.by_path or case.finding.mistake != "setup.missing":
+        return None
+    return case.files.with_move(old, "setup.py") if case.files.file(old) else None
+
+
 def _only_one_named(files: Files, name: str) -> str | None:
     found = [path for path in files.by_path if path.rpartition("/")[2] == name]
     return found[0] if len(found) == 1 and files.file(found[0]) is not None else None

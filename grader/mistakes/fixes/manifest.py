@@ -312,6 +312,20 @@ def root(case: Case) -> Files | None:
     return _put(case, tag.start, tag.end, start + places.found[slice(*tag.inside)] + end)
 
 
+def declared_encoding(case: Case) -> Files | None:
+    """Declare the encoding UTF-8, if the file is in it and declares another one."""
+    found = case.files.data(FILE)
+    if (
+        found is None
+        or case.finding.mistake != "package.broken_xml"
+        or "encoding" not in case.finding.actual
+    ):
+        return None
+    first, line_end, rest = found.partition(b"\n")
+    new = re.sub(rb"(<\?xml\b[^<>]*?\bencoding=)[\"'][^\"'<>]{0,60}[\"']", rb'\g<1>"utf-8"', first)
+    return case.with_data(FILE, new + line_end + rest) if new != first else None
+
+
 def well_formed(case: Case) -> Files | None:
     """Close a tag, correct its name or its quotes, or remove what is around the XML."""
     found = case.files.data(FILE)

@@ -120,7 +120,11 @@ def ros_2_timer(case: Case) -> Files | None:
 
 def only_name(case: Case) -> Files | None:
     """Pass only the node's name to super().__init__(), if the error is about a constructor."""
-    node = case.node if "__init__" in f"{case.finding.actual} {case.finding.params}" else None
+    said = f"{case.finding.actual} {case.finding.params}"
+    node = case.node if "__init__" in said else None
+    owner = re.search(r"TypeError: (\w+)\.__init__\(\)", said)
+    if node is not None and owner is not None and owner[1] not in {"Node", *node.class_names}:
+        return None
     call = node.super_init if node is not None else None
     if node is None or call is None or dotted(call.func) != "super().__init__":
         return None

@@ -5,12 +5,10 @@ from __future__ import annotations
 import ast
 from dataclasses import replace
 
-from grader.course.assignment import Output
 from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
-from grader.package.source.counter import changes_of, starts_of
 from grader.package.source.endless import Loop, calls_of_methods, goes_on, sleeps_in
 from grader.package.source.module import Function, Module
 from grader.package.source.names import calls_in, last_part, own_name
@@ -137,12 +135,14 @@ def counted_by_calls(case: Case) -> Files | None:
     )
     text, output = module.text, case.assignment.output
     used = [n for s in loop.body for n in ast.walk(s) if isinstance(n, ast.Name) and n.id == number]
-    known, counter = counter_beside(node, loop, output), free_counter(node)
+    kept = str(case.finding.params.get("kept", ""))
+    if kept:
+        made = case.changed(module, *(text.swap(n, kept) for n in used))
+        there = replace(case.finding, line=loop.lineno)
+        return lines.unwrapped(replace(case, files=made, finding=there)) if made else None
+    counter = next(f"self.{name}" for name in FREE if name not in node.attributes | {*node.methods})
     if not used or not module.has(init) or any(text.code(n) != number for n in used):
         return None
-    if known:
-        logged = case.changed(module, *(text.swap(n, known) for n in used))
-        return lines.unwrapped(replace(case, files=logged)) if logged is not None else None
     last = loop.body[-1]
     step = f"{indent_of(text.line(last.lineno))}{counter} += {output.step}"
     start = f"{indent_of(text.line(init.lineno))}{counter} = {output.start}"
@@ -156,27 +156,6 @@ def counted_by_calls(case: Case) -> Files | None:
         return None
     there = replace(case.finding, line=loop.lineno + 1)
     return lines.unwrapped(replace(case, files=made, finding=there))
-
-
-def free_counter(source: NodeSource) -> str:
-    """Return an attribute for a new counter, which the node does not have."""
-    taken = source.attributes | {*source.methods}
-    return next(f"self.{name}" for name in FREE if name not in taken)
-
-
-def counter_beside(source: NodeSource, loop: Loop, output: Output) -> str:
-    """Return the counter that the callback adds to below its loop, once in each call; "" if none."""
-    body = block_of(source.module_of(loop), loop)
-    below = body[body.index(loop) + 1 :] if source.callback and body is source.callback.body else []
-    for name, start in starts_of(source).items():
-        changes = changes_of(source, name)
-        step = changes[0] if len(changes) == 1 and changes[0] in below else None
-        adds = isinstance(step, ast.AugAssign) and isinstance(step.op, ast.Add)
-        value = step.value if isinstance(step, ast.AugAssign) and adds else None
-        by = value.value if isinstance(value, ast.Constant) else None
-        if name.startswith("self.") and (start.value, by) == (output.start, output.step):
-            return name
-    return ""
 
 
 def prints_in(source: NodeSource, part: ast.AST) -> bool:

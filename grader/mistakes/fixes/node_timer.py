@@ -321,7 +321,7 @@ def made(case: Case) -> Files | None:
     text = node.module.text
     indent = indent_of(text.line(init.body[-1].lineno))
     seconds = case.assignment.output.period
-    row = f"{indent}self.create_timer({seconds!r}, self.{found[0].name})"
+    row = f"{indent}{node.held_node or 'self'}.create_timer({seconds!r}, self.{found[0].name})"
     return case.changed(node.module, text.before((last.end_lineno or last.lineno) + 1, row))
 
 

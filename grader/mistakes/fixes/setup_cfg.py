@@ -11,6 +11,7 @@ from grader.package.edit.text import SourceText, Splice, indent_of, read_text
 from grader.package.source.setup_cfg import (
     COMMENT,
     KEYS,
+    NO_EQUALS,
     SetupCfg,
     SetupCfgFault,
     indented_heading,
@@ -146,6 +147,12 @@ def syntax(case: Case) -> Files | None:
     comment = COMMENT.fullmatch(line)
     if comment is not None:
         return _comment(case, text, comment)
+    equals = NO_EQUALS.fullmatch(line)
+    if equals is not None:
+        start = text.start_of(case.finding.line or 0)
+        ends = (start + equals.end("key"), start + equals.start("value"))
+        new = text.spliced([Splice(*ends, "=")])
+        return case.with_data(FILE, new) if new and _is_read(new) else None
     if _key(line) in KEYS.values() and line[:1].strip():
         return _heading_above(case, text, line)
     if line.strip() in ("[develop]", "[install]"):

@@ -24,7 +24,7 @@ TAGS = (
 """The tags of REP 149."""
 Variant = Literal[
     "unclosed", "again", "unopened", "misspelt", "unfinished", "quotes", "ampersand", "before",
-    "after", "outside", "bare", "comment", "declaration", "blank", "declared_twice", "package_twice", "no_tags",
+    "after", "outside", "bare", "comment", "declaration", "blank", "declared_twice", "package_twice", "no_tags", "end_twice", "root_first", "typed", "line_twice", "lines_swapped",
     "hyphens", "hyphens_lines", "comment_start", "less",
 ]  # fmt: skip
 END_TAG = re.compile(rb"</\s{0,9}(?P<name>[^<>\s]{1,100})\s{0,9}>")
@@ -130,8 +130,70 @@ def xml_fault(found: bytes) -> XmlFault | None:
         return None
     reader = _Reader(found)
     error = reader.stop()
+    typed = _typed(reader) or _rows(reader) if error is not None else None
+    if typed is not None:
+        return typed
     look = LOOKS.get(error[0]) if error is not None else None
     return look(reader, error[1]) if error is not None and look is not None else None
+
+
+NAME = "|".join(TAGS).encode()
+TYPED = (
+    (re.compile(rb"<[ \t]+(?=/?(?:%s)\b)" % NAME), b"<"),
+    (re.compile(rb"</[ \t]+(?=(?:%s)[ \t]*>)" % NAME), b"</"),
+    (re.compile(rb"<[ \t]*\\(?=(?:%s)[ \t]*>)" % NAME), b"</"),
+    (re.compile(rb"(?<![<\w/.-])(?=(?:%s)(?:[ \t]+\w+=[^<>]*)?>)" % NAME), b"<"),
+    (re.compile(rb"(?<!<)/(?=(?:%s)>)" % NAME), b"</"),
+    (re.compile(rb"(?<=[^<>])<(?=(?P<name>%s)/>)" % NAME), b"</"),
+    (re.compile(rb"(?P<start><\w+(?:[ \t]+\w+=(?:\"[^\"<>]*\"|'[^'<>]*'))*[ \t]+\w+=(?P<quote>[\"'])[^\"'<>]*)(?=>)"),
+     rb"\g<start>\g<quote>"),
+)  # fmt: skip
+"""A sign of a tag that is missing or wrong, and what to write instead."""
+MOST_TRIED = 20
+MOST_ROWS = 100
+
+
+def _typed(reader: _Reader) -> XmlFault | None:
+    """Return a tag with one sign missing or wrong, if the file is well-formed after the change."""
+    found = reader.found
+    for pattern, new in TYPED:
+        for match in list(pattern.finditer(found))[:MOST_TRIED]:
+            start, end = match.span()
+            written = match.expand(new)
+            change = [(start, end, written)]
+            if pattern is TYPED[5][0]:  # <depend>rclpy<depend/>
+                slash = end + len(match["name"])
+                change.append((slash, slash + 1, b""))
+            fixed = found
+            for first, last, piece in reversed(change):
+                fixed = fixed[:first] + piece + fixed[last:]
+            if _Reader(fixed).stop() is not None:
+                continue
+            line = reader.line(start)
+            wanted = fixed.splitlines()[line - 1].decode("utf-8", "replace").strip()
+            return reader.fault("typed", "", start, *change, wanted=wanted)
+    return None
+
+
+def _rows(reader: _Reader) -> XmlFault | None:
+    """Return a line that is there twice, or two lines in the wrong order."""
+    rows = reader.found.splitlines(keepends=True)
+    at = 0
+    for number, row in enumerate(rows[:MOST_ROWS]):
+        below = rows[number + 1] if number + 1 < len(rows) else b""
+        if row.strip() and below.strip():
+            end = at + len(row) + len(below)
+            same = row.strip() == below.strip()
+            new = row if same else below.rstrip(b"\r\n") + row[len(row.rstrip(b"\r\n")) :] + row
+            fixed = reader.found[:at] + new + reader.found[end:]
+            tags = all(re.match(rb"\s*</?\w", line) for line in (row, below))
+            if tags and _Reader(fixed).stop() is None:
+                variant: Variant = "line_twice" if same else "lines_swapped"
+                return reader.fault(
+                    variant, "", at + len(row), (at, end, new), wanted=str(number + 1)
+                )
+        at += len(row)
+    return None
 
 
 def _mismatch(reader: _Reader, at: int) -> XmlFault | None:
@@ -322,6 +384,12 @@ def _in_comment(found: bytes, at: int) -> bool:
     return found.rfind(b"<!--", 0, at) > found.rfind(b"-->", 0, at)
 
 
+def _first_tag(found: bytes) -> int:
+    """Return where the first tag is that is no <?…?> and no comment."""
+    match = re.search(rb"<(?![?!])", found)
+    return match.start() if match is not None else 0
+
+
 def _package_twice(reader: _Reader) -> XmlFault | None:
     """Return a second <package> below the first one: the file was pasted twice."""
     found = reader.found
@@ -342,6 +410,13 @@ def _after(reader: _Reader, at: int) -> XmlFault | None:
     if twice is not None:
         return twice
     start = found.rfind(b">") + 1
+    begin = at - 1 if found[at - 1 : at] == b"<" else at
+    if found[begin:].lstrip().startswith(b"</package"):
+        end = begin + len(found[begin:].split(b">", 1)[0]) + 1
+        return reader.fault("end_twice", "/package", begin, (begin, end, b""))
+    first = re.search(rb"<package[\s>]", found)
+    if first is not None and first.start() >= at and b"</package>" in found:
+        return reader.fault("root_first", "package", _first_tag(found))
     root = found.rfind(b"</package>", 0, at)
     if root >= 0 and found[start:].strip() == b"":
         return reader.fault("outside", "package", at)

@@ -81,6 +81,9 @@ def _is_empty(manifest: Manifest, element: Element) -> bool:
 
 def _redundant(manifest: Manifest, match: re.Match[str]) -> RuleFault | None:
     name, tag = match["name"], match["tag"]
+    alike = [e for e in manifest.all("depend") if e.text == name]
+    if len(alike) > 1:
+        return RuleFault("redundant", alike[1].line, "depend", found=name, first=alike[0].line)
     pair = [[e for e in manifest.all(t) if e.text == name] for t in ("depend", tag)]
     if not all(pair):
         return None

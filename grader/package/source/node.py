@@ -262,6 +262,12 @@ class NodeSource:
         return calls[0] if len(calls) == 1 and calls[0].args else call
 
     @property
+    def created_node(self) -> ast.Call | None:
+        """The only call that creates a node without a class of its own."""
+        found = [call for call, _ in self.calls if _creates_node(call)]
+        return found[0] if len(found) == 1 else None
+
+    @property
     def uses_ros(self) -> bool:
         """Whether one of the files imports rclpy."""
         return any(module.uses_ros for module in self.modules)
@@ -282,6 +288,33 @@ class NodeSource:
         return any(self.is_node_class(call.func) for call, _ in self.calls)
 
     @cached_property
+    def held_node(self) -> str:
+        """The attribute in which a class that inherits from nothing has its node; "" if none."""
+        plain = self.node_class is not None and not self.node_class.bases
+        passed = self._passed_nodes if plain else set()
+        for node in self.own_nodes if plain else ():
+            if not isinstance(node, ast.Assign):
+                continue
+            target = dotted(node.targets[0])
+            created = _creates_node(node.value) or dotted(node.value) in passed
+            if created and target.startswith("self."):
+                return target
+        return ""
+
+    @property
+    def _passed_nodes(self) -> set[str]:
+        """The parameters of __init__ for which a call of the class gives a created node."""
+        init = self.methods.get("__init__")
+        parameters = [a.arg for a in init.args.args[1:]] if init is not None else []
+        assigned = [
+            n for n in self.all_nodes if isinstance(n, ast.Assign) and _creates_node(n.value)
+        ]
+        created = {dotted(target) for n in assigned for target in n.targets}
+        calls = [call for call, _ in self.calls if self.is_node_class(call.func)]
+        pairs = [pair for call in calls for pair in zip(parameters, call.args)]
+        return {name for name, given in pairs if dotted(given) in created or _creates_node(given)}
+
+    @cached_property
     def node_variables(self) -> set[str]:
         """The variables that get a new node: one of the class, or of create_node if there is none."""
         found: set[str] = set()
@@ -292,9 +325,14 @@ class NodeSource:
                 names = {dotted(target) for target in node.targets} - {""}
                 if self.is_node_class(value.func):
                     found |= names
-                elif last_part(dotted(value.func)) in ("create_node", "Node"):
+                elif _creates_node(value):
                     created |= names
-        return found or created
+        return created if self.held_node else found or created
+
+
+def _creates_node(value: ast.expr) -> bool:
+    """Whether an expression creates a node that has no class of its own."""
+    return isinstance(value, ast.Call) and last_part(dotted(value.func)) in ("create_node", "Node")
 
 
 def _without(module: Module, left_out: set[ast.ClassDef]) -> Iterator[ast.AST]:

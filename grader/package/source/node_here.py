@@ -11,6 +11,8 @@ from grader.package.source.scopes import has_self
 def node_here(source: NodeSource, module: Module, line: int | None) -> str:
     """Return `self` in a method of the node's class, else the only variable that has the node.
 
+    In a class that has a node instead of being one, it is the attribute.
+
     "" if there is no such variable, or more than one.
     """
     own = [statement for family in source.family for statement in family.body]
@@ -18,6 +20,8 @@ def node_here(source: NodeSource, module: Module, line: int | None) -> str:
     around = [function, *module.around(function)] if function is not None else []
     for found in around:
         if isinstance(found, Function) and found in own and has_self(found):
-            return "self"
+            return source.held_node or "self"
+    if source.held_node:
+        return ""
     names = sorted(source.node_variables)
     return names[0] if len(names) == 1 else ""

@@ -16,7 +16,7 @@ from grader.package.source.counter import (
     targets_of,
 )
 from grader.package.source.module import Module
-from grader.package.source.names import dotted
+from grader.package.source.names import dotted, last_part
 from grader.package.source.node import NodeSource
 
 IN_F_STRING = re.compile(r"(?<!\{)\{(?P<value>[^{}:!]{1,80})(?:![rsa])?(?P<form>:[^{}]{1,20})\}")
@@ -83,6 +83,7 @@ def _in_texts(source: NodeSource, names: set[str]) -> Iterator[NumberForm]:
                 yield from _in_f_string(module, node, names)
             elif isinstance(node, ast.BinOp):
                 yield from _in_operation(module, node, names)
+                yield from _in_named_text(source, node, names)
             elif isinstance(node, ast.Call):
                 yield from _in_call(module, node, names)
 
@@ -111,6 +112,25 @@ def _in_operation(module: Module, node: ast.BinOp, names: set[str]) -> Iterator[
         name = text.code(node)
         form = name.removeprefix(text.code(node.left)).strip()
         yield _piece(module, node, name, text.code(node.left), form, text.span(node)[0])
+
+
+def _in_named_text(source: NodeSource, node: ast.BinOp, names: set[str]) -> Iterator[NumberForm]:
+    """Yield the forms in a text that has a name: FORM = '%2d', and FORM % n."""
+    name = last_part(dotted(node.left))
+    if not isinstance(node.op, ast.Mod) or not name or not _has(node.right, names):
+        return
+    given = [
+        n.value
+        for n in source.all_nodes
+        if isinstance(n, ast.Assign) and name in [last_part(dotted(t)) for t in n.targets]
+    ]
+    if len(given) != 1 or not _is_text(given[0]):
+        return
+    module = source.module_of(given[0])
+    for match in IN_PERCENT.finditer(module.text.code(given[0])):
+        if match[0] not in PLAIN:
+            at = module.text.span(given[0])[0] + match.start()
+            yield _piece(module, given[0], match[0], "%d", match["form"], at)
 
 
 def _in_call(module: Module, call: ast.Call, names: set[str]) -> Iterator[NumberForm]:

@@ -57,7 +57,8 @@ def _logger_at(source: NodeSource, call: ast.Call) -> str:
         return kept[0]
     around = source.function_around(call)
     own = around is not None and around in source.own_methods and around.args.args
-    return "self.get_logger()" if own and around and around.args.args[0].arg == "self" else ""
+    node = source.held_node or "self"
+    return f"{node}.get_logger()" if own and around and around.args.args[0].arg == "self" else ""
 
 
 def _text_of(module: Module, call: ast.Call) -> str | None:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from grader.base.i18n.message import say
 
 MOST_BYTES = 100_000
+NO_EQUALS = re.compile(r"[ \t]*(?P<key>script[_-]dir|install[_-]scripts)[ \t]*(?P<value>\$.*)")
 KEYS = {"develop": "script_dir", "install": "install_scripts"}
 """The setting of each section that says where executables are installed."""
 VARIABLE = re.compile(r"(?:\$\{?|%\(|\{)(?P<name>\w{1,80})(?:\}|\)s)?")
@@ -96,11 +97,12 @@ def read_setup_cfg(found: bytes) -> SetupCfg:
     except configparser.ParsingError as error:
         line = error.errors[0][0] if error.errors else None
         sign = _comment_sign(text, line)
+        key = NO_EQUALS.match(text.splitlines()[line - 1]) if line else None
         raise SetupCfgFault(
             say("a line that is neither a [section] nor key=value"),
             line,
-            "comment" if sign else "",
-            sign,
+            "comment" if sign else "equals" if key else "",
+            sign or (f"{key['key']}={key['value'].strip()}" if key else ""),
         ) from None
     except (configparser.Error, ValueError) as error:
         raise SetupCfgFault(str(error).splitlines()[0]) from None

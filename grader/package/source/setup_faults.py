@@ -75,6 +75,8 @@ def setup_fault(found: bytes, error: str, package: str) -> SetupFault | None:
     """Return why a setup.py stops with an error; None if it is not known."""
     module = parsed_setup(found)
     call = setup_call(module) if module is not None else None
+    if module is not None and call is None:
+        return _misspelt_call(module, error)
     if module is None or call is None:
         return None
     reader = _Reader(module, call, package)
@@ -83,6 +85,55 @@ def setup_fault(found: bytes, error: str, package: str) -> SetupFault | None:
         fault = look(reader, match) if match is not None else None
         if fault is not None:
             return fault
+    return None
+
+
+def _misspelt_call(module: Module, error: str) -> SetupFault | None:
+    """The call of setup() by another name: nothing calls setup()."""
+    told = re.match(r"NameError: name '(?P<name>\w{1,80})' is not defined", error)
+    name = told["name"] if told is not None else ""
+    calls = [n for n in module.nodes if isinstance(n, ast.Call) and dotted(n.func) == name]
+    alike = name.lower() == "setup" or bool(nearest("setup", [name.lower()], cutoff=0.75))
+    if len(calls) != 1 or not alike:
+        return None
+    reader = _Reader(module, calls[0], "")
+    swap = module.text.swap(calls[0].func, "setup")
+    return reader.fault("misspelt", calls[0], swap, name=name, close="setup")
+
+
+def _py_modules(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """`py_modules` names a file that is not beside setup.py."""
+    del match
+    keyword = next((k for k in reader.call.keywords if k.arg == "py_modules"), None)
+    if keyword is None:
+        return None
+    q = reader.module.text.quote
+    wanted = (
+        "package_name" if "package_name" in _bound(reader.module) else f"{q}{reader.package}{q}"
+    )
+    splices = reader.without(keyword, reader.call.keywords)
+    packages = reader.argument("packages")
+    if packages is not None:
+        splices.append(reader.module.text.swap(packages, f"[{wanted}]"))
+    return reader.fault("py_modules", keyword, *splices, wanted=f"packages=[{wanted}]")
+
+
+def _no_colon(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
+    """A key without its colon: Python reads an item of a text."""
+    del match
+    for node in reader.module.nodes:
+        key = node.value if isinstance(node, ast.Subscript) else None
+        if isinstance(key, ast.Constant) and isinstance(key.value, str):
+            end = reader.module.text.span(key)[1]
+            code = reader.module.text.code(key)
+            around = reader.module.parents.get(node)
+            if isinstance(around, ast.Tuple | ast.List):
+                return reader.fault(
+                    "no_comma", key, Splice(end, end, ","), name=code, wanted=f"{code},"
+                )
+            return reader.fault(
+                "no_colon", key, Splice(end, end, ":"), name=code, wanted=f"{code}:"
+            )
     return None
 
 
@@ -205,7 +256,9 @@ def _name(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
         line, last = str(sets[0].lineno), str(sets[0].end_lineno)
         variant = "late" if line == last else "late_lines"
         return reader.fault(variant, first, name=name, line=line, last=last)
+    longer = [one for one in _bound(module) if one.startswith(f"{name}_")]
     close = CONSTANTS.get(name) or nearest(name, _bound(module) - {name}, cutoff=0.75)
+    close = close or (longer[0] if len(longer) == 1 else "")
     if close:
         swaps = [module.text.swap(use, close) for use in uses]
         return reader.fault("misspelt", first, *swaps, name=name, close=close)
@@ -409,7 +462,9 @@ def _no_source_folder(reader: _Reader, match: re.Match[str]) -> SetupFault | Non
     text = reader.module.text
     splices = reader.without(keyword, reader.call.keywords)
     words = {"name": match["path"]}
-    if not isinstance(packages, ast.Call) or not (packages.args or packages.keywords):
+    if not isinstance(packages, ast.Call) or not (
+        packages.args or any(k.arg in (None, "where") for k in packages.keywords)
+    ):
         return reader.fault("package_dir_alone", keyword, *splices, **words)
     if dotted(packages.func).rpartition(".")[2] not in FINDERS:
         return None
@@ -420,10 +475,24 @@ def _no_source_folder(reader: _Reader, match: re.Match[str]) -> SetupFault | Non
 
 def _leads_to(reader: _Reader, package_dir: ast.expr, path: str) -> bool:
     """Whether a folder is one that package_dir names, or is in it."""
-    table = Evaluator(reader.module.tree, reader.module.text.text).value(package_dir)
+    folders = _folders(reader.module, package_dir)
+    return any(f"{path}/".startswith(f"{folder}/") for folder in folders)
+
+
+def source_folders(found: bytes) -> list[str]:
+    """Return the folders to which `package_dir` of a setup.py leads."""
+    module = parsed_setup(found)
+    call = setup_call(module) if module is not None else None
+    if module is None or call is None:
+        return []
+    return [f for k in call.keywords if k.arg == "package_dir" for f in _folders(module, k.value)]
+
+
+def _folders(module: Module, package_dir: ast.expr) -> list[str]:
+    table = Evaluator(module.tree, module.text.text).value(package_dir)
     named = [v for _, v in table.pairs] if isinstance(table, Table) else []
     folders = [value.value.strip("/") for value in named if isinstance(value, Text)]
-    return any(f"{path}/".startswith(f"{folder}/") for folder in folders if folder)
+    return [folder for folder in folders if folder]
 
 
 def _of_ros_1(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
@@ -532,6 +601,8 @@ def _comma_behind(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
 
 
 LOOKS: tuple[tuple[str, Callable[[_Reader, re.Match[str]], SetupFault | None]], ...] = (
+    (r"RuntimeError: Provided py_modules", _py_modules),
+    (r"TypeError: string indices must be integers", _no_colon),
     (r"TypeError: '(?:method|function)' object is not iterable", _not_called),
     (r"TypeError: expected string or bytes-like object", _list_in_list),
     (r"TypeError: .{0,80}\btuple\b", _comma_behind),

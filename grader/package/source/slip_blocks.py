@@ -120,6 +120,9 @@ def _not_indented(text: Broken) -> Slip | None:
         return twice
     if not 0 < head < text.number:
         return None
+    deeper = _head_deeper(text, head)
+    if deeper is not None:
+        return deeper
     width = len(indent_of(text.source.line(head)))
     between = [text.source.line(n) for n in range(head + 1, text.number)]
     if any(row.strip() for row in between):
@@ -129,7 +132,7 @@ def _not_indented(text: Broken) -> Slip | None:
         code = text.source.line(head).strip()
         return Slip("signs", "block_comment", head, code, "", new, other=text.number)
     own = len(indent_of(text.source.line(text.number)))
-    deeper = _head_deeper(text, head) or _def_of_class(text, head)
+    deeper = _def_of_class(text, head)
     if deeper is not None:
         return deeper
     for lines in _lines_of_block(text, head) if own <= width else ():
@@ -158,6 +161,8 @@ def _head_deeper(text: Broken, head: int) -> Slip | None:
     of_module = re.match(r"[ \t]+(?:async[ \t]+)?def[ \t]+main[ \t]*\((?![ \t]*self\b)", row)
     if of_module is not None and width == 4:
         columns = {0}
+    if match["word"] == "class" and any(same.match(text.code.line(n)) for n in range(1, head)):
+        return None  # (a class in another one, whose block is missing)
     if width in columns or (match["word"] == "def" and width - 4 not in columns):
         return None
     start = text.source.start_of(head)

@@ -39,6 +39,9 @@ def open_bracket(text: Broken) -> Slip | None:
     if found is None:
         return None
     shown = text.source.line(found.line).strip()
+    opener = _opener(text, found)
+    if opener is not None:
+        return opener
     ways = [way for way in _ways(text, found) if way[3] is not None]
     ways = [way for way in ways if way[3] is not None and can_parse(way[3])] or ways
     kinds = {way[0] == "bracket_kind" for way in ways}
@@ -51,6 +54,24 @@ def open_bracket(text: Broken) -> Slip | None:
         return Slip("signs", "bracket_open", found.line, shown, found.closer)
     line = _line_at(text, found.wrong)
     return Slip("signs", "bracket_before", found.line, shown, found.closer, other=line)
+
+
+KEY = re.compile(r"\s*(?:'[^'\n]{0,80}'|\"[^\"\n]{0,80}\")[ \t]*:")
+
+
+def _opener(text: Broken, found: Open) -> Slip | None:
+    """Return a bracket that opens keys with their values, which a brace closes."""
+    if found.wrong is None or text.code.text[found.wrong] != "}" or found.signs[-1] == "{":
+        return None
+    if KEY.match(text.source.text, found.at + 1) is None:
+        return None
+    splice = Splice(found.at, found.at + 1, "{")
+    new = text.source.spliced([splice])
+    if new is None or not can_parse(new):
+        return None
+    shown, wanted = text.source.line(found.line).strip(), _with(text, found.line, splice)
+    line = _line_at(text, found.wrong)
+    return Slip("signs", "bracket_opener", found.line, shown, wanted, new, other=line)
 
 
 def _open(text: Broken) -> Open | None:

@@ -24,6 +24,10 @@ SELF_BESIDE = re.compile(
     r"^[ \t]*(?:async[ \t]+)?def[ \t]+\w+[ \t]*\([ \t]*self(?P<blank>[ \t]+)(?=[A-Za-z_*])"
 )
 FROM = re.compile(r"^[ \t]*from[ \t]+[\w.]+[ \t]+(?P<word>[A-Za-z]+)[ \t]+[A-Za-z_*]")
+KNOWN = re.compile(
+    r"(?:^|[ \t.])(?:spin_once|spin|init|add_node|destroy_timer|info|str|int|len|float)(?P<rest>[A-Za-z_]\w*)$"
+)
+"""A known function whose bracket is missing, and the name that was in it."""
 HEAD = re.compile(rf"[ \t]*(?:{BLOCK})\b")
 SINGLE = re.compile(r"(?<!['\"])['\"](?!['\"])")
 
@@ -60,6 +64,10 @@ def _opening(text: Broken) -> Slip | None:
         return None
     if match is None:
         return _of_method(text)
+    joined = KNOWN.search(text.line[: match.start("at")])
+    if joined is not None and re.search(rf"(?<![\w.]){joined['rest']}\b", text.code.text):
+        at = joined.start("rest")
+        return _changed(text, "bracket_first", at, at, "(")
     return _changed(text, "bracket_first", match.start("at"), match.start("at"), "(")
 
 

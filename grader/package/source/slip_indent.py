@@ -154,7 +154,7 @@ def _missing_method(text: Broken) -> str:
     code = text.code.text
     if re.search(r"\bsuper\(\)\.__init__", text.line) and not re.search(r"def +__init__", code):
         return "__init__"
-    called = set(re.findall(r"create_timer\([^()]*\bself\.(\w+)", code))
+    called = set(re.findall(r"create_timer\([^()]*\bself\.(\w+)\b(?!\()", code))
     gone = [name for name in called if not re.search(rf"\bdef +{name}\b", code)]
     inside = "create_timer" in text.line
     return gone[0] if len(gone) == 1 and re.search(r"def +__init__", code) and not inside else ""

@@ -31,7 +31,7 @@ WORD_AS_NAME = (
 FIRST_WORD = re.compile(r"^[ \t]*(?P<word>[a-z]{2,8})\b(?=[ \t]+[\w('\"]|[ \t]*:)")
 WORDS = (
     *("from", "import", "class", "def", "return", "while", "for", "if", "elif", "else", "try"),
-    *("except", "finally", "with", "raise", "pass", "global", "async", "lambda"),
+    *("except", "finally", "with", "raise", "pass", "global", "async", "lambda", "nonlocal"),
 )
 MISSPELT = {"form": "from", "fro": "from", "dfe": "def", "fi": "if"}
 PARAMETERS = re.compile(r"^[ \t]*def[ \t]+\w+[ \t]*\([^)]*\b\w+\.\w")

@@ -267,9 +267,12 @@ def _decorator(text: Broken) -> Slip | None:
         splice = text.within(head.end(), head.end(), "def ")
         new = text.changed(splice)
         return text.slip("signs", "decorated_def", text.source.line(text.number), splice, fixed=new)
+    shown = text.source.line(above).strip()
+    deeper = len(indent_of(text.line)) > len(indent_of(text.code.line(above)))
+    if deeper:
+        return Slip("signs", "decorator_head", above, shown, "", other=text.number)
     new = text.source.spliced([text.source.without(above)])
     after = fault_of(new) if new is not None else text.fault
-    shown = text.source.line(above).strip()
     return Slip("signs", "decorator", above, shown, "", new if after is None else None,
                 other=text.number)  # fmt: skip
 

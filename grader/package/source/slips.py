@@ -17,6 +17,7 @@ from grader.package.source.documents import document_of
 from grader.package.source.pasted import WHOLE_LINES, cleaned, pasted_in
 from grader.package.source.slip_blocks import BLOCK_LOOKS, two_statements
 from grader.package.source.slip_brackets import open_bracket
+from grader.package.source.slip_calls import CALL_LOOKS, LATE_CALL_LOOKS
 from grader.package.source.slip_dropped import DROPPED_LOOKS
 from grader.package.source.slip_fields import FIELD_LOOKS
 from grader.package.source.slip_forms import (
@@ -27,6 +28,7 @@ from grader.package.source.slip_forms import (
     note,
 )
 from grader.package.source.slip_future import FUTURE_LOOKS
+from grader.package.source.slip_heads import HEAD_LOOKS
 from grader.package.source.slip_indent import behind_colon, first_of_block, further_in
 from grader.package.source.slip_joined import JOINED_LOOKS
 from grader.package.source.slip_output import OUTPUT_LOOKS
@@ -85,6 +87,9 @@ CONFLICT = re.compile(r"^(?:<{7}|={7}|>{7})(?: |$)")
 def _conflict(text: Broken) -> Slip | None:
     """Return the first mark that git wrote where two versions of the file differ."""
     marks = [n for n, _ in enumerate(text.source.lines, 1) if CONFLICT.match(text.source.line(n))]
+    if len(marks) == 1 and text.number == marks[0]:
+        new = text.changed(text.source.without(marks[0]))
+        return Slip("document", "conflict_rest", marks[0], text.source.line(marks[0]), "", new)
     if len(marks) < 2 or text.number not in marks:
         return None
     last = str(marks[min(2, len(marks) - 1)])
@@ -517,6 +522,6 @@ def _global(text: Broken) -> Slip | None:
 
 
 LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
-    _conflict, *FUTURE_LOOKS, _prose, *OUTPUT_LOOKS, _numbers, *FIELD_LOOKS, *DROPPED_LOOKS, _brace, _global, _do_while, _constructor, _braces, note, _comment, *WORD_LOOKS, *FORM_LOOKS, _commas, _apostrophe, *QUOTE_LOOKS, _quotes, _keys, open_bracket, tab, behind_colon, try_block,
-    *JOINED_LOOKS, *TYPED_LOOKS, *STATEMENT_LOOKS, first_of_block, *BLOCK_LOOKS, further_in, _other_sign, *LATE_LOOKS, two_words, two_statements, block_word, *LAST_FORM_LOOKS, *MESSAGE_LOOKS,
+    _conflict, *FUTURE_LOOKS, _prose, *OUTPUT_LOOKS, _numbers, *FIELD_LOOKS, *DROPPED_LOOKS, *CALL_LOOKS, _brace, _global, _do_while, _constructor, _braces, *HEAD_LOOKS, note, _comment, *WORD_LOOKS, *FORM_LOOKS, _commas, _apostrophe, *QUOTE_LOOKS, _quotes, _keys, open_bracket, tab, behind_colon, try_block,
+    *JOINED_LOOKS, *TYPED_LOOKS, *STATEMENT_LOOKS, first_of_block, *BLOCK_LOOKS, further_in, _other_sign, *LATE_CALL_LOOKS, *LATE_LOOKS, two_words, two_statements, block_word, *LAST_FORM_LOOKS, *MESSAGE_LOOKS,
 )  # fmt: skip

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
 from grader.base.shown import shown
+from grader.package.source.setup_faults import setup_fault, source_folders
 from grader.report.model import Where
 from grader.run.workspace import METADATA
 from grader.verdict.outcome import Failed
@@ -54,7 +55,27 @@ def must_be_as_declared(evidence: Evidence, script: str) -> None:
         not _is_of_this_package(evidence, text)
         or wrapper_digest(text, assignment.executable, assignment.target) not in WRAPPERS.values()
     ):
+        _source_folder_must_exist(evidence)
         raise _other(say("{path} is not the script of its entry point", path=script), "setup.py")
+
+
+def _source_folder_must_exist(evidence: Evidence) -> None:
+    """Raise Failed if `package_dir` leads to a folder that the package does not have."""
+    file = evidence.submission.file("setup.py")
+    found = file.data if file is not None and file.kind == "file" else b""
+    for folder in source_folders(found):
+        error = f"package directory '{folder}'"
+        fault = setup_fault(found, error, evidence.assignment.package)
+        if fault is not None and evidence.submission.file(folder) is None:
+            raise Failed(
+                "entry_point.other_installed",
+                expected=say("package_dir names a folder of the package"),
+                actual=say("there is no folder {name}", **fault.words),
+                where=Where(file="setup.py", line=fault.line),
+                variant=fault.variant,
+                params={"error": error},
+                words=fault.words,
+            )
 
 
 def _is_of_this_package(evidence: Evidence, text: str) -> bool:

@@ -57,6 +57,8 @@ NOT_WRITTEN = re.compile(
 NO_VARIABLE = re.compile(
     r"^ValueError: invalid variable '|^configparser\.Interpolation\w{1,40}Error: ", re.MULTILINE
 )
+LIBRARIES = ("rclpy", "std_msgs", "geometry_msgs", "sensor_msgs", "launch", "setuptools")
+"""Packages that students name in packages=, as if setup() had to install them."""
 LINKED = ("package.xml", "setup.cfg", "setup.py")
 """Files of the package that colcon build --symlink-install links into the build folder."""
 IGNORED = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
@@ -368,6 +370,7 @@ def _not_packaged(evidence: Evidence, expected: str, folder: str) -> Failed:
         others = {name: at for name, at in found.extra.items() if name.replace(".", "/") == folder}
         if found.is_there and others:
             variant, line = "other_folder", min(others.values())
+            variant = "library" if folder in LIBRARIES else variant
         elif found.is_there or (found.is_moved and not found.is_text):
             variant = "unknown_folder"
     return Failed(

@@ -23,6 +23,7 @@ from grader.verdict.checks.parsed import (
     entry_points_of,
     file_of,
     in_inner_folder,
+    names_in,
     node_path,
     printable_reason,
     setup_py_of,
@@ -42,7 +43,8 @@ def mapping_from_source(evidence: Evidence) -> Passed | None:
     file = file_of(evidence, "setup.py")
     if file is None or file.unreadable:
         inner = in_inner_folder(evidence, "setup.py") if file is None else ""
-        raise _no_setup_py(file.reason if file else "", inner)
+        close = nearest("setup.py", names_in(evidence, ""), cutoff=0.8)
+        raise _no_setup_py(file.reason if file else "", inner, close)
     setup = setup_py_of(evidence)
     if setup is None or not setup.is_static:
         return None
@@ -86,7 +88,7 @@ def _comes_from_name(evidence: Evidence, setup: SetupPy, target: str) -> bool:
     return once and "".join(target.split()) == name + rest
 
 
-def _no_setup_py(reason: str, inner: str) -> Failed:
+def _no_setup_py(reason: str, inner: str, close: str) -> Failed:
     cannot = say("setup.py cannot be read: {reason}", reason=printable_reason(reason))
     expected = say("a setup.py with the entry point")
     if inner:
@@ -98,6 +100,17 @@ def _no_setup_py(reason: str, inner: str) -> Failed:
             variant="inner",
             params={"there": shown(inner)},
             words={"there": shlex.quote(shown(inner))},
+        )
+    if close and not reason:
+        there = say("there is no {path}, but {there}", path="setup.py", there=shown(close))
+        return Failed(
+            "setup.missing",
+            expected=expected,
+            actual=with_difference(there, close, "setup.py"),
+            where=Where(file=shown(close)),
+            variant="renamed",
+            params={"there": shown(close)},
+            words={"there": shlex.quote(shown(close))},
         )
     return Failed(
         "setup.missing",

@@ -87,6 +87,8 @@ def _computed(evidence: Evidence, actual: str) -> Failed:
     variant = "below"
     if found is None:
         found, variant = _replaced(evidence), "replaced"
+    if found is None:
+        found, variant = _called_twice(evidence), "twice"
     variant = "project" if _in_project(evidence) else variant if found else ""
     return Failed(
         "entry_point.computed_mapping",
@@ -96,6 +98,26 @@ def _computed(evidence: Evidence, actual: str) -> Failed:
         variant=variant,
         words={"wanted": entry, "line": str(found[0]) if found else ""},
     )
+
+
+def _called_twice(evidence: Evidence) -> tuple[int, int] | None:
+    """Return the line of the entry in a call of setup(), and that of a later call without it."""
+    file = file_of(evidence, "setup.py")
+    module = parsed_setup(file.data) if file is not None else None
+    entry = re.compile(rf"\s*{re.escape(evidence.assignment.executable)}\s*=")
+    statements = [s.value for s in module.tree.body if isinstance(s, ast.Expr)] if module else []
+    calls = [c for c in statements if isinstance(c, ast.Call) and dotted(c.func).endswith("setup")]
+    lines = [
+        [
+            n.lineno
+            for n in ast.walk(call)
+            if isinstance(n, ast.Constant) and entry.match(str(n.value))
+        ]
+        for call in calls
+    ]
+    if len(calls) < 2 or lines[-1] or not any(lines):
+        return None
+    return next(found[0] for found in lines if found), calls[-1].lineno
 
 
 def _replaced(evidence: Evidence) -> tuple[int, int] | None:

@@ -46,24 +46,17 @@ def logger(use: Use[Logged]) -> Passed:
         )
     gone = run.ended_by_itself or bool(run.watch.missing)
     for event in events:
-        other = event.record is not None and event.record.level != LEVELS[level]
-        if other and event.n is None and _is_of_error(use):
-            raise Blocked(by=use.evidence.id_of("log.counts"))
         if gone and event.source == "faked" and event.wall > events[-1].wall - LOST:
             continue  # the last records of a node that ends or is destroyed may be lost
-        _judge_record(event, names, level, expected, line_of(use.evidence, event.record))
+        place, count = line_of(use.evidence, event.record), use.evidence.id_of("log.counts")
+        caught = use.evidence.has_mistake(count, "node.error_logged")
+        _judge_record(event, names, level, expected, place, follows=count if caught else "")
     node = run.counting_node
     name = node.logger if node is not None else min(names, default="")
     said = say(
         "{count} records of [{name}], {level}", count=len(events), name=name, level=level.upper()
     )
     return Passed(actual=said)
-
-
-def _is_of_error(use: Use[Logged]) -> bool:
-    """Whether the line that came is the text of an error, which an except logs at its own level."""
-    result = use.evidence.results.get(use.evidence.id_of("log.counts"))
-    return result is not None and any(m.id == "node.error_logged" for m in result.mistakes)
 
 
 def _counted(use: Use[Logged]) -> list[Event]:
@@ -90,7 +83,9 @@ def _in_scenario(use: Use[Logged], expected: str) -> list[Event]:
     return found
 
 
-def _judge_record(event: Event, names: set[str], level: str, expected: str, where: Where) -> None:
+def _judge_record(
+    event: Event, names: set[str], level: str, expected: str, where: Where, *, follows: str = ""
+) -> None:
     """Raise Failed unless the line is a record of the node's own logger, with this level."""
     if event.source == "print":
         text = event.text[:80]
@@ -119,6 +114,7 @@ def _judge_record(event: Event, names: set[str], level: str, expected: str, wher
             actual=say("level {level}", level=found),
             where=where,
             words={"level": level},
+            follows=follows,
         )
 
 

@@ -151,6 +151,7 @@ def _unusable(error: ManifestError, found: bytes) -> Failed:
             "duplicate attribute": "attribute_twice",
             "encoding specified in XML declaration is incorrect": "encoding_declared",
             "unknown encoding": "encoding_declared",
+            "XML declaration not well-formed": "first_line",
         }
         variant = known.get(error.text, "")
         return _failed("package.broken_xml", text, error.line, variant=variant, params=params)
@@ -183,6 +184,11 @@ def _described(fault: XmlFault) -> Message:
         "after": say("there is something after the last tag"),
         "package_twice": say("<package> is in the file twice"),
         "no_tags": say("the file has no tag"),
+        "typed": say("a sign of a tag is missing or wrong"),
+        "line_twice": say("a line is in the file twice"),
+        "lines_swapped": say("two lines are in the wrong order"),
+        "end_twice": say("</package> is in the file twice"),
+        "root_first": say("there is a tag above <package>"),
         "outside": say("there is a tag below </{name}>", **words),
         "bare": say("<{tag} …> has a value without quotes", **words),
         "comment": say("a comment that begins with <!-- has no end"),

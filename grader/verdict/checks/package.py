@@ -164,7 +164,7 @@ def _comes_from_name(evidence: Evidence, setup: SetupPy, item: Text) -> bool:
     name, file = setup.name, file_of(evidence, "setup.py")
     if name is None or file is None or item.value != f"resource/{name.value}":
         return False
-    whole = rb"(?<!\w)%s(?!\w)" % re.escape(name.value.encode())
+    whole = rb"['\"]%s['\"]" % re.escape(name.value.encode())
     once = len(re.findall(whole, file.data)) == 1
     return once and evidence.has_mistake("package.manifest", "package.name_mismatch")
 
@@ -176,7 +176,10 @@ def _no_marker(evidence: Evidence, path: str) -> Failed:
     there, place, line = path, "", 0
     lone = [n for n in others if "." not in n] if len(others) == 1 else []
     close = nearest(package, others) or "".join(lone)
-    if evidence.submission.file(path) is not None:
+    parent = evidence.submission.file(path.partition("/")[0])
+    if parent is not None and parent.kind != "folder":
+        variant, actual = "file", say("{path} is a file", path=path.partition("/")[0])
+    elif evidence.submission.file(path) is not None:
         variant, actual = "folder", say("{path} is a folder", path=path)
     elif inner := _inner_resource(evidence, path):
         variant, close, there = "inner", inner, f"{shown(inner)}/{package}"

@@ -65,21 +65,11 @@ def _refused_arguments(evidence: Evidence) -> list[str]:
     """Return that the node works without ROS arguments only, if it was marked without them."""
     if not evidence.run.plain:
         return []
-    source = source_of_node(evidence)
-    parsers = source.calls_of("parse_args") if source is not None else []
-    if source is not None and not parsers:
-        return [
-            say(
-                "Your program reads the command line itself, and does something else with the arguments "
-                "of ROS, so it was marked without them. With ros2 run … --ros-args and in launch files "
-                "sys.argv has these arguments too: rclpy.utilities.remove_ros_args(sys.argv) gives it "
-                "without them."
-            )
-        ]
     return [
         say(
             "Your program reads the command line itself and does not work with the arguments of ROS, "
-            "so it was marked without them. ros2 run … --ros-args and launch files will stop it: with "
+            "so it was marked without them. With ros2 run … --ros-args and in launch files it gets them "
+            "too. Read the list that rclpy.utilities.remove_ros_args(sys.argv) returns instead of sys.argv; with "
             "argparse, write parse_known_args()[0] instead of parse_args()."
         )
     ]

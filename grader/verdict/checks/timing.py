@@ -89,6 +89,11 @@ def _in_scenario(use: Use[LinePeriod]) -> Passed:
     )
 
 
+def _has_failed(evidence: Evidence, check_id: str) -> bool:
+    result = evidence.results.get(check_id)
+    return result is not None and result.status == "failed"
+
+
 def _line_by_line(evidence: Evidence, wanted: float) -> Passed:
     run = evidence.run
     watch = run.watch
@@ -107,6 +112,7 @@ def _line_by_line(evidence: Evidence, wanted: float) -> Passed:
             actual=say("a line came before any time had passed"),
             where=line_of(evidence, watch.before_start[0].record),
             words=words(evidence),
+            follows=count if len(events) == 1 and _has_failed(evidence, count) else "",
         )
     on_time = [event for event in events if event.due is not None]
     stopped = len(on_time) > 1 and abs((watch.period or wanted) - wanted) < 0.001
