@@ -26,10 +26,13 @@ from grader.package.source.counter import (
     parts_of_callback,
     starts_of,
     targets_of,
+    without_effect,
 )
 from grader.package.source.module import Function, Module
-from grader.package.source.names import dotted, last_part
+from grader.package.source.names import dotted, last_part, own_name
+from grader.package.source.node import NodeSource
 from grader.package.source.plain_counter import plain_start
+from grader.package.source.sure_errors import is_never_set
 
 SET_AGAIN = msg("This line sets {name} to {value} again in each call.")
 SUM = ast.Add | ast.Sub
@@ -206,6 +209,17 @@ def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
         return None
     if _changes_elsewhere(suspect, counter.name) or change_of(suspect, "name") is not None:
         return None
+    if any(
+        _is_misspelt_step(source, node) for node in ast.walk(source.callback or source.entry.tree)
+    ):
+        return None
+    nothing = without_effect(source)
+    if nothing is not None:
+        at, name = nothing
+        code = source.module_of(at).text.code(at)
+        written = f"{name} += {suspect.output.step}"
+        found = suspect.finding("counter_not_increased", at, name=code, written=written)
+        return replace(found, words={**found.words, "attribute": name}, variant="nothing")
     found = suspect.finding("counter_not_increased", counter.logged, name=counter.name)
     around = source.function_around(counter.logged)
     word = outer_word(source, around, counter.name) if around is not None else ""
@@ -213,6 +227,12 @@ def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
         return found
     words = {**found.words, "word": word, "function": around.name}
     return replace(found, words=words, variant="outer")
+
+
+def _is_misspelt_step(source: NodeSource, node: ast.AST) -> bool:
+    """Whether a statement adds to an attribute that nothing sets: it raises an error, hidden or not."""
+    name = own_name(node.target) if isinstance(node, ast.AugAssign) else ""
+    return bool(name) and is_never_set(source, name)
 
 
 def _changes_elsewhere(suspect: Suspect, name: str) -> bool:
@@ -453,15 +473,31 @@ KINDS = (
         msg("Nothing is added to the counter"),
         msg("The callback logs the counter; without += every line shows the same number."),
         msg("Add to the callback, after the log line: {name} += {step}"),
+        whys={
+            "nothing": msg(
+                "{name} works out a value and keeps it nowhere, so {attribute} stays as it is."
+            )
+        },
         fixes={
+            "nothing": INSTEAD,
             "outer": msg(
                 "Write {word} {name} as the first line of {function}, and after the log line: "
                 "{name} += {step}"
-            )
+            ),
         },
         behind={"run.constant_counter": _not_increased},
-        fixed_by=(node_count.step,),
+        fixed_by=(lines.written, node_count.step),
         examples=(
+            example(
+                "sum_kept_nowhere_in_a_method",
+                Replace(NODE, "self.counter_ += 1", "self.increase()"),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def increase(self):\n        self.counter_ + 1\n\n    def timer_callback",
+                ),
+                fails="run.output",
+            ),
             example(
                 "counter_constant",
                 Replace(NODE, "        self.counter_ += 1\n", ""),

@@ -11,9 +11,9 @@ from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import node_count
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import outer_word, targets_of
+from grader.package.source.counter import adds_to, declares, names_given, outer_word, targets_of
 from grader.package.source.module import Function
 from grader.package.source.place import function_at
 
@@ -87,6 +87,35 @@ def _reads(value: ast.expr, name: str) -> bool:
     return any(isinstance(n, ast.Name) and n.id == name for n in ast.walk(value))
 
 
+def _anew(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a variable of the callback that is shown and counted, and is set anew in each call."""
+    source, callback = suspect.source, suspect.source.callback
+    logs = source.logs(callback) if callback is not None else []
+    if callback is None or len(logs) != 1 or callback not in source.own_methods:
+        return None
+    changed = [n for n in ast.walk(callback) if isinstance(n, ast.Assign | ast.AugAssign)]
+    for name in names_given(logs[0]):
+        steps = [n for n in changed if adds_to(n, name)]
+        others = [n for n in changed if name in targets_of(n) and n not in steps]
+        if "." in name or declares(callback, name) or len(steps) != 1:
+            continue
+        step = f"self.{name} += {suspect.output.step}"
+        mistake = suspect.finding("counts_in_variable", steps[0], name=name)
+        words = {**mistake.words, "function": callback.name, "written": step}
+        if name in _with_default(callback) and not others:
+            return replace(mistake, words=words, variant="default")
+        given = others[0].value if len(others) == 1 else None
+        if given is not None and "get_parameter" in ast.unparse(given):
+            return replace(mistake, words={**words, "line": str(others[0].lineno)})
+    return None
+
+
+def _with_default(function: Function) -> set[str]:
+    """Return the parameters of a function that have a default value."""
+    given = function.args.args
+    return {a.arg for a in given[len(given) - len(function.args.defaults) :]}
+
+
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -125,6 +154,55 @@ KINDS = (
                 Replace(NODE, "self.counter_ += 1", "counter_ += 1"),
                 fails="run.output",
                 blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "counts_in_variable",
+        "counter",
+        msg("The number is kept in a variable of the function"),
+        msg(
+            "{name} is a variable of {function}, and line {line} sets it to the value of the parameter "
+            "in each call. Adding to it does not change the parameter of the node."
+        ),
+        msg(
+            "Write self.{name} = {start} in __init__, and delete line {line}. In {function}, write "
+            "self.{name} instead of {name} in the log line, and {written} in this line."
+        ),
+        links.PYTHON_CLASSES,
+        whys={
+            "default": msg(
+                "{name} is a parameter of {function}. The timer gives it no value, so each call begins "
+                "with its default value again."
+            )
+        },
+        fixes={
+            "default": msg(
+                "Write self.{name} = {start} in __init__. In {function}, delete the parameter {name}, "
+                "and write self.{name} instead of {name} in the log line, and {written} in this line."
+            )
+        },
+        behind={"run.constant_counter": _anew},
+        examples=(
+            example(
+                "counts_in_a_default",
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(NODE, "def timer_callback(self)", "def timer_callback(self, number=0)"),
+                Replace(NODE, "str(self.counter_)", "str(number)"),
+                Replace(NODE, "self.counter_ += 1", "number += 1"),
+                fails="run.output",
+            ),
+            example(
+                "counts_beside_a_parameter",
+                Replace(NODE, "self.counter_ = 0", "self.declare_parameter('count', 0)"),
+                Replace(
+                    NODE,
+                    "        self.get_logger().info('Hello time: ' + str(self.counter_))",
+                    "        number = self.get_parameter('count').value\n"
+                    "        self.get_logger().info('Hello time: ' + str(number))",
+                ),
+                Replace(NODE, "self.counter_ += 1", "number = number + 1"),
+                fails="run.output",
             ),
         ),
     ),

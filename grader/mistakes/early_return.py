@@ -12,12 +12,13 @@ from grader.mistakes.fixes import lines, node_order
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.mistakes.worked_out import first_of
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import logged_counter, targets_of
+from grader.package.source.counter import adds_to, logged_counter, parts_of_callback, targets_of
 from grader.package.source.imported import full_name
 from grader.package.source.module import Function
-from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.names import called_name, calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of
 from grader.package.source.truth import OK, Truth, always_set_to, truth_of
@@ -177,6 +178,9 @@ def _condition_changed(case: Case) -> Files | None:
 def _step_after_return(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a step below the return of a method that the callback calls."""
     source = suspect.source
+    helper = _step_in_helper(suspect)
+    if helper is not None:
+        return helper
     found, log = node_order.after_return(source), logged_counter(source)
     around = source.function_around(log[0]) if log is not None else None
     if found is None or log is None or around is None:
@@ -191,6 +195,44 @@ def _step_after_return(suspect: Suspect) -> RecognisedMistake | None:
     }
     mistake = suspect.finding("step_after_return", step, **params)
     return replace(mistake, variant="above" if around is method else "")
+
+
+def _returns_after_log(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a return directly below the log line that came, above the only line that counts."""
+    source, callback = suspect.source, suspect.source.callback
+    row = suspect.place.line if suspect.place is not None else None
+    steps = [n for n in ast.walk(callback) if isinstance(n, ast.AugAssign)] if callback else []
+    for found in (n for n in ast.walk(callback) if isinstance(n, ast.Return)) if callback else ():
+        module = source.module_of(found)
+        block = block_of(module, found)
+        above = block[block.index(found) - 1] if found in block[1:] else None
+        test = _condition_of(source, found)
+        if above is None or above.lineno != row or test is None or len(steps) != 1:
+            continue
+        if found.value is None and steps[0].lineno > found.lineno:
+            step = module.text.code(steps[0])
+            mistake = suspect.finding("return_early", found, line=steps[0].lineno, written=step)
+            return replace(mistake, variant="counts")
+    return None
+
+
+def _step_in_helper(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a method that returns a number, and that adds to it only below the return."""
+    source = suspect.source
+    called = {called_name(c) for part in parts_of_callback(source) for c, _ in calls_in(part)}
+    for function in source.all_nodes:
+        if not isinstance(function, Function) or function.name not in called:
+            continue
+        for one in node_order.early_returns(function):
+            below = function.body[function.body.index(one) + 1 :]
+            name = dotted(one.value) if one.value is not None else ""
+            if len(below) == 1 and name and adds_to(below[0], name):
+                code = source.module_of(one).text.code
+                params: dict[str, str | int] = {"line": one.lineno, "method": function.name}
+                mistake = suspect.finding("step_after_return", below[0], **params)
+                words = {**mistake.words, "name": name, "step": code(below[0])}
+                return replace(mistake, words=words, variant="value")
+    return None
 
 
 def _returns_before_spin(suspect: Suspect) -> RecognisedMistake | None:
@@ -274,11 +316,31 @@ KINDS = (
         msg("The line that counts is below a return, so it never runs"),
         msg("return ends the function: line {line} comes first, and this line does not run."),
         msg("Move this line to {method}, below line {below}, which logs."),
-        fixes={"above": msg("Move this line above line {line}.")},
+        fixes={
+            "above": msg("Move this line above line {line}."),
+            "value": msg(
+                "Keep the number before it changes. Write three lines instead of line {line} and this "
+                "line: value = {name}, then {step}, then return value."
+            ),
+        },
         behind={"run.constant_counter": _step_after_return},
         deletes=("", "above"),
         fixed_by=(node_order.before_return,),
         examples=(
+            example(
+                "helper_counts_after_return",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class NextNumber:\n\n    def __init__(self):\n        self.n = 0\n\n"
+                    "    def take(self):\n        return self.n\n        self.n += 1\n\n\n"
+                    "class MyFirstNode",
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = NextNumber()"),
+                Replace(NODE, "str(self.counter_)", "str(self.counter_.take())"),
+                Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
+            ),
             example(
                 "counts_after_return",
                 Replace(NODE, STEP_LINE, ""),
@@ -303,6 +365,10 @@ KINDS = (
         msg("return ends the function: the lines below it do not run any more."),
         msg("Delete this return: a function without it returns at its end."),
         whys={
+            "counts": msg(
+                "return ends the function: line {line}, which counts, does not run after this line was "
+                "logged."
+            ),
             "before_init": msg(
                 "rclpy.ok() tells whether rclpy.init() has run in this program, and above that call it is "
                 "always false. So the program ends here."
@@ -330,6 +396,7 @@ KINDS = (
             ),
         },
         fixes={
+            "counts": msg("Write {written} above this return, in a line of its own."),
             "before_init": msg("Delete line {lines}."),
             "word": msg("Delete only the word return in this line: what follows it stays."),
             "block": msg(
@@ -360,12 +427,22 @@ KINDS = (
         behind={
             "run.no_lines": _returns_before_log,
             "run.stops": _limits,
-            "run.constant_counter": _returns,
+            "run.constant_counter": first_of(_returns, _returns_after_log),
             "run.exits_at_once": _returns_before_spin,
             "run.no_node": _returns_before_spin,
         },
         fixed_by=(_condition_changed, node_order.returned),
         examples=(
+            example(
+                "returns_before_it_counts",
+                Replace(
+                    NODE,
+                    LOG_LINE,
+                    "        if self.counter_ == 0:\n            self.get_logger().info('Hello time: 0')\n"
+                    f"            return\n{LOG_LINE}",
+                ),
+                fails="run.output",
+            ),
             example(
                 "returns_before_log",
                 Replace(NODE, LOG_LINE, f"        return\n{LOG_LINE}"),

@@ -799,6 +799,43 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "run.ended_early": {"library": "rclpy"},
     "run.error_at_stop": {"library": "rclpy"},
     "node.spin_of_object": {"name": "app", "type": "App", "attribute": "node"},
+    "node.helper_not_called": {
+        "name": "self.helper.add",
+        "written": "self.helper.add()",
+        "line": "10",
+    },
+    "node.read_counts": {
+        "name": "self.helper.value",
+        "line": "12",
+        "lines": "23, 24",
+        "count": 2,
+        "number": "number",
+    },
+    "node.setter_adds": {
+        "name": "self._count += value",
+        "written": "self._count = value",
+        "attribute": "self.count",
+    },
+    "node.base_replaced": {"method": "tick", "type": "Base", "line": "13", "below": "18"},
+    "node.base_first": {"method": "tick", "type": "Base", "line": "13", "below": "19"},
+    "node.error_suppressed": {
+        "name": "suppress(AttributeError)",
+        "line": "17",
+        "error": "AttributeError: 'MyNode' object has no attribute 'conter'",
+        "at": "17",
+        "correction": "Write self.counter instead of self.conter.",
+    },
+    "node.logger_by_name": {
+        "name": "rclpy.logging.get_logger('name')",
+        "written": "self.get_logger()",
+    },
+    "node.fields_frozen": {"name": "count", "type": "State", "line": "8"},
+    "node.counts_in_variable": {
+        "name": "count",
+        "function": "tick",
+        "written": "self.count += 1",
+        "line": "13",
+    },
 }
 """What differs in the texts of one mistake."""
 

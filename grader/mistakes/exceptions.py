@@ -14,8 +14,8 @@ MEANINGS = {
         "nothing catches ends the program."
     ),
     "AttributeError": msg(
-        "AttributeError: the object before a dot has no attribute or method with the name behind the dot. "
-        "An exception that nothing catches ends the program."
+        "AttributeError: the object before a dot has no attribute or method with the name behind the dot, "
+        "or it does not let it be set. An exception that nothing catches ends the program."
     ),
     "NameError": msg(
         "NameError: a name is used that has no value at this place of the program. An exception that "

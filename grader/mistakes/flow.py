@@ -130,6 +130,23 @@ def _counts_if(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+def _counts_in_else(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for an if whose else alone counts, where a number came twice."""
+    callback, logged = suspect.source.callback, logged_counter(suspect.source)
+    twice = any(one == other for one, other in zip(suspect.lines, suspect.lines[1:]))
+    if callback is None or logged is None or not twice:
+        return None
+    changed = [n for n in ast.walk(callback) if logged[1] in targets_of(n)]
+    for block in _blocks(suspect):
+        only = block.orelse if isinstance(block, ast.If) and len(block.orelse) == 1 else []
+        if isinstance(block, ast.If) and len(changed) == 1 and changed == only:
+            text, module = ast.unparse(block.test)[:60], suspect.source.module_of(block)
+            found = suspect.finding("count_if", only[0], name=logged[1], text=text)
+            words = {**found.words, "written": module.text.code(only[0]), "line": block.lineno}
+            return replace(found, words=words, variant="else")
+    return None
+
+
 def _inner(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a function in the callback that logs, and that nothing calls."""
     source, callback = suspect.source, suspect.source.callback
@@ -402,9 +419,34 @@ KINDS = (
         msg("A condition decides whether the counter changes"),
         msg("The counter changes only while the condition {text} is true."),
         msg("Remove this if, and indent the lines below it as far as the if is indented now."),
-        behind={"run.constant_counter": _counts_if, "run.wrong_step": _counts_if},
+        whys={
+            "else": msg(
+                "This line is in the else of the if in line {line}: it does not run while the condition "
+                "{text} is true."
+            )
+        },
+        fixes={
+            "else": msg(
+                "Delete the line else: above it, and indent {written} as far as the if in line {line} is "
+                "indented, so that it runs in each call."
+            )
+        },
+        behind=dict.fromkeys(
+            ("run.constant_counter", "run.wrong_step"), first_of(_counts_if, _counts_in_else)
+        ),
         fixed_by=(lines.unwrapped,),
         examples=(
+            example(
+                "counts_in_the_else",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.first_ = True"),
+                Replace(
+                    NODE,
+                    STEP_LINE,
+                    "        if self.first_:\n            self.first_ = False\n"
+                    f"        else:\n    {STEP_LINE}",
+                ),
+                fails="run.output",
+            ),
             example(
                 "counts_never",
                 Replace(NODE, STEP_LINE, f"        if self.counter_ > 0:\n    {STEP_LINE}"),

@@ -77,6 +77,11 @@ def _text_of(raised: Raised, name: ast.Name) -> ast.expr | None:
         for n in (ast.walk(function) if function is not None else ())
         if isinstance(n, ast.Assign | ast.AugAssign) and name.id in targets_of(n)
     ]
+    values = values or [
+        n.value
+        for n in raised.module.tree.body
+        if isinstance(n, ast.Assign) and name.id in targets_of(n)
+    ]
     return values[0] if len(values) == 1 else None
 
 
@@ -96,7 +101,12 @@ def _named(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
             place = re.search(rf"\{{{re.escape(wrong[0])}([^{{}}]*)\}}", found.text)
             if place is not None:
                 return _finding(raised, found, place[0], f"{{{place[1]}}}", "empty")
-        if len(found.fields) == 1 and len(keywords) == 1 and not args:
+        given = keywords[0].arg if len(keywords) == 1 and not args else None
+        if len(found.fields) == 1 and given and wrong[0] != name:
+            place = re.search(rf"\{{{re.escape(wrong[0])}([^{{}}]*)\}}", found.text)
+            if place is not None:
+                return _finding(raised, found, place[0], f"{{{given}{place[1]}}}", "given")
+        if len(found.fields) == 1 and len(keywords) == 1 and not args and wrong[0] == name:
             old = f"{keywords[0].arg}={raised.module.text.code(keywords[0].value)}"
             new = f"{name}={raised.module.text.code(keywords[0].value)}"
             if name.isidentifier() and raised.module.text.code(keywords[0]) == old:
@@ -186,7 +196,7 @@ def _finding(
     raised: Raised, found: Format, name: str, written: str, variant: str
 ) -> RecognisedMistake:
     params = {"name": shown(name), "written": shown(written)}
-    at = found.made if variant in ("empty", "counted", "highest") else found.call
+    at = found.made if variant in ("empty", "given", "counted", "highest") else found.call
     mistake = raised.finding("format_value_missing", at=at, params=params)
     place = next((f for f in found.fields if not f.isdecimal()), "")
     words = {**mistake.words, "place": shown(place)}
@@ -223,6 +233,9 @@ KINDS = (
             "empty": msg(
                 "Write {written} instead of {name} in the text: it takes the value of the ()."
             ),
+            "given": msg(
+                "Write {written} instead of {name} in the text: the () of format gives a value this name."
+            ),
             "keyword": msg("Write {written} instead of {name} in the () of format."),
             "value": msg(
                 "Write in the () of format a name and a value for {name}. Or write {{}} instead of "
@@ -250,6 +263,12 @@ KINDS = (
         raised={NO_KEY: _named, NO_INDEX: _numbered},
         fixed_by=(lines.written,),
         examples=(
+            example(
+                "format_place_with_self",
+                Replace(NODE, TEXT, "'Hello time: {self.counter_}'.format(n=self.counter_)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "format_without_values",
                 Replace(NODE, TEXT, "'Hello time: {self.counter_}'.format()"),

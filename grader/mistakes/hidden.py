@@ -32,6 +32,7 @@ OF_LOGGER = (
     *LOG_METHODS,
     *("log", "name", "get_child", "get_name", "set_level", "get_effective_level", "is_enabled_for"),
 )
+EVERY = ("Exception", "BaseException")
 RAISES = msg("This except catches the error and does not show it. Line {line} raises {error}.")
 LOG_OF_NUMBER = "            self.get_logger().info('Hello time: ' + self.counter_)\n"
 
@@ -70,6 +71,26 @@ def _swallows(suspect: Suspect) -> RecognisedMistake | None:
                     body = [s for part in hidden_bodies(suspect.source, node) for s in part]
                     found = _with_attribute(suspect, found, body)
                 return _with_narrower(suspect.source, found, node, handler)
+    return None
+
+
+def _suppressed(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a `with suppress(…)` around lines of which one raises what it hides."""
+    source = suspect.source
+    for function in _functions(source):
+        for node in ast.walk(function):
+            call = node.items[0].context_expr if isinstance(node, ast.With) else None
+            if not isinstance(node, ast.With) or not isinstance(call, ast.Call):
+                continue
+            if len(node.items) > 1 or last_part(dotted(call.func)) != "suppress":
+                continue
+            error = hidden_error(source, suspect.assignment, node)
+            caught = {last_part(dotted(given)) for given in call.args}
+            if error is None or not caught & {error[0].partition(":")[0], *EVERY}:
+                continue
+            found = _with_error(suspect.finding("error_suppressed", node), *error)
+            code = source.module_of(call).text.code(call)
+            return replace(found, words={**found.words, "name": code}, variant="")
     return None
 
 
@@ -198,6 +219,38 @@ KINDS = (
         ),
     ),
     _node(
+        "error_suppressed",
+        "callback",
+        msg("A with hides the error"),
+        msg(
+            "Line {line} raises {error}. {name} hides that: the lines of this with end there, and no "
+            "traceback comes."
+        ),
+        msg(
+            "Delete the line of this with, and indent its lines as far as it is indented now. Correct "
+            "line {at} too: {correction}"
+        ),
+        behind=dict.fromkeys(("run.no_lines", "run.constant_counter", "run.stops"), _suppressed),
+        examples=(
+            example(
+                "misspelt_step_suppressed",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "from contextlib import suppress\nimport rclpy\nfrom",
+                ),
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    "        with suppress(AttributeError):\n"
+                    "            self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                    "            self.conter_ += 1\n",
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
         "error_hidden",
         "callback",
         msg("An except hides the error"),
@@ -255,6 +308,19 @@ KINDS = (
                 ),
                 fails="run.output",
                 blocks=SILENT,
+            ),
+            example(
+                "misspelt_step_hidden",
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    "        try:\n"
+                    "            self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                    "            self.conter_ += 1\n"
+                    "        except Exception:\n"
+                    "            pass\n",
+                ),
+                fails="run.output",
             ),
             example(
                 "error_hidden_in_callback",

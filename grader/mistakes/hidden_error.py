@@ -17,7 +17,7 @@ from grader.report.model import Where
 
 
 def hidden_error(
-    source: NodeSource, assignment: Assignment, tried: ast.Try
+    source: NodeSource, assignment: Assignment, tried: ast.Try | ast.With
 ) -> tuple[str, int, RecognisedMistake] | None:
     """Return the error that a try raises for certain, its line, and the mistake behind it."""
     from grader.mistakes.recognise import behind_error  # noqa: PLC0415 - reads the whole catalogue
@@ -34,7 +34,7 @@ def hidden_error(
     return None
 
 
-def hidden_bodies(source: NodeSource, tried: ast.Try) -> list[list[ast.stmt]]:
+def hidden_bodies(source: NodeSource, tried: ast.Try | ast.With) -> list[list[ast.stmt]]:
     """Return the lines whose errors a try hides: its own, and those of what it runs in main.
 
     It runs the constructor if it creates the node, and the callback if it spins.
@@ -52,7 +52,9 @@ def hidden_bodies(source: NodeSource, tried: ast.Try) -> list[list[ast.stmt]]:
     return [*bodies, *(b for body in of_run for b in _with_called(source, tried, body))]
 
 
-def _with_called(source: NodeSource, tried: ast.Try, body: list[ast.stmt]) -> list[list[ast.stmt]]:
+def _with_called(
+    source: NodeSource, tried: ast.Try | ast.With, body: list[ast.stmt]
+) -> list[list[ast.stmt]]:
     """Return some lines, and those of the node's methods that they call in any case."""
     plain = [s for s in body if isinstance(s, ast.Expr | ast.Assign | ast.AugAssign)]
     called = [source.method(own_name(c.func)) for s in plain for c, _ in calls_in(s)]

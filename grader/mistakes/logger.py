@@ -25,7 +25,25 @@ def _arguments(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
     del match
     calls = (call for call, _ in raised.source.calls if raised.source.is_log(call))
     logs = [call for call in calls if len(call.args) > 1]
+    if not logs and not raised.inside:
+        logs = [
+            c for c, _ in raised.source.calls if c.lineno == raised.line and _is_alias(raised, c)
+        ]
     return raised.finding("logger_arguments", at=logs[0]) if logs else None
+
+
+def _is_alias(raised: Raised, call: ast.Call) -> bool:
+    """Whether a call with several values is one of a name that got a method of a logger."""
+    values = [
+        n.value
+        for n in raised.source.own_nodes
+        if isinstance(n, ast.Assign) and dotted(call.func) in map(dotted, n.targets)
+    ]
+    value = values[0] if len(values) == 1 else None
+    method = isinstance(value, ast.Attribute) and value.attr in LOG_METHODS
+    logger = dotted(value.value) if isinstance(value, ast.Attribute) else ""
+    known = logger in raised.source.loggers or logger.endswith("get_logger()")
+    return method and known and len(call.args) > 1
 
 
 def _not_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -334,6 +352,16 @@ KINDS = (
         },
         fixed_by=(node_log.comma,),
         examples=(
+            example(
+                "method_of_logger_with_comma",
+                Replace(
+                    NODE,
+                    LOG_LINE,
+                    "        log = self.get_logger().info\n        log('Hello time:', self.counter_)\n",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "logger_with_comma",
                 Replace(NODE, "'Hello time: ' + str", "'Hello time: ', str"),

@@ -26,12 +26,7 @@ def lines_that_make(
     line is known, or if they are too many for a text. With `only_texts`, those without a piece of
     text are left out.
     """
-    calls = [call for part in parts_of_callback(source) for call in source.logs(part)]
-    if where is not None and where.line:
-        module = source.module_at(where.file)
-        there = [call for call in source.logs(module.tree) if call.lineno == where.line]
-        calls = there or calls
-    statements = traced(source, calls[0]) if calls else []
+    statements = statements_that_make(source, where)
     if only_texts:
         statements = [n for n in statements if any(map(_is_text, ast.walk(n)))]
     places = list(dict.fromkeys((source.module_of(n), n.lineno) for n in statements))
@@ -55,6 +50,16 @@ def lines_that_make(
             text = say("{text} (not called: {type} has its own {function})", text=text, **own)
         texts.append(text)
     return joined(*texts, by="; ")
+
+
+def statements_that_make(source: NodeSource, where: Where | None) -> list[ast.stmt]:
+    """Return the statements that make or change what is logged at a place, or by the callback."""
+    calls = [call for part in parts_of_callback(source) for call in source.logs(part)]
+    if where is not None and where.line:
+        module = source.module_at(where.file)
+        there = [call for call in source.logs(module.tree) if call.lineno == where.line]
+        calls = there or calls
+    return traced(source, calls[0]) if calls else []
 
 
 def _uncalled(source: NodeSource, module: Module, line: int) -> str:
@@ -82,7 +87,12 @@ def _replaced(source: NodeSource, module: Module, line: int) -> dict[str, str]:
     """Return the class whose own method replaces the one of a line, which it does not call."""
     function = function_at(module, line)
     own = source.methods.get(function.name) if function is not None else None
-    if function is None or own is None or own is function or function.name == "__init__":
+    if (
+        function is None
+        or own is None
+        or function in source.own_methods
+        or function.name == "__init__"
+    ):
         return {}
     if not any(function in family.body for family in source.family):
         return {}

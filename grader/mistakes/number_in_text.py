@@ -12,7 +12,7 @@ from grader.mistakes.counted import counter_in, text_added
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import lines, node_log, node_words
 from grader.mistakes.kind import Family
-from grader.mistakes.made_by import lines_that_make
+from grader.mistakes.made_by import lines_that_make, statements_that_make
 from grader.mistakes.placeholders import placeholder_values
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.worked_out import INSTEAD, change_of
@@ -426,11 +426,38 @@ def _number_format(suspect: Suspect) -> RecognisedMistake | None:
 
 def _form_unknown(suspect: Suspect) -> RecognisedMistake:
     """Say which lines make the number, if nothing is known that gives it its form."""
+    origin = _only_float(suspect)
+    if origin is not None:
+        return origin
     found = suspect.finding("number_format", _place_of_text(suspect))
     made = lines_that_make(suspect.source, suspect.place)
     if made is None:
         return found
     return replace(found, words={**found.words, "lines": made}, variant="lines")
+
+
+def _only_float(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the only number with a decimal point in the lines that make what is logged."""
+    module = suspect.source.module
+    found = [
+        (n, part)
+        for n in statements_that_make(suspect.source, suspect.place)
+        for part in ast.walk(n)
+        if isinstance(part, ast.Div)
+        or (isinstance(part, ast.Constant) and type(part.value) is float)
+    ]
+    statement, part = found[0] if len(found) == 1 else (None, None)
+    if statement is None or not isinstance(part, ast.Constant) or not module.has(part):
+        return None
+    if not isinstance(part.value, float) or not part.value.is_integer():
+        return None
+    old, number = module.text.code(statement), module.text.code(part)
+    if old.count(number) != 1 or "\n" in old:
+        return None
+    written = old.replace(number, str(int(part.value)))
+    return replace(
+        suspect.finding("number_format", statement, name=old, written=written), variant="origin"
+    )
 
 
 def _padded(suspect: Suspect) -> RecognisedMistake | None:
@@ -859,6 +886,7 @@ KINDS = (
             ),
         },
         fixes={
+            "origin": INSTEAD,
             "step": msg("Write {written} instead of {name}: the counter counts the lines."),
             "start": ONE_PIECE,
             "form": ONE_PIECE,
@@ -874,6 +902,12 @@ KINDS = (
         behind={"run.wrong_text": _number_format, "run.wrong_start": _padded},
         fixed_by=(node_log.plain_form, lines.written, node_log.plain_number),
         examples=(
+            example(
+                "float_in_a_constant_of_the_class",
+                Replace(NODE, "    def __init__", "    FIRST = 0.0\n\n    def __init__"),
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = self.FIRST"),
+                fails="run.output",
+            ),
             example(
                 "number_as_float",
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = 0.0"),

@@ -25,6 +25,7 @@ from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, own_name
 from grader.package.source.place import statement_at
 
+OF_LISTS = ("append", "extend", "insert", "sort", "reverse", "clear", "update", "add")
 MOST_CODE = 60  # characters of a piece of code that a text shows
 NONE = msg(
     "A function without return gives back None, and a name that was set to None has this value."
@@ -59,9 +60,48 @@ def _none_attribute(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
     found = raised.finding("none_used", name=code)
     function = _gives_nothing(raised, used[0])
     if function is None:
-        return found
+        later = _set_in_uncalled(raised, code)
+        return (
+            replace(found, words={**found.words, **later}, variant="uncalled") if later else found
+        )
     words = {**found.words, "function": function.name, "line": function.lineno}
     return replace(found, words=words, variant="function")
+
+
+def _set_in_uncalled(raised: Raised, name: str) -> dict[str, str]:
+    """Return the only line that gives an attribute another value than None, in an uncalled method."""
+    sets = [
+        n
+        for n in raised.source.own_nodes
+        if isinstance(n, ast.Assign | ast.AnnAssign) and name in targets_of(n)
+    ]
+    values = [s for s in sets if not (isinstance(s.value, ast.Constant) and s.value.value is None)]
+    method = raised.source.function_around(values[0]) if len(values) == 1 else None
+    if method is None or len(sets) == 1 or method not in raised.source.own_methods:
+        return {}
+    named = {n.attr for n in raised.source.all_nodes if isinstance(n, ast.Attribute)}
+    plain = len(method.args.args) == 1 and not method.decorator_list
+    if method.name in named or method.name.startswith("__") or not plain:
+        return {}
+    return {"line": str(values[0].lineno), "function": method.name}
+
+
+def _none_length(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """len() gets None: a method that changes a list gives back None, which takes its place."""
+    del match
+    given = [dotted(n.args[0]) for n in _on_line(raised) if isinstance(n, ast.Call) and n.args]
+    for node in raised.source.own_nodes:
+        value = node.value if isinstance(node, ast.Assign) else None
+        if not isinstance(node, ast.Assign) or not isinstance(value, ast.Call):
+            continue
+        name = next((t for t in targets_of(node) if t in given), "")
+        owner, _, method = dotted(value.func).rpartition(".")
+        code = raised.source.module_of(node).text.code
+        if name and owner == name and method in OF_LISTS and "\n" not in code(node):
+            mistake = raised.finding("none_used", at=node, name=code(node), written=code(value))
+            words = {**mistake.words, "function": f"{method}()"}
+            return replace(mistake, words=words, variant="changes_list")
+    return None
 
 
 def _none_operand(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
@@ -89,7 +129,28 @@ def _no_key(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     written = any(isinstance(n, ast.Constant) and repr(n.value) == match["name"] for n in read)
     if not written and any(name in ("format", "format_map", "substitute") for name in calls):
         return None
+    keys = _keys_given(raised) if written else None
+    if keys is not None:
+        found = _told("no_such_item", "known_keys")(raised, match)
+        return replace(found, words={**found.words, **keys}) if found is not None else None
     return _told("no_such_item", "key")(raised, match)
+
+
+def _keys_given(raised: Raised) -> dict[str, str] | None:
+    """Return the keys of the only dict that the object on the line gets, and their line."""
+    read = {dotted(n.value) for n in _on_line(raised) if isinstance(n, ast.Subscript)} - {""}
+    given = [
+        n
+        for n in raised.source.own_nodes
+        if isinstance(n, ast.Assign | ast.AnnAssign) and read & set(targets_of(n))
+    ]
+    value = given[0].value if len(given) == 1 and len(read) == 1 else None
+    if not isinstance(value, ast.Dict) or not value.keys or None in value.keys:
+        return None
+    code = raised.source.module_of(value).text.code
+    keys = ", ".join(code(key) for key in value.keys if key is not None)
+    plain = len(keys) <= MOST_CODE and "\n" not in keys
+    return {"line": str(given[0].lineno), "keys": keys} if plain else None
 
 
 def _too_many_values(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -118,6 +179,24 @@ def _no_file(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """The path is relative, or a whole one."""
     whole = match["name"].startswith("'/")
     return _told("no_such_file", "whole" if whole else "")(raised, match)
+
+
+def _frozen(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The only frozen dataclass of the files that has the field."""
+    name, found = match["name"], []
+    statement = statement_at(raised.module, raised.line)
+    sets = statement is not None and any(t.endswith(f".{name}") for t in targets_of(statement))
+    for own in (c for c in raised.module.classes if sets):
+        fields = [s for s in own.body if name in targets_of(s)]
+        for given in own.decorator_list:
+            for keyword in given.keywords if isinstance(given, ast.Call) else ():
+                if fields and keyword.arg == "frozen":
+                    found.append((own, keyword.value.lineno))
+    if len(found) != 1:
+        return None
+    own, line = found[0]
+    mistake = raised.finding("fields_frozen", name=name)
+    return replace(mistake, words={**mistake.words, "type": own.name, "line": str(line)})
 
 
 def _not_for_with(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -234,9 +313,21 @@ KINDS = (
         whys={
             "function": msg(
                 "{function} (line {line}) has no return with a value, so {name} is None."
-            )
+            ),
+            "changes_list": msg(
+                "{function} changes the list itself, and gives back None. This line puts that None in "
+                "the place of the list."
+            ),
+            "uncalled": msg(
+                "{name} is None until line {line} runs. That line is in {function}, which nothing calls."
+            ),
         },
         fixes={
+            "changes_list": msg("Write only {written} instead of {name}."),
+            "uncalled": msg(
+                "Write self.{function}() in __init__, above the line that creates the timer. Or set "
+                "{name} there to the value of line {line}, instead of None."
+            ),
             "function": FUNCTION,
             "line": msg("Find out which value on that line is None, and which line set it."),
         },
@@ -247,9 +338,32 @@ KINDS = (
             rf"unsupported operand type\(s\) for .{{1,20}}: {NONE_IN}": on_line(_none_operand),
             rf"not supported between instances of {NONE_IN}": on_line(_none_operand),
             r"can only concatenate str \(not \"NoneType\"\)": on_line(_none_operand),
+            r"object of type 'NoneType' has no len\(\)": on_line(_none_length),
             r"'NoneType' object is not (?:subscriptable|iterable)": on_line(_none_operand),
         },
+        fixed_by=(lines.written,),
         examples=(
+            example(
+                "list_is_what_append_returns",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = []"),
+                Replace(NODE, "str(self.counter_)", "str(len(self.counter_))"),
+                Replace(NODE, "self.counter_ += 1", "self.counter_ = self.counter_.append(1)"),
+                fails="run.output",
+                blocks=("run.period", "run.interrupt"),
+            ),
+            example(
+                "logger_set_in_uncalled_method",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.log_ = None"),
+                Replace(NODE, "self.get_logger().info", "self.log_.info"),
+                Replace(
+                    NODE,
+                    "    def timer_callback(self)",
+                    "    def set_up(self):\n        self.log_ = self.get_logger()\n\n"
+                    "    def timer_callback(self)",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "helper_for_the_logger_returns_nothing",
                 Replace(NODE, "self.get_logger().info", "self.log().info"),
@@ -365,6 +479,37 @@ KINDS = (
                 Replace(NODE, LOG_LINE, f"        if self.counter_ < '5':\n    {LOG_LINE}"),
                 fails="run.output",
                 blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "fields_frozen",
+        "counter",
+        msg("A field of a frozen dataclass is set"),
+        msg(
+            "With frozen=True (line {line}), the fields of {type} can be set only when an object is "
+            "made. An assignment to {name} raises this error."
+        ),
+        msg("Remove frozen=True in line {line}: then this line can set {name}."),
+        raised={r"FrozenInstanceError: cannot assign to field '(?P<name>\w{1,120})'": _frozen},
+        examples=(
+            example(
+                "counts_in_a_frozen_dataclass",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "@dataclass(frozen=True)\nclass FrozenCount:\n    number: int = 0\n\n\nclass MyFirstNode",
+                ),
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "from dataclasses import dataclass\nimport rclpy\nfrom",
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = FrozenCount()"),
+                Replace(NODE, "str(self.counter_)", "str(self.counter_.number)"),
+                Replace(NODE, "self.counter_ += 1", "self.counter_.number += 1"),
+                fails="run.output",
+                blocks=("run.interrupt",),
             ),
         ),
     ),
@@ -499,13 +644,21 @@ KINDS = (
         whys={
             "key": msg(
                 "What this line reads from has only the keys that it was given. {name} is not one of them."
-            )
+            ),
+            "known_keys": msg(
+                "Line {line} makes the dict with: {keys}. The key {name} is not there, so it has no "
+                "value to read."
+            ),
         },
         fixes={
+            "known_keys": msg(
+                "Write in this line, instead of {name}, the key that is meant. If {name} is to be a key "
+                "of its own, give it a first value in line {line}."
+            ),
             "key": msg(
                 "Compare {name} with the keys that exist: case and blanks count. Or find out why the line "
                 "that adds this key has not run."
-            )
+            ),
         },
         raised={
             r"IndexError: (?:list|tuple|string) (?:assignment )?index out of range": (
@@ -514,6 +667,14 @@ KINDS = (
             r"^KeyError: (?P<name>.{1,60})$": on_line(_no_key),
         },
         examples=(
+            example(
+                "counts_under_a_key_without_value",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = {'number': 0}"),
+                Replace(NODE, "str(self.counter_)", "str(self.counter_['number'])"),
+                Replace(NODE, "self.counter_ += 1", "self.counter_['numbers'] += 1"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
             example(
                 "item_of_an_empty_list",
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.seen = []"),

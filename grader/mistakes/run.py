@@ -635,16 +635,6 @@ KINDS = (
             "Log the line with the node's own logger: self.get_logger().info(…) in a method of the node."
         ),
         links.LOGGING,
-        examples=(
-            example(
-                "logger_of_its_own",
-                Replace(NODE, "import rclpy\nfrom", "import rclpy.logging\nimport rclpy\nfrom"),
-                Replace(
-                    NODE, "self.get_logger().info", "rclpy.logging.get_logger('my_logger').info"
-                ),
-                fails="run.logger",
-            ),
-        ),
     ),
     _run(
         "wrong_level",

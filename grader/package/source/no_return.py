@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from grader.package.source.module import Function, Module
-from grader.package.source.names import dotted, own_name
+from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS, NodeSource
 
 WRITES = ("print", *LOG_METHODS)
@@ -52,6 +52,7 @@ def _called(source: NodeSource, call: ast.Call) -> Iterator[Function | ast.Assig
     method = source.method(name) if name else None
     if method is not None:
         yield method
+    yield from _of_helper(source, call)
     for module in source.modules:
         if isinstance(call.func, ast.Name) and call.func.id in module.functions:
             yield module.functions[call.func.id]
@@ -61,6 +62,21 @@ def _called(source: NodeSource, call: ast.Call) -> Iterator[Function | ast.Assig
                 names = list(map(dotted, node.targets))
                 if len(names) == 1 and dotted(call.func) in names and names[0]:
                     yield node
+
+
+def _of_helper(source: NodeSource, call: ast.Call) -> Iterator[Function]:
+    """Yield the method of a helper class, if the object on which it is called is one of this class."""
+    owner, _, method = dotted(call.func).rpartition(".")
+    made = [
+        n.value
+        for n in source.own_nodes
+        if isinstance(n, ast.Assign) and owner and owner in map(dotted, n.targets)
+    ]
+    value = made[0] if len(made) == 1 else None
+    kind = last_part(dotted(value.func)) if isinstance(value, ast.Call) else ""
+    for own in (c for module in source.modules for c in module.classes if c.name == kind):
+        if own not in source.family:
+            yield from (s for s in own.body if isinstance(s, Function) and s.name == method)
 
 
 def _without_value(

@@ -6,9 +6,10 @@ import ast
 import builtins
 from collections.abc import Iterator
 
+from grader.base.nearest import nearest
 from grader.package.source.counter import declares, starts_of, targets_of
 from grader.package.source.module import Function, Module
-from grader.package.source.names import called_name, dotted
+from grader.package.source.names import called_name, dotted, own_name
 from grader.package.source.node import NodeSource
 
 SIMPLE = ast.Expr | ast.Assign | ast.AugAssign | ast.AnnAssign | ast.Return
@@ -52,6 +53,29 @@ def _errors(source: NodeSource, statement: ast.stmt) -> Iterator[tuple[str, ast.
         ):
             before = "UnboundLocalError: cannot access local variable"
             yield f"{before} '{target.id}' where it is not associated with a value", target
+        own = own_name(target)
+        if own and source.node_class is not None and is_never_set(source, own):
+            yield (
+                f"AttributeError: '{source.node_class.name}' object has no attribute '{own}'",
+                target,
+            )
+
+
+def is_never_set(source: NodeSource, attribute: str) -> bool:
+    """Whether lines only add to an attribute of self, and its name is like that of one that is set."""
+    parents = {m: m.parents for m in source.modules}
+    stored = [
+        n
+        for n in source.own_nodes
+        if isinstance(n, ast.Attribute) and isinstance(n.ctx, ast.Store) and own_name(n)
+    ]
+    kinds = [(n.attr, parents[source.module_of(n)].get(n)) for n in stored]
+    added = {name for name, around in kinds if isinstance(around, ast.AugAssign)}
+    others = {name for name, around in kinds if not isinstance(around, ast.AugAssign)}
+    in_class = {name for statement in source.class_body for name in targets_of(statement)}
+    known = others | in_class | {*source.methods}
+    only = attribute in added and attribute not in known and source.is_one_class
+    return only and bool(nearest(attribute, others))
 
 
 def _imports_all(module: Module) -> bool:

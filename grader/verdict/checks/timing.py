@@ -218,6 +218,8 @@ def _advice(evidence: Evidence) -> list[str]:
     note, still = evidence.run.watch.note, evidence.run.watch.while_still
     if evidence.has_failed("run.spins") or evidence.assignment.timer == "any":
         return []
+    if evidence.run.plain:
+        return []  # (run.starts says why it did not get the arguments)
     if still is False:
         return [
             say(
