@@ -214,6 +214,57 @@ FORMS = {
     ),
     "block_missing": msg(
         "This line ends with a colon, but its block is missing. Write the lines of the block below "
-        "it, indented by 4 spaces more than this line."
+        "it, indented by 4 spaces more than this line; or write pass there if nothing is to be done."
+    ),
+    "ends_equals": msg(
+        "Behind the = at the end of this line, the value is missing. Write the value there."
+    ),
+    "def_half": msg(
+        "The parameters of a def end with ): on the line above its block, and line {line} is a "
+        "statement of that block. Write: {wanted}"
+    ),
+    "def_half_open": msg(
+        "The parameters of a def end with ): on the line above its block, and line {line} is a "
+        "statement of that block. Write, with the names of the missing parameters in the place of …: "
+        "{wanted}"
+    ),
+    "value_half": msg(
+        "Line {line} is a new statement, and this one has no end: behind {step} is no name, and the "
+        "bracket is not closed. Write, with the name in the place of …: {wanted}"
+    ),
+    "class_as_def": msg(
+        "def begins a function, and this is a class: its block has the fields or the methods of one. "
+        "Write: {wanted}"
+    ),
+    "def_as_class": msg(
+        "class begins a class, and this is a method: it has self in its brackets, and return (line "
+        "{line}) in its block. Write: {wanted}"
+    ),
+    "def_without_self": msg(
+        "The name behind def has no self. before it. In the brackets, self is the first parameter. "
+        "Write: {wanted}"
+    ),
+    "round_brackets": msg("A call and a def have round brackets. Write: {wanted}"),
+    "lambda_colon": msg(
+        "A lambda has a colon behind its parameters, also if it has none. Write: {wanted}"
+    ),
+    "type_and_value": msg(
+        "The type of a variable is behind a colon, and its value behind =. Write: {wanted}"
+    ),
+    "docstring_quotes": msg(
+        "The text that describes a class or a function is between three quotes and three quotes. "
+        "Write: {wanted}"
+    ),
+    "bracket_early": msg(
+        "The last ) of this line ends the call, but line {line} goes on with its values. Write: "
+        "{wanted}"
+    ),
+    "handler_several": msg(
+        "Several classes behind except are in one pair of brackets, with commas between them. Behind "
+        "it, as gives the error a name. Write: {wanted}"
+    ),
+    "dict_opened": msg(
+        "Keys with their values (key: value) are between braces, and the brace of line {line} ends "
+        "them. Write: {wanted}"
     ),
 }

@@ -15,6 +15,7 @@ BRACKET = re.compile(r"[()\[\]{}]")
 HEAD = re.compile(rf"[ \t]*(?:{BLOCK})\b.*:[ \t]*$")
 NEVER = re.compile(r"'(?P<sign>[(\[{])' was never closed")
 OTHER = re.compile(r"closing parenthesis '[)\]}]' does not match opening parenthesis '[(\[{]'")
+KEY = re.compile(r"['\"]_*['\"][ \t]*:")
 MOST_AT_ONCE = 3
 
 
@@ -39,6 +40,9 @@ def open_bracket(text: Broken) -> Slip | None:
     if found is None:
         return None
     shown = text.source.line(found.line).strip()
+    of_dict = _dict_with_other_bracket(text, found)
+    if of_dict is not None:
+        return of_dict
     ways = [way for way in _ways(text, found) if way[3] is not None]
     ways = [way for way in ways if way[3] is not None and can_parse(way[3])] or ways
     kinds = {way[0] == "bracket_kind" for way in ways}
@@ -51,6 +55,19 @@ def open_bracket(text: Broken) -> Slip | None:
         return Slip("signs", "bracket_open", found.line, shown, found.closer)
     line = _line_at(text, found.wrong)
     return Slip("signs", "bracket_before", found.line, shown, found.closer, other=line)
+
+
+def _dict_with_other_bracket(text: Broken, found: Open) -> Slip | None:
+    """Return a bracket that begins keys with their values, which a brace ends."""
+    code = text.code.text
+    if found.wrong is None or code[found.wrong] != "}" or found.signs[-1] == "{":
+        return None
+    if not KEY.search(code[found.at : found.wrong]):
+        return None
+    splice = Splice(found.at, found.at + 1, "{")
+    new, wanted = text.changed(splice), _with(text, found.line, splice)
+    shown, line = text.source.line(found.line).strip(), _line_at(text, found.wrong)
+    return Slip("signs", "dict_opened", found.line, shown, wanted, new, other=line) if new else None
 
 
 def _open(text: Broken) -> Open | None:
