@@ -214,14 +214,17 @@ def _many_given(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
     return _only_self(raised, match["function"]) or found
 
 
-def _without_self(raised: Raised, taken: Function) -> RecognisedMistake | None:
-    """The method has no self: the object goes into its first parameter."""
+def _without_self(raised: Raised, taken: Function, owner: str) -> RecognisedMistake | None:
+    """The method has no self: the object goes into its first parameter.
+
+    `owner` is its class if it is the constructor, and else "".
+    """
     first = taken.args.args[0].arg
     read = [n for n in ast.walk(taken) if isinstance(n, ast.Name) and n.id == first]
     given = [
         call
         for call, name in raised.source.calls
-        if name == f"self.{taken.name}" and raised.line in lines_of(call)
+        if name in (f"self.{taken.name}", owner or "self") and raised.line in lines_of(call)
     ]
     if len(given) != 1 or not read or taken.decorator_list:
         return None
@@ -245,7 +248,7 @@ def _only_self(raised: Raised, function: str) -> RecognisedMistake | None:
         if found.name == owner and isinstance(m, Function) and m.name == method
     ]
     if len(taken) == 1 and taken[0].args.args and taken[0].args.args[0].arg not in ("self", "this"):
-        return _without_self(raised, taken[0])
+        return _without_self(raised, taken[0], owner if method == "__init__" else "")
     if len(taken) != 1 or len(taken[0].args.args) != 1 or taken[0].args.vararg is not None:
         return None
     wanted = owner if method == "__init__" else method

@@ -22,6 +22,7 @@ from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import starts_of, targets_of
+from grader.package.source.imported import imports
 from grader.package.source.module import Module
 from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS
@@ -405,11 +406,12 @@ def _of_rclpy(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return replace(found, variant="written")
     if match["type"] not in raised.source.known_classes or name not in ("spin", "spin_once"):
         return None
+    rclpy = next((bound for bound, full, _ in imports(raised.module) if full == "rclpy"), "rclpy")
     for call, called in raised.source.calls:
         before, _, method = called.rpartition(".")
-        if method == name and before and before != "rclpy":
+        if method == name and before and before not in ("rclpy", rclpy):
             written = f"{called}()"
-            new = f"rclpy.{name}({before})"
+            new = f"{rclpy}.{name}({before})"
             found = raised.finding("attribute_unknown", at=call, name=written, written=new)
             return replace(found, variant="written")
     return None

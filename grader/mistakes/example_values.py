@@ -505,6 +505,15 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.replaced_nothing": {"name": "'{count}'", "written": "'{n}'"},
     "node.text_kept": {"line": "24"},
+    "node.self_second": {"method": "text", "parameter": "n", "head": "def text(self, n):"},
+    "node.with_method": {
+        "name": "__enter_",
+        "written": "__enter__",
+        "type": "Runner",
+        "line": "20",
+        "head": "def __exit__(self, kind, value, trace):",
+    },
+    "node.made_property": {"name": "self.label()", "written": "self.label", "method": "label"},
     "node.object_in_text": {
         "name": "toString",
         "written": "__str__",

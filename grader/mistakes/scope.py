@@ -13,6 +13,7 @@ from grader.mistakes.fixes import lines, node_count, node_scope
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, OWN_ATTRIBUTE, Raised, RecognisedMistake, of_self
 from grader.package.edit.tree import Replace
+from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, own_name
 from grader.package.source.place import function_at, method_above, statement_at
@@ -49,7 +50,8 @@ IN_CLASS = "".join(f"    {line}" for line in MAIN.splitlines(keepends=True))
 def _quotes(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name = match["name"]
     places = node_scope.names_as_text(raised.module, name)
-    if not places:
+    of_class = {target for c in raised.module.classes for s in c.body for target in targets_of(s)}
+    if not places or name in of_class:
         return None
     found = raised.finding("quotes_missing", at=places[0], name=name)
     return replace(found, variant="guard") if name == "__main__" else found
