@@ -505,6 +505,20 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.replaced_nothing": {"name": "'{count}'", "written": "'{n}'"},
     "node.text_kept": {"line": "24"},
+    "node.dot_for_sign": {"name": "period. self.tick", "written": "period, self.tick"},
+    "node.field_not_filled": {
+        "name": "'fCount: {self.counter}'",
+        "written": "f'Count: {self.counter}'",
+    },
+    "node.def_inside": {
+        "name": "tick",
+        "function": "__init__",
+        "line": "12",
+        "last": "14",
+        "columns": "4",
+    },
+    "node.global_lost": {"name": "node", "function": "main", "line": "20"},
+    "node.set_under_guard": {"name": "PERIOD", "line": "30"},
     "node.self_second": {"method": "text", "parameter": "n", "head": "def text(self, n):"},
     "node.with_method": {
         "name": "__enter_",

@@ -24,7 +24,8 @@ from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
 from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
-from grader.package.source.module import Function
+from grader.package.source.imported import imports
+from grader.package.source.module import Function, Module
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node_here import node_here
 from grader.package.source.place import function_at, statement_at
@@ -76,6 +77,8 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return replace(found, variant="period")
     if (own := _class_for(raised, name)) is not None:
         return _instead(raised.finding("name_unknown", name=name, close=own))
+    if (certain := _of_rclpy(raised.module, name) or _in_other_case(name)) is not None:
+        return _instead(raised.finding("name_unknown", name=name, close=certain))
     seen = {*visible_names(raised.module, raised.line, name), *IMPORTS}
     known = (_known(raised, name) & seen) - {name, "None", "True", "False"}
     if bindings(raised.module, name):
@@ -88,6 +91,21 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return _instead(raised.finding("name_unknown", name=name, close=min(variables)))
     found = raised.finding("name_unknown", name=name, close=close)
     return _instead(found) if close and nearest(name, [close], cutoff=MISSPELT) else found
+
+
+def _of_rclpy(module: Module, name: str) -> str | None:
+    """Return a function of rclpy with the name by which the file knows rclpy, if that is another."""
+    known = [bound for bound, full, _ in imports(module) if full == "rclpy" and bound != "rclpy"]
+    uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
+    called = any(isinstance(module.parents.get(use), ast.Call) for use in uses)
+    return f"{known[0]}.{name}" if known and called and name in ("init", "spin", "ok") else None
+
+
+def _in_other_case(name: str) -> str | None:
+    """Return the exception of Python that is written like this, but for small and capital letters."""
+    alike = [n for n in dir(builtins) if n.lower() == name.lower()]
+    kinds = [n for n in alike if isinstance(getattr(builtins, n), type) and n[0].isupper()]
+    return kinds[0] if len(kinds) == 1 and name[0].isupper() and name not in alike else None
 
 
 def _joined(raised: Raised, name: str) -> RecognisedMistake | None:

@@ -14,6 +14,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, LOG, LOG_LINE, NODE, example
+from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromError, Raised, RecognisedMistake, always, on_line
@@ -125,6 +126,26 @@ def _not_for_with(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     named = [i for i in items if dotted(i.context_expr) and i.optional_vars is None]
     alone = len(items) == len(named) == 1
     return _told("not_for_with", "name" if alone else "")(raised, match)
+
+
+def _caught(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Except gets no class of an exception: | can be between several ones."""
+    kinds = [n.type for n in _on_line(raised) if isinstance(n, ast.ExceptHandler) and n.type]
+    text = raised.module.text
+    parts = _alternatives(kinds[0]) if len(kinds) == 1 else []
+    if len(parts) < 2 or not all(map(dotted, parts)):
+        return _told("not_an_exception")(raised, match)
+    code, given = text.code(kinds[0]), ", ".join(text.code(part) for part in parts)
+    around = f"({code})" in raised.module.line(raised.line)
+    params = {"name": f"({code})" if around else code, "written": f"({given})"}
+    found = raised.finding("not_an_exception", params=params)
+    return replace(found, variant="line")
+
+
+def _alternatives(given: ast.expr) -> list[ast.expr]:
+    if isinstance(given, ast.BinOp) and isinstance(given.op, ast.BitOr):
+        return [*_alternatives(given.left), given.right]
+    return [given]
 
 
 def _comma(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -533,11 +554,30 @@ KINDS = (
             "Write the name of the class, without () and quotes. Put several names in round brackets."
         ),
         raised={
-            r"catching classes that do not inherit from BaseException": _told("not_an_exception"),
+            r"catching classes that do not inherit from BaseException": _caught,
             r"exceptions must derive from BaseException": _told("not_an_exception", "raised"),
         },
-        whys={"raised": msg("raise takes an exception, for example ValueError('text').")},
-        fixes={"raised": msg("Write an exception behind raise, or remove that line.")},
+        whys={
+            "raised": msg("raise takes an exception, for example ValueError('text')."),
+            "line": msg(
+                "Between the classes behind except are commas, in one pair of brackets. | makes another "
+                "object of them. Python finds out only when an exception has come."
+            ),
+        },
+        fixes={
+            "raised": msg("Write an exception behind raise, or remove that line."),
+            "line": msg("Write {written} instead of {name}."),
+        },
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "classes_behind_except_with_a_line_between",
+                Replace(
+                    NODE, "except KeyboardInterrupt:", "except (KeyboardInterrupt | ValueError):"
+                ),
+                fails="run.interrupt",
+            ),
+        ),
     ),
     _node(
         "not_for_with",
