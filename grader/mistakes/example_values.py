@@ -505,6 +505,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.replaced_nothing": {"name": "'{count}'", "written": "'{n}'"},
     "node.text_kept": {"line": "24"},
+    "node.stars_lost": {
+        "name": "kwargs",
+        "written": "**kwargs",
+        "head": "def __init__(self, **kwargs):",
+    },
     "node.dot_for_sign": {"name": "period. self.tick", "written": "period, self.tick"},
     "node.field_not_filled": {
         "name": "'fCount: {self.counter}'",

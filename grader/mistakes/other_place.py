@@ -28,6 +28,7 @@ from grader.package.edit.tree import Replace, Write
 from grader.package.source.counter import targets_of
 from grader.package.source.guard import is_guard
 from grader.package.source.module import Function, Module
+from grader.package.source.node import read_module
 from grader.package.source.place import statement_at
 from grader.package.source.scopes import bindings, has_self, scope_of
 
@@ -219,14 +220,14 @@ def _global_lost(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
 
 def _with_global(case: Case) -> Files | None:
     """Write the global as the first line of the function."""
-    module, params = case.module, case.finding.params
+    module, params = read_module(case.files.data, case.finding.file), case.finding.params
     made = module.functions.get(str(params.get("function", ""))) if module is not None else None
     if module is None or made is None:
         return None
     body = made.body[1:] if ast.get_docstring(made) is not None else made.body
     if not body or body[0].lineno == made.lineno:
         return None
-    indent = indent_of(module.line(body[0].lineno))
+    indent = indent_of(module.text.line(body[0].lineno))
     row = f"{indent}global {params.get('name', '')}"
     return case.changed(module, module.text.before(body[0].lineno, row))
 
