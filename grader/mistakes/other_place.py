@@ -320,7 +320,7 @@ KINDS = (
             "def {name} (line {line}) is indented further than def {function}, so it is a part of "
             "{function}, and no method of the class."
         ),
-        msg("Indent lines {line} to {last} by {columns} spaces less."),
+        msg("Delete {columns} spaces at the start of each line from line {line} to line {last}."),
         links.PYTHON_CLASSES,
         raised={OWN_ATTRIBUTE: on_line(_def_inside)},
         fixed_by=(_dedented,),

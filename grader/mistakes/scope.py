@@ -295,7 +295,7 @@ KINDS = (
             )
         },
         fixes={
-            "class": msg("Write {written} instead of {name} in this line."),
+            "class": msg("Write {written} instead of {name}."),
             "method": msg(
                 "Indent the line as far as the other lines of {name}, the method above it."
             ),

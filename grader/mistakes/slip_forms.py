@@ -252,8 +252,8 @@ FORMS = {
         "The type of a variable is behind a colon, and its value behind =. Write: {wanted}"
     ),
     "docstring_quotes": msg(
-        "The text that describes a class or a function is between three quotes and three quotes. "
-        "Write: {wanted}"
+        "The text that describes a class or a function has three quotes at each of its ends. Write: "
+        "{wanted}"
     ),
     "bracket_early": msg(
         "The last ) of this line ends the call, but line {line} goes on with its values. Write: "

@@ -35,6 +35,7 @@ LINES = [
     # signs
     ("class A:\n    def f[self, n]:\n        pass\n", "round_brackets", 2, "def f(self, n):", True),
     ("self.get_logger[].info(a)\n", "round_brackets", 1, "self.get_logger().info(a)", True),
+    ("a = self.items[]\n", None, 0, "", False),
     ("f(1, lambda self.g(2))\n", "lambda_colon", 1, "f(1, lambda: self.g(2))", True),
     ("x = int: 0\n", "type_and_value", 1, "x: int = 0", True),
     ("a = {\n    'b: 'Some text: ',\n    'c': 1,\n}\n", "quote_exact", 2, "'b': 'Some text: ',", True),

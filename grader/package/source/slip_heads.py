@@ -10,6 +10,7 @@ from grader.package.edit.text import Splice, indent_of
 from grader.package.source.broken_python import MOST_TRIES, Broken, Slip
 from grader.package.source.python import can_parse
 from grader.package.source.slip_forms import as_written
+from grader.package.source.slip_words import KNOWN
 
 Look = Callable[[Broken], Slip | None]
 STARTS = re.compile(
@@ -93,7 +94,7 @@ def _class_or_def(text: Broken) -> Slip | None:
         above = text.code.line(text.number - 1) if text.number > 1 else ""
         is_class = FIELD.match(text.code.line(_next_line(text))) or "dataclass" in above
         return _as(text, "class_as_def", match.span("word"), "class") if is_class else None
-    if "outside function" not in text.fault.text:
+    if "'return' outside function" not in text.fault.text:
         return None
     width = len(indent_of(text.line))
     for number in range(text.number - 1, 0, -1):
@@ -139,9 +140,16 @@ def _written(text: Broken) -> Slip | None:
         end = match.end() + len(found)
         wanted = f": {match['type']} = {text.source.line(text.number)[match.end() : end]}"
         return _as(text, "type_and_value", (match.start("all"), end), wanted)
-    squares = list(EMPTY_SQUARE.finditer(text.line))[:MOST_TRIES]
-    splices = [text.within(*square.span(), "()") for square in squares]
+    squares = [m for m in EMPTY_SQUARE.finditer(text.line) if _is_called(text, m.start())]
+    splices = [text.within(*square.span(), "()") for square in squares[:MOST_TRIES]]
     return as_written(text, "round_brackets", *splices) if splices else None
+
+
+def _is_called(text: Broken, end: int) -> bool:
+    """Whether the name that ends here is that of a function or a class, and not of a list."""
+    name = (re.findall(r"\w+\Z", text.line[:end]) or [""])[0]
+    made = re.search(rf"\b(?:def|class)[ \t]+{re.escape(name)}\b", text.code.text)
+    return bool(made) or name in (*KNOWN, "super", "init", "ok", "shutdown")
 
 
 def _quote(text: Broken) -> Slip | None:
