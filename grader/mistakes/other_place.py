@@ -85,6 +85,8 @@ def _dot_for_comma(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
                 inner = inner.value
             if not isinstance(inner, ast.Attribute) or inner is given:
                 continue
+            if isinstance(inner.value, ast.Constant):  # (node.dot_for_comma)
+                continue
             first, code = text.code(inner.value), text.code(given)
             rest = code.removeprefix(text.code(inner)).strip()
             if "\n" not in code:
@@ -113,11 +115,17 @@ def _dot_for_plus(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
 
 
 def _no_field(suspect: Suspect) -> RecognisedMistake | None:
-    """The text has an f, or a name in round brackets, as it is written in the source."""
+    """The text has an f, or a name in round brackets, as it is written away from the log line.
+
+    In the log line itself it is node.f_in_quotes or node.counter_in_text.
+    """
+    logged = {part for call in suspect.source.own_logs for part in ast.walk(call)}
     for module in suspect.source.modules:
         for node in module.nodes:
             code = module.text.code(node) if isinstance(node, ast.Constant | ast.JoinedStr) else ""
             if not code or "\n" in code or isinstance(module.parents.get(node), ast.JoinedStr):
+                continue
+            if node in logged:
                 continue
             found = _with_f(suspect, node, code) or _with_braces(suspect, node, code)
             if found is not None:
@@ -297,16 +305,24 @@ KINDS = (
         fixed_by=(lines.written,),
         examples=(
             example(
-                "f_inside_of_the_quotes",
+                "f_inside_of_the_quotes_of_helper",
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "self.label()"),
                 Replace(
-                    NODE, "'Hello time: ' + str(self.counter_)", "'fHello time: {self.counter_}'"
+                    NODE,
+                    "    def timer_callback",
+                    "    def label(self):\n        return 'fHello time: {self.counter_}'\n\n"
+                    "    def timer_callback",
                 ),
                 fails="run.output",
             ),
             example(
-                "round_brackets_in_f_string",
+                "round_brackets_in_f_string_of_helper",
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "self.label()"),
                 Replace(
-                    NODE, "'Hello time: ' + str(self.counter_)", "f'Hello time: (self.counter_)'"
+                    NODE,
+                    "    def timer_callback",
+                    "    def label(self):\n        return f'Hello time: (self.counter_)'\n\n"
+                    "    def timer_callback",
                 ),
                 fails="run.output",
             ),
