@@ -474,12 +474,12 @@ def _of_rclpy(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return replace(found, variant="written")
     if match["type"] not in raised.source.known_classes or name not in ("spin", "spin_once"):
         return None
+    rclpy = next((bound for bound, full, _ in imports(raised.module) if full == "rclpy"), "rclpy")
     for call, called in raised.source.calls:
         before, _, method = called.rpartition(".")
-        if method == name and before and before != "rclpy":
+        if method == name and before and before not in ("rclpy", rclpy):
             written = f"{called}()"
-            library = next((b for b, full, _ in imports(raised.module) if full == "rclpy"), "rclpy")
-            new = f"{library}.{name}({before})"
+            new = f"{rclpy}.{name}({before})"
             found = raised.finding("attribute_unknown", at=call, name=written, written=new)
             return replace(found, variant="written")
     return None

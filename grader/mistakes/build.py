@@ -267,10 +267,6 @@ KINDS = (
                 "Each value in setup() has a name and an = before it. Write: {wanted}, then build "
                 "again."
             ),
-            "py_modules": msg(
-                "py_modules is for files beside setup.py, and the node is in the inner folder. Delete "
-                "py_modules=…, and write {wanted}. Then build again."
-            ),
             "no_comma": msg(
                 "A comma is between a folder and the list of its files. Write {wanted} instead of {name}."
             ),
@@ -319,8 +315,8 @@ KINDS = (
                 "with /. Write {wanted} instead of {found}, then build again."
             ),
             "py_modules": msg(
-                "py_modules= is for single files beside setup.py, and there is no {name}. Write "
-                "instead of it: {wanted}, then build again."
+                "py_modules= is for single files beside setup.py, and there is no {name}. Delete "
+                "py_modules=, and write {wanted}. Then build again."
             ),
             "py_modules_too": msg(
                 "py_modules= is for single files beside setup.py, and there is no {name}. Delete "

@@ -16,7 +16,7 @@ from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, on_line
 from grader.package.edit.files import Files
-from grader.package.edit.text import indent_of
+from grader.package.edit.text import Splice, indent_of
 from grader.package.edit.tree import Replace
 from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, last_part
@@ -25,6 +25,7 @@ TAKES_NONE = r"TypeError: (?P<name>\w{1,120})\(\) takes no arguments"
 NO_MEMBER = (
     r"AttributeError: '(?:int|float|str|bool)' object has no attribute '(?P<name>value|name)'"
 )
+NOT_GIVEN = r"TypeError: \w{1,120}\.__init__\(\) missing 1 required positional argument: '(?P<name>\w{1,120})'"
 CLASS = "    period: float = 1.0\n    start: int = 0\n"
 MEMBERS = ("Enum", "IntEnum", "StrEnum")
 
@@ -62,6 +63,35 @@ def _takes_none(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
     params["written"] = f"@{name or 'dataclass'}"
     found = raised.finding("class_takes_nothing", at=made, params=params)
     return replace(found, variant="dataclass" if name else "import")
+
+
+def _stars_lost(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """An __init__ passes a parameter on with stars, and its def has the name without them."""
+    name = match["name"]
+    for module in raised.source.modules:
+        for made in (s for c in module.classes for s in c.body if isinstance(s, Function)):
+            stars = _passed_with(made, name)
+            row = module.line(made.lineno)
+            places = list(re.finditer(rf"(?<=[(,\s]){name}(?=\s*[,)])", row))
+            if made.name != "__init__" or not stars or len(places) != 1:
+                continue
+            head = f"{row[: places[0].start()]}{stars}{row[places[0].start() :]}"
+            if [a.arg for a in made.args.args][-1:] != [name]:
+                continue
+            params = {"name": name, "written": f"{stars}{name}"}
+            found = raised.finding("stars_lost", at=made, params=params)
+            return replace(found, words={**found.words, "head": head.strip()})
+    return None
+
+
+def _passed_with(made: Function, name: str) -> str:
+    """Return the stars with which a function passes all that is in a parameter on; "" if none."""
+    for node in ast.walk(made):
+        if isinstance(node, ast.keyword) and node.arg is None and dotted(node.value) == name:
+            return "**"
+        if isinstance(node, ast.Starred) and dotted(node.value) == name:
+            return "*"
+    return ""
 
 
 def _fields(made: ast.ClassDef) -> list[str]:
@@ -162,6 +192,22 @@ NO_INIT = msg(
     "A call of a class gives its values to __init__. The class {name} has no __init__, so it takes no "
     "values."
 )
+
+
+def _with_stars(case: Case) -> Files | None:
+    """Write the stars before the parameter of the def."""
+    module, line = case.module, case.finding.line
+    name, written = (str(case.finding.params.get(key, "")) for key in ("name", "written"))
+    if module is None or line is None or not name:
+        return None
+    places = list(re.finditer(rf"(?<=[(,\s]){re.escape(name)}(?=\s*[,)])", module.text.line(line)))
+    if len(places) != 1:
+        return None
+    start = module.text.start_of(line)
+    at, end = (start + place for place in places[0].span())
+    return case.changed(module, Splice(at, end, written))
+
+
 _node = Family("node", links.PYTHON_CLASSES)
 KINDS = (
     _node(
@@ -250,6 +296,30 @@ KINDS = (
                     "class Speed:\n    SLOW = 1.0\n\n\nclass MyFirstNode(",
                 ),
                 Replace(NODE, "create_timer(1.0,", "create_timer(Speed.SLOW.value,"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "stars_lost",
+        "start",
+        msg("A parameter has lost its stars"),
+        msg(
+            "The block of this def passes on all that is in {name}, with {written}. The def itself has "
+            "{name} without stars, so a call must give one value for it."
+        ),
+        msg("Write: {head}"),
+        raised={NOT_GIVEN: on_line(_stars_lost)},
+        fixed_by=(_with_stars,),
+        examples=(
+            example(
+                "keyword_arguments_without_stars",
+                Replace(NODE, "def __init__(self)", "def __init__(self, kwargs)"),
+                Replace(
+                    NODE,
+                    "super().__init__('my_first_node')",
+                    "super().__init__('my_first_node', **kwargs)",
+                ),
                 fails="run.starts",
             ),
         ),

@@ -25,7 +25,7 @@ from grader.mistakes.scope import CALLBACK, NODE_METHODS, OUTSIDE
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.imported import imports
-from grader.package.source.module import Function
+from grader.package.source.module import Function, Module
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node_here import node_here
 from grader.package.source.place import function_at, statement_at
@@ -75,12 +75,10 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         period = repr(raised.assignment.output.period)
         found = raised.finding("name_unknown", name=name, written=period)
         return replace(found, variant="period")
-    if (own := _class_for(raised, name)) is not None:
-        return _instead(raised.finding("name_unknown", name=name, close=own))
-    parts = [full for _, full, _ in imports(raised.module) if full.rpartition(".")[2] == name]
-    plain = [p for p in parts if f"import {p}" in raised.module.text.text and "." in p]
-    if plain and f"{name}." in raised.module.line(raised.line):
-        return _instead(raised.finding("name_unknown", name=name, close=plain[0]))
+    ways = (_class_for(raised, name), _of_module(raised, name), _of_rclpy(raised.module, name))
+    certain = next((way for way in (*ways, _in_other_case(name)) if way), None)
+    if certain is not None:
+        return _instead(raised.finding("name_unknown", name=name, close=certain))
     seen = {*visible_names(raised.module, raised.line, name), *IMPORTS}
     known = (_known(raised, name) & seen) - {name, "None", "True", "False"}
     if bindings(raised.module, name):
@@ -110,6 +108,28 @@ def _binding(raised: Raised, name: str, close: str) -> RecognisedMistake | None:
     found = raised.finding("name_unknown", at=set_as[0], params=params)
     lines = ", ".join(str(row) for row in sorted({n.lineno for n in used}))
     return replace(found, variant="binding", words={**found.words, "lines": lines})
+
+
+def _of_module(raised: Raised, name: str) -> str | None:
+    """Return the full name of an imported module that is used by its last part alone."""
+    parts = [full for _, full, _ in imports(raised.module) if full.rpartition(".")[2] == name]
+    plain = [p for p in parts if f"import {p}" in raised.module.text.text and "." in p]
+    return plain[0] if plain and f"{name}." in raised.module.line(raised.line) else None
+
+
+def _of_rclpy(module: Module, name: str) -> str | None:
+    """Return a function of rclpy with the name by which the file knows rclpy, if that is another."""
+    known = [bound for bound, full, _ in imports(module) if full == "rclpy" and bound != "rclpy"]
+    uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
+    called = any(isinstance(module.parents.get(use), ast.Call) for use in uses)
+    return f"{known[0]}.{name}" if known and called and name in ("init", "spin", "ok") else None
+
+
+def _in_other_case(name: str) -> str | None:
+    """Return the exception of Python that is written like this, but for small and capital letters."""
+    alike = [n for n in dir(builtins) if n.lower() == name.lower()]
+    kinds = [n for n in alike if isinstance(getattr(builtins, n), type) and n[0].isupper()]
+    return kinds[0] if len(kinds) == 1 and name[0].isupper() and name not in alike else None
 
 
 def _joined(raised: Raised, name: str) -> RecognisedMistake | None:

@@ -231,6 +231,26 @@ def _values_inside(case: Case) -> Files | None:
     return lines.written(replace(case, finding=replace(case.finding, params=params)))
 
 
+def _caught(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Except gets no class of an exception: | can be between several ones."""
+    kinds = [n.type for n in _on_line(raised) if isinstance(n, ast.ExceptHandler) and n.type]
+    text = raised.module.text
+    parts = _alternatives(kinds[0]) if len(kinds) == 1 else []
+    if len(parts) < 2 or not all(map(dotted, parts)):
+        return _told("not_an_exception")(raised, match)
+    code, given = text.code(kinds[0]), ", ".join(text.code(part) for part in parts)
+    around = f"({code})" in raised.module.line(raised.line)
+    params = {"name": f"({code})" if around else code, "written": f"({given})"}
+    found = raised.finding("not_an_exception", params=params)
+    return replace(found, variant="line")
+
+
+def _alternatives(given: ast.expr) -> list[ast.expr]:
+    if isinstance(given, ast.BinOp) and isinstance(given.op, ast.BitOr):
+        return [*_alternatives(given.left), given.right]
+    return [given]
+
+
 def _comma(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A comma at the end of the line makes a tuple of the number that is added."""
     statement = statement_at(raised.module, raised.line)
@@ -737,11 +757,30 @@ KINDS = (
             "Write the name of the class, without () and quotes. Put several names in round brackets."
         ),
         raised={
-            r"catching classes that do not inherit from BaseException": _told("not_an_exception"),
+            r"catching classes that do not inherit from BaseException": _caught,
             r"exceptions must derive from BaseException": _told("not_an_exception", "raised"),
         },
-        whys={"raised": msg("raise takes an exception, for example ValueError('text').")},
-        fixes={"raised": msg("Write an exception behind raise, or remove that line.")},
+        whys={
+            "raised": msg("raise takes an exception, for example ValueError('text')."),
+            "line": msg(
+                "Between the classes behind except are commas, in one pair of brackets. | makes another "
+                "object of them. Python finds out only when an exception has come."
+            ),
+        },
+        fixes={
+            "raised": msg("Write an exception behind raise, or remove that line."),
+            "line": msg("Write {written} instead of {name}."),
+        },
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "classes_behind_except_with_a_line_between",
+                Replace(
+                    NODE, "except KeyboardInterrupt:", "except (KeyboardInterrupt | ValueError):"
+                ),
+                fails="run.interrupt",
+            ),
+        ),
     ),
     _node(
         "not_for_with",

@@ -50,8 +50,8 @@ IN_CLASS = "".join(f"    {line}" for line in MAIN.splitlines(keepends=True))
 def _quotes(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name = match["name"]
     places = node_scope.names_as_text(raised.module, name)
-    of_class = any(name in targets_of(n) for c in raised.module.classes for n in c.body)
-    if not places or of_class:
+    of_class = {target for c in raised.module.classes for s in c.body for target in targets_of(s)}
+    if not places or name in of_class:
         return None
     found = raised.finding("quotes_missing", at=places[0], name=name)
     return replace(found, variant="guard") if name == "__main__" else found
@@ -95,8 +95,24 @@ def _self_outside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     method = method_above(raised.module, raised.line)
     if creates_timer(raised):
         return None
+    if (of_class := _for_class(raised)) is not None:
+        return of_class
     found = raised.finding("self_outside", name=method.name if method is not None else "")
     return replace(found, variant="method") if method is not None else found
+
+
+def _for_class(raised: Raised) -> RecognisedMistake | None:
+    """A line in the block of a class, and in none of its methods, sets a plain value for self."""
+    statement = statement_at(raised.module, raised.line)
+    around = raised.module.parents.get(statement) if statement is not None else None
+    if not isinstance(statement, ast.Assign) or not isinstance(around, ast.ClassDef):
+        return None
+    name, method = own_name(statement.targets[0]), method_above(raised.module, statement.lineno)
+    plain = isinstance(statement.value, ast.Constant) and len(statement.targets) == 1
+    if not name or not plain or method is not None:
+        return None
+    params = {"name": f"self.{name}", "written": name}
+    return replace(raised.finding("self_outside", at=statement, params=params), variant="class")
 
 
 def _self_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -271,7 +287,15 @@ KINDS = (
             "outside of every method."
         ),
         msg("Move the line into the method that it belongs to."),
+        whys={
+            "class": msg(
+                "This line is in the class, and in none of its methods. self exists only in methods. A "
+                "name that is set here without self belongs to the class, and its methods read it as "
+                "{name}."
+            )
+        },
         fixes={
+            "class": msg("Write {written} instead of {name}."),
             "method": msg(
                 "Indent the line as far as the other lines of {name}, the method above it."
             ),
@@ -285,7 +309,7 @@ KINDS = (
         },
         seen=r"NameError: name 'self' is not defined",
         raised={NAME_ERROR: _self_outside},
-        fixed_by=(node_scope.indented, node_scope.variable),
+        fixed_by=(node_scope.indented, node_scope.variable, lines.written),
         examples=(
             example(
                 "step_outside_callback",

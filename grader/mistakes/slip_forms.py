@@ -156,19 +156,12 @@ FORMS = {
     "import_names": msg("Between the names of an import are commas. Write: {wanted}"),
     "class_for_def": msg("A method begins with def, and not with class. Write: {wanted}"),
     "def_for_class": msg("A class begins with class, and not with def. Write: {wanted}"),
-    "def_unfinished": msg(
-        "The line of a def ends with its parameters, ) and a colon. Complete this line: {wanted} and "
-        "behind it the parameters that are missing, and ):"
-    ),
     "def_square": msg("The parameters of a function are in round brackets. Write: {wanted}"),
     "handler_several": msg(
         "Several classes behind except are in brackets, with commas between them, and as is before "
         "the name of the error. Write: {wanted}"
     ),
     "lambda_colon": msg("A colon is behind lambda, before its value. Write: {wanted}"),
-    "cut_off": msg(
-        "This line is cut off: behind its last dot a name is missing, and then ). Complete the line."
-    ),
     "docstring_quotes": msg(
         "A text that describes the code has three quotes at its beginning and three at its end. Write: "
         "{wanted}"
@@ -284,6 +277,26 @@ FORMS = {
     ),
     "block_missing": msg(
         "This line ends with a colon, but its block is missing. Write the lines of the block below "
-        "it, indented by 4 spaces more than this line."
+        "it, indented by 4 spaces more than this line; or write pass there if nothing is to be done."
+    ),
+    "ends_equals": msg(
+        "Behind the = at the end of this line, the value is missing. Write the value there."
+    ),
+    "def_half": msg(
+        "The parameters of a def end with ): on the line above its block, and line {line} is a "
+        "statement of that block. Write: {wanted}"
+    ),
+    "def_half_open": msg(
+        "The parameters of a def end with ): on the line above its block, and line {line} is a "
+        "statement of that block. Write, with the names of the missing parameters in the place of …: "
+        "{wanted}"
+    ),
+    "value_half": msg(
+        "Line {line} is a new statement, and this one has no end: behind {step} is no name, and the "
+        "bracket is not closed. Write, with the name in the place of …: {wanted}"
+    ),
+    "round_brackets": msg("A call and a def have round brackets. Write: {wanted}"),
+    "type_and_value": msg(
+        "The type of a variable is behind a colon, and its value behind =. Write: {wanted}"
     ),
 }

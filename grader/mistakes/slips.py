@@ -303,7 +303,7 @@ SIGNS = {
     ),
     "block_empty": msg(
         "This line ends with a colon, but line {line} is not in its block. Write the lines of the "
-        "block below this line, indented by 4 spaces."
+        "block below this line, indented by 4 spaces; or write pass there if nothing is to be done."
     ),
     "head_twice": msg(
         "Line {line} begins the same block as this line. One of the two is enough: delete this line."

@@ -120,7 +120,7 @@ LINES = [
     ("f(class=1)\n", "word_as_name", 1, "class"),
     ("if (a.b := 3):\n    c()\n", "walrus_place", 1, ""),
     ("f(\"a \"b\"\")\n", "quotes_other", 1, "f('a \"b\"')"),
-    ("a =\n", "ends_open", 1, "="),
+    ("a =\n", "ends_equals", 1, "="),
     ("Import sys as s\n", "capital", 1, "import sys as s"),
     ("If a is b:\n    c()\n", "capital", 1, "if a is b:"),
     ("def f():\n", "block_missing", 1, ""),

@@ -102,23 +102,6 @@ def _misspelt_call(module: Module, error: str) -> SetupFault | None:
     return reader.fault("misspelt", calls[0], swap, name=name, close="setup")
 
 
-def _py_modules(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
-    """`py_modules` names a file that is not beside setup.py."""
-    del match
-    keyword = next((k for k in reader.call.keywords if k.arg == "py_modules"), None)
-    if keyword is None:
-        return None
-    q = reader.module.text.quote
-    wanted = (
-        "package_name" if "package_name" in _bound(reader.module) else f"{q}{reader.package}{q}"
-    )
-    splices = reader.without(keyword, reader.call.keywords)
-    packages = reader.argument("packages")
-    if packages is not None:
-        splices.append(reader.module.text.swap(packages, f"[{wanted}]"))
-    return reader.fault("py_modules", keyword, *splices, wanted=f"packages=[{wanted}]")
-
-
 def _no_colon(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
     """A key without its colon: Python reads an item of a text."""
     del match
@@ -451,13 +434,17 @@ def _py_modules(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
     keyword = next((k for k in reader.call.keywords if k.arg == "py_modules"), None)
     if keyword is None or any(k.arg is None for k in reader.call.keywords):
         return None
-    if reader.argument("packages") is not None:
-        splices = reader.without(keyword, reader.call.keywords)
-        return reader.fault("py_modules_too", keyword, *splices, name=match["name"])
     q = reader.module.text.quote
     wanted = f"packages=[{q}{reader.package}{q}]"
-    swap = reader.module.text.swap(keyword, wanted)
-    return reader.fault("py_modules", keyword, swap, name=match["name"], wanted=wanted)
+    packages = next((k for k in reader.call.keywords if k.arg == "packages"), None)
+    if packages is None:
+        swaps = [reader.module.text.swap(keyword, wanted)]
+        return reader.fault("py_modules", keyword, *swaps, name=match["name"], wanted=wanted)
+    splices = reader.without(keyword, reader.call.keywords)
+    if not isinstance(packages.value, ast.List) or packages.value.elts:
+        return reader.fault("py_modules_too", keyword, *splices, name=match["name"])
+    splices.append(reader.module.text.swap(packages, wanted))
+    return reader.fault("py_modules", keyword, *splices, name=match["name"], wanted=wanted)
 
 
 def _wrong_guard(reader: _Reader, statement: ast.If) -> SetupFault | None:
@@ -684,7 +671,6 @@ def _comma_behind(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
 
 
 LOOKS: tuple[tuple[str, Callable[[_Reader, re.Match[str]], SetupFault | None]], ...] = (
-    (r"RuntimeError: Provided py_modules", _py_modules),
     (r"TypeError: string indices must be integers", _no_colon),
     (r"TypeError: '(?:method|function)' object is not iterable", _not_called),
     (r"TypeError: expected string or bytes-like object", _list_in_list),

@@ -124,13 +124,10 @@ def _not_indented(text: Broken) -> Slip | None:
     if deeper is not None:
         return deeper
     width = len(indent_of(text.source.line(head)))
-    between = [text.source.line(n) for n in range(head + 1, text.number)]
-    if any(row.strip() for row in between):
-        indent = indent_of(next(row for row in between if row.strip()))
-        indent = indent if len(indent) > width else " " * (width + 4)
-        new = text.changed(text.source.before(head + 1, f"{indent}pass"))
-        code = text.source.line(head).strip()
-        return Slip("signs", "block_comment", head, code, "", new, other=text.number)
+    between = [row for n in range(head + 1, text.number) if (row := text.source.line(n)).strip()]
+    comment = _only_comment(text, head, between) if between else None
+    if any(len(indent_of(row)) > width for row in between):
+        return comment
     own = len(indent_of(text.source.line(text.number)))
     deeper = _def_of_class(text, head)
     if deeper is not None:
@@ -143,10 +140,20 @@ def _not_indented(text: Broken) -> Slip | None:
             return Slip("signs", "lines_not_indented", text.number, shown, str(lines[-1]), new,
                         other=head)  # fmt: skip
     if own < width or re.match(r"[ \t]*(?:def|class|@|async|else|elif|except|finally)", text.line):
-        return Slip("signs", "block_empty", head, text.source.line(head).strip(), other=text.number)
+        empty = text.source.line(head).strip()
+        return comment or Slip("signs", "block_empty", head, empty, other=text.number)
     alone = own == width and (_next_indent(text) > own or _ends_after(text))
     new = text.changed(text.within(0, 0, " " * 4)) if alone else None
     return Slip("signs", "not_indented", text.number, shown, "", new, other=head)
+
+
+def _only_comment(text: Broken, head: int, rows: list[str]) -> Slip:
+    """Return a block in which is only a comment."""
+    width, indent = len(indent_of(text.source.line(head))), indent_of(rows[0])
+    indent = indent if len(indent) > width else " " * (width + 4)
+    new = text.changed(text.source.before(head + 1, f"{indent}pass"))
+    code = text.source.line(head).strip()
+    return Slip("signs", "block_comment", head, code, "", new, other=text.number)
 
 
 def _head_deeper(text: Broken, head: int) -> Slip | None:
@@ -165,12 +172,22 @@ def _head_deeper(text: Broken, head: int) -> Slip | None:
         return None  # (a class in another one, whose block is missing)
     if width in columns or (match["word"] == "def" and width - 4 not in columns):
         return None
+    if match["word"] == "class" and _is_in_block(text, head):
+        return None
     start = text.source.start_of(head)
     new = text.source.spliced([Splice(start, start + 4, "")])
     if new is None or not can_parse(new):
         return None
     shown = text.source.line(head).strip()
     return Slip("signs", "head_deeper", head, shown, "4", new, other=text.number)
+
+
+def _is_in_block(text: Broken, number: int) -> bool:
+    """Whether a line of the same block stands above a line."""
+    width = len(indent_of(text.code.line(number)))
+    above = (text.code.line(n) for n in range(number - 1, 0, -1))
+    row = next((r for r in above if r.strip() and len(indent_of(r)) <= width), "")
+    return len(indent_of(row)) == width
 
 
 def _def_of_class(text: Broken, head: int) -> Slip | None:

@@ -15,6 +15,7 @@ BRACKET = re.compile(r"[()\[\]{}]")
 HEAD = re.compile(rf"[ \t]*(?:{BLOCK})\b.*:[ \t]*$")
 NEVER = re.compile(r"'(?P<sign>[(\[{])' was never closed")
 OTHER = re.compile(r"closing parenthesis '[)\]}]' does not match opening parenthesis '[(\[{]'")
+KEY = re.compile(r"['\"]_*['\"][ \t]*:")
 MOST_AT_ONCE = 3
 
 

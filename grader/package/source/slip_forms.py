@@ -353,7 +353,8 @@ def _ends_open(text: Broken) -> Slip | None:
     match = ENDS_OPEN.search(text.line)
     if match is None or "invalid syntax" not in text.fault.text or OPENS.match(text.line):
         return None
-    return Slip("signs", "ends_open", text.number, _shown(text), match["sign"])
+    variant = "ends_equals" if match["sign"] == "=" else "ends_open"
+    return Slip("signs", variant, text.number, _shown(text), match["sign"])
 
 
 def is_code_in_capitals(text: Broken) -> bool:

@@ -14,8 +14,6 @@ DEF_AS_CLASS = re.compile(
     r"[ \t]*(?P<word>def)[ \t]+[A-Z]\w*[ \t]*(?P<base>\([ \t]*\w*[ \t]*\))?[ \t]*:"
 )
 FIELD = re.compile(r"[ \t]*(?:[a-z_]\w*[ \t]*:[ \t]*\w|def[ \t]+\w+[ \t]*\([ \t]*self\b)")
-UNFINISHED = re.compile(r"[ \t]*(?:async[ \t]+)?def[ \t]+\w+[ \t]*\([^()]*$")
-STATEMENT = re.compile(r"[ \t]*(?:return|if|for|while|try|with|raise|pass|self\.\w+[ \t]*[-+]?=)")
 OWN_DEF = re.compile(r"[ \t]*def[ \t]+(?P<own>self[ \t]*\.[ \t]*)\w+[ \t]*\((?P<given>[ \t]*\))?")
 TELLS_INDENT = "unexpected indent"
 
@@ -62,19 +60,6 @@ def _rows_below(text: Broken) -> list[str]:
     return [text.code.line(n) for n in range(text.number + 1, len(text.code.lines) + 1)]
 
 
-def _unfinished_def(text: Broken) -> Slip | None:
-    """Return a def whose line ends in its brackets, and below which its block begins."""
-    if "was never closed" not in text.fault.text or not UNFINISHED.match(text.line):
-        return None
-    below = next((row for row in _rows_below(text) if row.strip()), "")
-    if not STATEMENT.match(below):
-        return None
-    shown = text.source.line(text.number).strip()
-    return Slip(
-        "signs", "def_unfinished", text.number, shown, shown.rstrip(", \t"), other=text.number + 1
-    )
-
-
 def _own_def(text: Broken) -> Slip | None:
     """Return a def with self. before its name."""
     match = OWN_DEF.match(text.line)
@@ -115,7 +100,7 @@ def _comment_between(text: Broken) -> Slip | None:
     rows = [text.source.line(text.number + step).lstrip() for step in (-1, 1)]
     if text.number < 2 or not all(row.startswith("#") and not row.startswith("#!") for row in rows):
         return None
-    if fault_of(written.strip().encode()) is None:
+    if fault_of(written.strip().encode()) is None or re.search(r"\w\(|=", written):
         return None
     start = text.source.start_of(text.number) + len(indent_of(written))
     new = text.changed(Splice(start, start, "# "))
@@ -185,18 +170,6 @@ def _lambda_colon(text: Broken) -> Slip | None:
     if new is None:
         return None
     return text.slip("signs", "lambda_colon", text.source.line(text.number), splice, fixed=new)
-
-
-def _cut_off(text: Broken) -> Slip | None:
-    """Return a call whose line ends with a dot, and which nothing below it completes."""
-    row = text.line.rstrip()
-    below = next((one for one in _rows_below(text) if one.strip()), "")
-    if "was never closed" not in text.fault.text or not row.endswith("."):
-        return None
-    if len(indent_of(below)) > len(indent_of(row)):
-        return None
-    shown = text.source.line(text.number).strip()
-    return Slip("signs", "cut_off", text.number, shown, row[-1])
 
 
 def _docstring_quotes(text: Broken) -> Slip | None:
@@ -321,13 +294,11 @@ HEAD_LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
     _def_below,
     _class_for_def,
     _def_for_class,
-    _unfinished_def,
     _own_def,
     _square_def,
     _joined_def,
     _handler_of_several,
     _lambda_colon,
-    _cut_off,
     _docstring_quotes,
     _except_empty,
     _closed_early,

@@ -28,6 +28,7 @@ from grader.package.source.slip_forms import (
     note,
 )
 from grader.package.source.slip_future import FUTURE_LOOKS
+from grader.package.source.slip_halves import HALF_LOOKS
 from grader.package.source.slip_heads import HEAD_LOOKS
 from grader.package.source.slip_indent import behind_colon, first_of_block, further_in
 from grader.package.source.slip_joined import JOINED_LOOKS
@@ -522,6 +523,6 @@ def _global(text: Broken) -> Slip | None:
 
 
 LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
-    _conflict, *FUTURE_LOOKS, _prose, *OUTPUT_LOOKS, _numbers, *FIELD_LOOKS, *DROPPED_LOOKS, *CALL_LOOKS, _brace, _global, _do_while, _constructor, _braces, *HEAD_LOOKS, note, _comment, *WORD_LOOKS, *FORM_LOOKS, _commas, _apostrophe, *QUOTE_LOOKS, _quotes, _keys, open_bracket, tab, behind_colon, try_block,
+    _conflict, *FUTURE_LOOKS, *HALF_LOOKS, _prose, *OUTPUT_LOOKS, _numbers, *FIELD_LOOKS, *DROPPED_LOOKS, *CALL_LOOKS, _brace, _global, _do_while, _constructor, _braces, *HEAD_LOOKS, note, _comment, *WORD_LOOKS, *FORM_LOOKS, _commas, _apostrophe, *QUOTE_LOOKS, _quotes, _keys, open_bracket, tab, behind_colon, try_block,
     *JOINED_LOOKS, *TYPED_LOOKS, *STATEMENT_LOOKS, first_of_block, *BLOCK_LOOKS, further_in, _other_sign, *LATE_CALL_LOOKS, *LATE_LOOKS, two_words, two_statements, block_word, *LAST_FORM_LOOKS, *MESSAGE_LOOKS,
 )  # fmt: skip

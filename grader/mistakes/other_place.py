@@ -1,0 +1,403 @@
+"""A sign or a def in another place than was meant, where Python reads it as something else."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.example import DEAD, NODE, example
+from grader.mistakes.fixes import lines
+from grader.mistakes.fixes.case import Case
+from grader.mistakes.kind import Family
+from grader.mistakes.recognised import (
+    NAME_ERROR,
+    OWN_ATTRIBUTE,
+    Raised,
+    RecognisedMistake,
+    Suspect,
+    of_self,
+    on_line,
+)
+from grader.package.edit.files import Files
+from grader.package.edit.text import Splice, indent_of
+from grader.package.edit.tree import Replace, Write
+from grader.package.source.counter import targets_of
+from grader.package.source.guard import is_guard
+from grader.package.source.module import Function, Module
+from grader.package.source.node import read_module
+from grader.package.source.place import statement_at
+from grader.package.source.scopes import bindings, has_self, scope_of
+
+IN_ROUND = re.compile(r"\((?P<value>self(?:\.[A-Za-z_]\w*)+)\)")
+F_INSIDE = re.compile(r"(?P<quote>['\"])[fF](?P<rest>[^'\"\\]*\{[^'\"\\{}]+\}[^'\"\\]*)(?P=quote)")
+NO_SELF = (
+    r"AttributeError: (?:'\w{1,120}' object|type object '\w{1,120}'|module '[\w.]{1,120}') "
+    r"has no attribute 'self'"
+)
+
+NODE_OF_FILE = """\
+#!/usr/bin/env python3
+import rclpy
+from rclpy.node import Node
+
+number = 0
+node = None
+
+
+def tick():
+    global number
+    node.get_logger().info('Hello time: ' + str(number))
+    number += 1
+
+
+def main(args=None):
+    rclpy.init(args=args)
+    node = Node('my_first_node')
+    node.create_timer(1.0, tick)
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    rclpy.try_shutdown()
+"""
+
+
+def _parts(raised: Raised, kind: type[ast.AST]) -> Iterator[ast.AST]:
+    statement = statement_at(raised.module, raised.line)
+    yield from (n for n in (ast.walk(statement) if statement else ()) if isinstance(n, kind))
+
+
+# a dot for another sign
+
+
+def _dot_for_comma(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Two values of a call have a dot between them: the second one begins with self."""
+    del match
+    text = raised.module.text
+    for call in _parts(raised, ast.Call):
+        for given in getattr(call, "args", ()):
+            inner = given
+            while isinstance(inner, ast.Attribute) and inner.attr != "self":
+                inner = inner.value
+            if not isinstance(inner, ast.Attribute) or inner is given:
+                continue
+            if isinstance(inner.value, ast.Constant):  # (node.dot_for_comma)
+                continue
+            first, code = text.code(inner.value), text.code(given)
+            rest = code.removeprefix(text.code(inner)).strip()
+            if "\n" not in code:
+                params = {"name": code, "written": f"{first}, self{rest}"}
+                return raised.finding("dot_for_sign", at=given, params=params)
+    return None
+
+
+def _dot_for_plus(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A dot joins two texts, as in PHP: str(…) is behind it."""
+    del match
+    text = raised.module.text
+    for call in _parts(raised, ast.Call):
+        joined = getattr(call, "func", None)
+        if not isinstance(joined, ast.Attribute) or joined.attr != "str":
+            continue
+        name = text.code(joined)
+        if "\n" in name:
+            continue
+        params = {"name": name, "written": f"{text.code(joined.value)} + str"}
+        return replace(raised.finding("dot_for_sign", at=joined, params=params), variant="plus")
+    return None
+
+
+# an f-string that is none
+
+
+def _no_field(suspect: Suspect) -> RecognisedMistake | None:
+    """The text has an f, or a name in round brackets, as it is written away from the log line.
+
+    In the log line itself it is node.f_in_quotes or node.counter_in_text.
+    """
+    logged = {part for call in suspect.source.own_logs for part in ast.walk(call)}
+    for module in suspect.source.modules:
+        for node in module.nodes:
+            code = module.text.code(node) if isinstance(node, ast.Constant | ast.JoinedStr) else ""
+            if not code or "\n" in code or isinstance(module.parents.get(node), ast.JoinedStr):
+                continue
+            if node in logged:
+                continue
+            found = _with_f(suspect, node, code) or _with_braces(suspect, node, code)
+            if found is not None:
+                return found
+    return None
+
+
+def _with_f(suspect: Suspect, node: ast.AST, code: str) -> RecognisedMistake | None:
+    match = F_INSIDE.fullmatch(code)
+    if match is None or code[1:-1] not in suspect.text or not isinstance(node, ast.expr):
+        return None
+    written = f"f{match['quote']}{match['rest']}{match['quote']}"
+    return suspect.finding("field_not_filled", node, name=code, written=written)
+
+
+def _with_braces(suspect: Suspect, node: ast.AST, code: str) -> RecognisedMistake | None:
+    places = list(IN_ROUND.finditer(code))
+    if len(places) != 1 or "{" in code or not isinstance(node, ast.expr):
+        return None
+    prefix, value = re.match(r"\w*", code), places[0]["value"]
+    if prefix is None or prefix[0] not in ("", "f", "F") or places[0][0] not in suspect.text:
+        return None
+    written = code.replace(places[0][0], f"{{{value}}}")
+    written = written if prefix[0] else f"f{written}"
+    found = suspect.finding("field_not_filled", node, name=code, written=written)
+    return replace(found, variant="round")
+
+
+# a def inside of another one
+
+
+def _def_inside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The method that is missing stands in another method, indented too far."""
+    name, module = match["name"], raised.module
+    made = [n for n in module.nodes if isinstance(n, Function) and n.name == name]
+    if not of_self(raised, match) or len(made) != 1 or not has_self(made[0]):
+        return None
+    outer = scope_of(module, made[0])
+    if not isinstance(outer, Function) or made[0] not in outer.body:
+        return None
+    if not isinstance(scope_of(module, outer), ast.ClassDef):
+        return None
+    at = outer.body.index(made[0])
+    if at == 0 or not all(isinstance(s, Function) and has_self(s) for s in outer.body[at:]):
+        return None
+    last = outer.end_lineno or outer.lineno
+    params = {
+        "name": name,
+        "line": str(made[0].lineno),
+        "last": str(last),
+        "columns": str(made[0].col_offset - outer.col_offset),
+    }
+    found = raised.finding("def_inside", at=made[0], params=params)
+    return replace(found, words={**found.words, "function": outer.name})
+
+
+def _dedented(case: Case) -> Files | None:
+    """Indent the lines of the def, and of those below it in the same block, less."""
+    module, params = case.module, case.finding.params
+    if module is None:
+        return None
+    first, last, columns = (int(params.get(key, 0)) for key in ("line", "last", "columns"))
+    rows = [n for n in range(first, last + 1) if module.text.line(n).strip()]
+    if any(len(indent_of(module.text.line(n))) < columns for n in rows):
+        return None
+    starts = [module.text.start_of(n) for n in rows]
+    return case.changed(module, *(Splice(at, at + columns, "") for at in starts))
+
+
+# a value that another part of the file sets
+
+
+def _is_none_in_file(module: Module, name: str) -> bool:
+    """Whether the file itself sets a variable, and only to None."""
+    values = [getattr(s, "value", None) for s in module.tree.body if name in targets_of(s)]
+    return bool(values) and all(isinstance(v, ast.Constant) and v.value is None for v in values)
+
+
+def _global_lost(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A variable of the file stays None, because a function sets its own one of the same name."""
+    module = raised.module
+    used = [n for n in _parts(raised, ast.Attribute) if getattr(n, "attr", "") == match["name"]]
+    base = getattr(used[0], "value", None) if len(used) == 1 else None
+    name = base.id if isinstance(base, ast.Name) else ""
+    if not name or not _is_none_in_file(module, name):
+        return None
+    here = scope_of(module, used[0])
+    inside = [b for b in bindings(module, name) if b.scope is not None]
+    setters = {b.scope for b in inside}
+    owner = inside[0].scope if len(setters) == 1 else None
+    if not isinstance(owner, Function) or owner is here or has_self(owner):
+        return None
+    if any(isinstance(b.part, ast.arg) for b in inside):
+        return None
+    if len([b for b in bindings(module, name) if b.scope is None]) != 1:
+        return None
+    params = {"name": name, "function": owner.name, "line": str(inside[0].line)}
+    return raised.finding("global_lost", at=owner, params=params)
+
+
+def _with_global(case: Case) -> Files | None:
+    """Write the global as the first line of the function."""
+    module, params = read_module(case.files.data, case.finding.file), case.finding.params
+    made = module.functions.get(str(params.get("function", ""))) if module is not None else None
+    if module is None or made is None:
+        return None
+    body = made.body[1:] if ast.get_docstring(made) is not None else made.body
+    if not body or body[0].lineno == made.lineno:
+        return None
+    indent = indent_of(module.text.line(body[0].lineno))
+    row = f"{indent}global {params.get('name', '')}"
+    return case.changed(module, module.text.before(body[0].lineno, row))
+
+
+def _under_guard(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Only the block of the guard sets the name, and ros2 run does not run that block."""
+    name, module = match["name"], raised.module
+    for block in module.tree.body:
+        inside = block.body if isinstance(block, ast.If) and is_guard(block) else []
+        found = [s for s in inside if name in targets_of(s)]
+        if len(found) == 1 and len(bindings(module, name)) == 1:
+            params = {"name": name, "line": str(found[0].lineno)}
+            return raised.finding("set_under_guard", at=found[0], params=params)
+    return None
+
+
+_node = Family("node", links.PYTHON_ERRORS)
+KINDS = (
+    _node(
+        "dot_for_sign",
+        "callback",
+        msg("A dot is between two values"),
+        msg("A dot reads a part of the object before it. A comma separates the values of a call."),
+        msg("Write {written} instead of {name}."),
+        whys={
+            "plus": msg("A dot reads a part of the object before it. + joins two texts in Python.")
+        },
+        raised={
+            NO_SELF: on_line(_dot_for_comma),
+            r"AttributeError: 'str' object has no attribute 'str'": on_line(_dot_for_plus),
+        },
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "dot_for_the_comma_of_a_timer",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0,",
+                    "        period = 1.0\n        self.create_timer(period.",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "dot_joins_texts_as_in_php",
+                Replace(NODE, "'Hello time: ' + str(", "'Hello time: ' . str("),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "field_not_filled",
+        "text",
+        msg("The text shows what is written, not the value"),
+        msg(
+            "Only an f before the first quote makes an f-string, in which braces show a value. Inside "
+            "of the quotes, the f is a letter of the text."
+        ),
+        msg("Write {written} instead of {name}."),
+        whys={
+            "round": msg(
+                "An f-string shows a value only in braces. Round brackets, and what is in them, are a "
+                "part of the text."
+            )
+        },
+        behind={"run.wrong_text": _no_field},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "f_inside_of_the_quotes_of_helper",
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "self.label()"),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def label(self):\n        return 'fHello time: {self.counter_}'\n\n"
+                    "    def timer_callback",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "round_brackets_in_f_string_of_helper",
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "self.label()"),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def label(self):\n        return f'Hello time: (self.counter_)'\n\n"
+                    "    def timer_callback",
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "def_inside",
+        "class",
+        msg("A method is inside of another method"),
+        msg(
+            "def {name} (line {line}) is indented further than def {function}, so it is a part of "
+            "{function}, and no method of the class."
+        ),
+        msg("Delete {columns} spaces at the start of each line from line {line} to line {last}."),
+        links.PYTHON_CLASSES,
+        raised={OWN_ATTRIBUTE: on_line(_def_inside)},
+        fixed_by=(_dedented,),
+        examples=(
+            example(
+                "helper_inside_of_init",
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "        def count_one(self):\n            self.counter_ += 1\n\n"
+                    "    def timer_callback",
+                ),
+                Replace(NODE, "        self.counter_ += 1\n\n\n", "        self.count_one()\n\n\n"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+        ),
+    ),
+    _node(
+        "global_lost",
+        "callback",
+        msg("A function sets a variable of its own instead of the one of the file"),
+        msg(
+            "A function that gives a name a value has a variable of its own with this name. Line {line} "
+            "sets {name} in {function} only, and {name} of the file stays None."
+        ),
+        msg("Write global {name} as the first line of {function}."),
+        raised={
+            r"AttributeError: 'NoneType' object has no attribute '(?P<name>\w{1,120})'": on_line(
+                _global_lost
+            )
+        },
+        fixed_by=(_with_global,),
+        examples=(
+            example(
+                "node_of_the_file_without_global",
+                Write(NODE, NODE_OF_FILE),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "set_under_guard",
+        "start",
+        msg("A name is set only if the file is run directly"),
+        msg(
+            "Line {line} sets {name} in the block of if __name__ == '__main__':. ros2 run imports the "
+            "file and calls its function, and does not run that block."
+        ),
+        msg(
+            "Move line {line} to the top of the file, below the imports, with no spaces before it."
+        ),
+        raised={NAME_ERROR: _under_guard},
+        examples=(
+            example(
+                "period_set_under_the_guard",
+                Replace(NODE, "(1.0,", "(PERIOD,"),
+                Replace(NODE, "__main__':\n", "__main__':\n    PERIOD = 1.0\n"),
+                fails="run.starts",
+            ),
+        ),
+    ),
+)
