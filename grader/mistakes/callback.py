@@ -17,7 +17,6 @@ from grader.package.edit.tree import Replace
 from grader.package.source.endless import goes_on
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
-from grader.package.source.node import NodeSource
 from grader.package.source.parameters import def_after, needed_besides_self, only_self, uses_of
 from grader.package.source.sleeps import longest_sleep
 
@@ -124,67 +123,8 @@ def never_ends_in(method: Function) -> ast.Call | ast.While | None:
     return None
 
 
-def _self_late(source: NodeSource) -> Function | None:
-    """Return a method that has self among its parameters, and not as the first."""
-    for module in source.modules:
-        for owner in module.classes:
-            for method in owner.body:
-                if isinstance(method, Function) and "self" in [a.arg for a in method.args.args[1:]]:
-                    return method
-    return None
-
-
-def _self_late_seen(suspect: Suspect) -> RecognisedMistake | None:
-    method = _self_late(suspect.source)
-    return _with_self_first(suspect.finding("self_late", method), method) if method else None
-
-
-def _self_late_raised(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    del match
-    method = _self_late(raised.source)
-    return _with_self_first(raised.finding("self_late", at=method), method) if method else None
-
-
-def _with_self_first(found: RecognisedMistake, method: Function) -> RecognisedMistake:
-    names = [a.arg for a in method.args.args if a.arg != "self"]
-    words = {
-        "method": method.name,
-        "parameter": method.args.args[0].arg,
-        "parameters": ", ".join(["self", *names]),
-    }
-    return replace(found, words={**found.words, **words})
-
-
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
-    _node(
-        "self_late",
-        "callback",
-        msg("self is not the first parameter of a method"),
-        msg(
-            "Python passes the object as the first argument to each of its methods, whatever the "
-            "name of the parameter is. In {method}, {parameter} gets the object."
-        ),
-        msg("Write the parameters of {method} in this order: {parameters}"),
-        links.PYTHON_CLASSES,
-        raised={r"(?:Type|Attribute|Value|Name)Error: ": _self_late_raised},
-        behind=dict.fromkeys(
-            ("run.wrong_text", "run.constant_counter", "run.wrong_step", "run.wrong_start"),
-            _self_late_seen,
-        ),
-        examples=(
-            example(
-                "self_behind_another_parameter",
-                Replace(NODE, "'Hello time: ' + str(self.counter_)", "self.text_of(self.counter_)"),
-                Replace(
-                    NODE,
-                    "\n\ndef main(",
-                    "\n    def text_of(number, self):\n        return f'Hello time: {number}'\n\n\ndef main(",
-                ),
-                fails="run.output",
-            ),
-        ),
-    ),
     _node(
         "callback_no_self",
         "callback",

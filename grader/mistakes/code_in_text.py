@@ -25,6 +25,7 @@ def _shown(suspect: Suspect) -> RecognisedMistake | None:
     if brackets is None and braces is None:
         return None
     own = set(suspect.source.own_nodes)
+    logged = {part for call in suspect.source.own_logs for part in ast.walk(call)}
     for node in suspect.source.all_nodes:
         if not isinstance(node, ast.Constant | ast.JoinedStr):
             continue
@@ -32,18 +33,24 @@ def _shown(suspect: Suspect) -> RecognisedMistake | None:
         if isinstance(module.parents.get(node), ast.JoinedStr | ast.FormattedValue):
             continue
         code = module.text.code(node)
-        in_brackets = brackets is not None and isinstance(node, ast.JoinedStr) and node not in own
-        if in_brackets and brackets is not None and brackets[0] in code:
+        in_line = node in logged  # (the texts of the line itself have a mistake of their own)
+        if brackets is not None and _is_filled(node, brackets, code) and not in_line:
             written = code.replace(brackets[0], f"{{{brackets['code']}}}", 1)
+            written = written if isinstance(node, ast.JoinedStr) else f"f{written}"
             return _written(suspect, node, code, written, "brackets")
         plain = isinstance(node, ast.Constant) and isinstance(node.value, str)
         if plain and braces is not None and braces[0] in code and re.match(r"['\"]f?(?=\w)", code):
             inside = re.match(r"(?P<quote>['\"])f(?=[A-Z])", code)
-            if inside is None and node in own:
-                continue  # (the texts of the node itself have a mistake of their own)
+            if (inside is None and node in own) or in_line:
+                continue
             written = f"f{code}" if inside is None else f"f{code[0]}{code[2:]}"
             return _written(suspect, node, code, written, "" if inside is None else "inside")
     return None
+
+
+def _is_filled(node: ast.expr, brackets: re.Match[str], code: str) -> bool:
+    """Whether a text was meant to show a value, and has round brackets around it."""
+    return brackets[0] in code and (isinstance(node, ast.JoinedStr) or "{" not in code)
 
 
 def _written(
@@ -93,6 +100,28 @@ KINDS = (
                 ),
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.line = Line()"),
                 Replace(NODE, "'Hello time: ' + str(self.counter_)", "self.line.text()"),
+                fails="run.output",
+            ),
+            example(
+                "f_inside_of_the_quotes_of_helper",
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "self.label()"),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def label(self):\n        return 'fHello time: {self.counter_}'\n\n"
+                    "    def timer_callback",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "round_brackets_in_f_string_of_helper",
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "self.label()"),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def label(self):\n        return f'Hello time: (self.counter_)'\n\n"
+                    "    def timer_callback",
+                ),
                 fails="run.output",
             ),
         ),

@@ -505,16 +505,13 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.replaced_nothing": {"name": "'{count}'", "written": "'{n}'"},
     "node.text_kept": {"line": "24"},
+    "setup.entry_at_margin": {"code": "test_node = my_robot_controller.my_first_node:main"},
     "node.stars_lost": {
         "name": "kwargs",
         "written": "**kwargs",
         "head": "def __init__(self, **kwargs):",
     },
     "node.dot_for_sign": {"name": "period. self.tick", "written": "period, self.tick"},
-    "node.field_not_filled": {
-        "name": "'fCount: {self.counter}'",
-        "written": "f'Count: {self.counter}'",
-    },
     "node.def_inside": {
         "name": "tick",
         "function": "__init__",
@@ -740,11 +737,6 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "line": "12",
     },
     "node.field_order": {"name": "text", "type": "State"},
-    "node.self_late": {
-        "method": "text_of",
-        "parameter": "number",
-        "parameters": "self, number",
-    },
     "node.error_logged": {
         "line": "12",
         "at": "12",

@@ -279,7 +279,7 @@ KINDS = (
         msg("Write self as the first parameter: {head}"),
         raised={
             r"AttributeError: '\w{1,120}' object has no attribute": on_line(_raised_second),
-            r"TypeError: ": on_line(_raised_second),
+            r"(?:Type|Value|Name)Error: ": on_line(_raised_second),
         },
         behind={"run.wrong_text": _seen_second},
         fixed_by=(lines.written,),

@@ -18,7 +18,6 @@ from grader.mistakes.recognised import (
     OWN_ATTRIBUTE,
     Raised,
     RecognisedMistake,
-    Suspect,
     of_self,
     on_line,
 )
@@ -32,8 +31,6 @@ from grader.package.source.node import read_module
 from grader.package.source.place import statement_at
 from grader.package.source.scopes import bindings, has_self, scope_of
 
-IN_ROUND = re.compile(r"\((?P<value>self(?:\.[A-Za-z_]\w*)+)\)")
-F_INSIDE = re.compile(r"(?P<quote>['\"])[fF](?P<rest>[^'\"\\]*\{[^'\"\\{}]+\}[^'\"\\]*)(?P=quote)")
 NO_SELF = (
     r"AttributeError: (?:'\w{1,120}' object|type object '\w{1,120}'|module '[\w.]{1,120}') "
     r"has no attribute 'self'"
@@ -111,49 +108,6 @@ def _dot_for_plus(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     return None
 
 
-# an f-string that is none
-
-
-def _no_field(suspect: Suspect) -> RecognisedMistake | None:
-    """The text has an f, or a name in round brackets, as it is written away from the log line.
-
-    In the log line itself it is node.f_in_quotes or node.counter_in_text.
-    """
-    logged = {part for call in suspect.source.own_logs for part in ast.walk(call)}
-    for module in suspect.source.modules:
-        for node in module.nodes:
-            code = module.text.code(node) if isinstance(node, ast.Constant | ast.JoinedStr) else ""
-            if not code or "\n" in code or isinstance(module.parents.get(node), ast.JoinedStr):
-                continue
-            if node in logged:
-                continue
-            found = _with_f(suspect, node, code) or _with_braces(suspect, node, code)
-            if found is not None:
-                return found
-    return None
-
-
-def _with_f(suspect: Suspect, node: ast.AST, code: str) -> RecognisedMistake | None:
-    match = F_INSIDE.fullmatch(code)
-    if match is None or code[1:-1] not in suspect.text or not isinstance(node, ast.expr):
-        return None
-    written = f"f{match['quote']}{match['rest']}{match['quote']}"
-    return suspect.finding("field_not_filled", node, name=code, written=written)
-
-
-def _with_braces(suspect: Suspect, node: ast.AST, code: str) -> RecognisedMistake | None:
-    places = list(IN_ROUND.finditer(code))
-    if len(places) != 1 or "{" in code or not isinstance(node, ast.expr):
-        return None
-    prefix, value = re.match(r"\w*", code), places[0]["value"]
-    if prefix is None or prefix[0] not in ("", "f", "F") or places[0][0] not in suspect.text:
-        return None
-    written = code.replace(places[0][0], f"{{{value}}}")
-    written = written if prefix[0] else f"f{written}"
-    found = suspect.finding("field_not_filled", node, name=code, written=written)
-    return replace(found, variant="round")
-
-
 # a def inside of another one
 
 
@@ -168,6 +122,8 @@ def _def_inside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
         return None
     if not isinstance(scope_of(module, outer), ast.ClassDef):
         return None
+    if outer.name == "__init__" and name in [timer.method for timer in raised.source.timers]:
+        return None  # (node.callback_in_init)
     at = outer.body.index(made[0])
     if at == 0 or not all(isinstance(s, Function) and has_self(s) for s in outer.body[at:]):
         return None
@@ -283,48 +239,6 @@ KINDS = (
                 Replace(NODE, "'Hello time: ' + str(", "'Hello time: ' . str("),
                 fails="run.output",
                 blocks=DEAD,
-            ),
-        ),
-    ),
-    _node(
-        "field_not_filled",
-        "text",
-        msg("The text shows what is written, not the value"),
-        msg(
-            "Only an f before the first quote makes an f-string, in which braces show a value. Inside "
-            "of the quotes, the f is a letter of the text."
-        ),
-        msg("Write {written} instead of {name}."),
-        whys={
-            "round": msg(
-                "An f-string shows a value only in braces. Round brackets, and what is in them, are a "
-                "part of the text."
-            )
-        },
-        behind={"run.wrong_text": _no_field},
-        fixed_by=(lines.written,),
-        examples=(
-            example(
-                "f_inside_of_the_quotes_of_helper",
-                Replace(NODE, "'Hello time: ' + str(self.counter_)", "self.label()"),
-                Replace(
-                    NODE,
-                    "    def timer_callback",
-                    "    def label(self):\n        return 'fHello time: {self.counter_}'\n\n"
-                    "    def timer_callback",
-                ),
-                fails="run.output",
-            ),
-            example(
-                "round_brackets_in_f_string_of_helper",
-                Replace(NODE, "'Hello time: ' + str(self.counter_)", "self.label()"),
-                Replace(
-                    NODE,
-                    "    def timer_callback",
-                    "    def label(self):\n        return f'Hello time: (self.counter_)'\n\n"
-                    "    def timer_callback",
-                ),
-                fails="run.output",
             ),
         ),
     ),

@@ -453,6 +453,17 @@ KINDS = (
                 note="right lines and times, but no callback is ever called",
             ),
             example(
+                "loop_sleeps_by_the_clock_of_the_node",
+                *_loop(LOOPS.replace("time.sleep(1.0)", "node.get_clock().sleep_for(SECOND)")),
+                Replace(
+                    NODE,
+                    "\n\nclass",
+                    "\nfrom rclpy.duration import Duration\n\nSECOND = Duration(seconds=1)\n\n\nclass",
+                ),
+                fails="run.spins",
+                note="on /clock its time stands still, as it never spins",
+            ),
+            example(
                 "procedural_sleep",
                 Write(NODE, PROCEDURAL, 0o755),
                 fails="run.spins",

@@ -17,6 +17,7 @@ from grader.package.source.command_line import reads_command_line
 from grader.package.source.ends_after import counts_to, ends_after
 from grader.package.source.real_time import reads_real_time
 from grader.package.source.remarks import Remark, remarks_on
+from grader.package.source.ros_time import waits_for_ros_time
 from grader.package.submission import Submission
 from grader.run.conduct import conduct
 from grader.run.observer import Event
@@ -63,6 +64,7 @@ class Session:
         self._remarks: list[Remark] = []
         self._reads_real_time = False
         self._reads_command_line = False
+        self._waits_for_ros_time = False
         self._unforeseen = Unforeseen(more_ticks=0, stay_seconds=0, draw=1)
         self._built = b""  # the workspace after the build, for a plain run or another scenario
         self._planned = False  # whether a run of a scenario was made
@@ -92,6 +94,7 @@ class Session:
         self._remarks = remarks_on(submission.files)
         self._reads_real_time = reads_real_time(submission.files)
         self._reads_command_line = reads_command_line(submission.files)
+        self._waits_for_ros_time = waits_for_ros_time(submission.files)
         could_end = any(remark.kind in ("ends", "hides") for remark in self._remarks)
         self._unforeseen = unforeseen(
             submission.sha256,
@@ -119,7 +122,8 @@ class Session:
         A run that would cost points for its timing is repeated too, with the clock in fine steps,
         because load or a jump of the clock must not look like the node's fault; with a clock as fast
         as the wall clock, if the package reads that. A package that reads its command line gets a run
-        without our arguments, if it does not count with them. A run is repeated only if the verdict's
+        without our arguments, if it does not count with them; so does a node that never spins and
+        waits for its clock. A run is repeated only if the verdict's
         time limit leaves time for it.
         Raises Unobserved if our own side failed each time, BrokenRosError if ros2 itself does not
         run.
@@ -158,6 +162,9 @@ class Session:
             plain = self._run(unheard, named, plain=True)
             died = run.ended_by_itself and not run.watch.counted
             return plain if died or self._begins_right(plain) else run
+        if self._waits_for_ros_time and self._stands_still(run):
+            plain = self._run(unheard, named, plain=True)
+            return plain if len(plain.watch.counted) > len(run.watch.counted) else run
         if self._holds_up(run):
             again = self._run(unheard, named)
             if self._holds_up(again):
@@ -219,6 +226,15 @@ class Session:
             raise Unobserved("the verdict's time limit left no time for a run")
         prove_again(self.sandbox)
         raise Unobserved(f"the probe failed in all {tries} runs, the last time: {failure}")
+
+    def _stands_still(self, run: Run) -> bool:
+        """Whether a node never answered, still runs, and has at most one line of a count.
+
+        If its loop waits for its clock, it counts on the wall clock, where a person runs it.
+        """
+        answered = run.watch.settled or any(node.answers for node in run.nodes)
+        over = run.ended_by_itself or run.flooded or bool(run.resource)
+        return bool(run.nodes) and not answered and not over and len(run.watch.counted) <= 1
 
     def _holds_up(self, run: Run) -> bool:
         """Whether callbacks took longer than a period: ROS time waits for them, a person does not.

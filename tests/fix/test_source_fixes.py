@@ -115,6 +115,7 @@ OTHERWISE = {
     "object_with_a_node_in_executor": "        executor.add_node(app.node)\n",
     "main_under_guard": "try_shutdown()\n\n\nif __name__ == '__main__':\n    main()\n",
     "printf_in_callback": "self.get_logger().info('Hello time: %d' % self.counter_)\n",
+    "start_outside_init": "    counter_ = 0\n\n    def __init__(self):\n",
     "main_at_import": "\n\nif __name__ == '__main__':\n    main()\n",
     "import_of_module_missing": "from rclpy.node import Node\nimport time\n",
 }
@@ -122,7 +123,6 @@ OTHERWISE = {
 NOT_FIXED = (
     *("error_hidden_in_main", "rate_in_callback"),
     *(
-        "start_outside_init",
         "to_string",
         "none_called",
     ),

@@ -27,7 +27,11 @@ NOT_FIXED = {
     "build_type_twice",
     "main_of_the_class",
     *("entity_of_html", "email_twice_in_a_tag", "license_in_a_comment"),
-    *("maintainer_in_a_comment_with_words", "entry_points_without_console_scripts"),
+    *(
+        "all_tags_in_one_comment",
+        "maintainer_in_a_comment_with_words",
+        "entry_points_without_console_scripts",
+    ),
     *("manifest_in_utf_16", "manifest_as_json", "maintainer_with_tags_inside"),
 }
 NOTHING_TO_MARK = {

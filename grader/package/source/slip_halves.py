@@ -47,7 +47,8 @@ def _half(text: Broken) -> Slip | None:
     if "was never closed" not in text.fault.text or not below:
         return None
     row = text.code.line(below)
-    apart = HALF_VALUE.fullmatch(text.line) and len(indent_of(row)) <= len(indent_of(text.line))
+    apart = below > text.number + 1 and HALF_VALUE.fullmatch(text.line) is not None
+    apart = apart and len(indent_of(row)) <= len(indent_of(text.line))
     if not STARTS.match(row) and not apart:
         return None
     match = HALF.fullmatch(text.line)
@@ -64,7 +65,8 @@ def _half(text: Broken) -> Slip | None:
     if match is None or text.line.count("(") != text.line.count(")") + 1:
         return None
     wanted = f"{written[: match.end('name')].strip()}…)"
-    return Slip("signs", "value_half", text.number, written.strip(), wanted, step=match["name"])
+    shown = written.strip()
+    return Slip("signs", "value_half", text.number, shown, wanted, other=below, step=match["name"])
 
 
 def _type_and_value(text: Broken) -> Slip | None:

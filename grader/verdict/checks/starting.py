@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
 from grader.base.shown import shown
+from grader.package.source.command_line import reads_command_line
 from grader.package.source.names import last_part
 from grader.package.source.newer_python import with_older_quotes
 from grader.package.source.place import place_of
@@ -63,7 +64,7 @@ def starts(evidence: Evidence) -> Passed:
 
 def _refused_arguments(evidence: Evidence) -> list[str]:
     """Return that the node works without ROS arguments only, if it was marked without them."""
-    if not evidence.run.plain:
+    if not evidence.run.plain or not reads_command_line(evidence.submission.files):
         return []
     return [
         say(
