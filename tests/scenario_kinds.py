@@ -517,7 +517,7 @@ FORMS = (
         ),
         {
             "count": "log.missing",
-            "count.logger": "run.other_logger",
+            "count.logger": "node.logger_by_name",
             "factor": "parameter.wrong_value",
             "factor.set": "parameter.refused",
             "fifteen": "topic.wrong_value",

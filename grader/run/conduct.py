@@ -299,9 +299,11 @@ class _Scene:
         """Keep what an answer holds, at the present instant."""
         at, seen = round(self.at / SECOND, 6), self.seen
         self._take(self.probe.answer_of(said))
-        for topic, values in said.get("messages", ()):
+        for topic, values, before in said.get("messages", ()):
             if len(seen.messages) < MOST_MESSAGES:
-                seen.messages.append(Message(str(topic), at, values))
+                # one that was sent before the clock's first instant can arrive after it, under load
+                sent = min(at, MILLISECOND / SECOND) if before else at
+                seen.messages.append(Message(str(topic), sent, values))
         for topic, count in said.get("counts", {}).items():
             seen.counts[topic] = seen.counts.get(topic, 0) + int(count)
         for name, reply in said.get("replies", ()):

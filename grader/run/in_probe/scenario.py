@@ -30,7 +30,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from grader.run.in_probe.goals import Goals
 from grader.run.in_probe.graph import ends_of_others
-from grader.run.in_probe.messages import Values, fill, interface, taken_from
+from grader.run.in_probe.messages import Values, fill, interface, taken_from, taken_with_info
 from grader.run.in_probe.parameters import read_parameters, set_parameters
 
 SECOND = 1_000_000_000
@@ -82,6 +82,7 @@ class Scenario:
         self.echo = ""  # a topic that had a message for each step of the world at the last instant
         self.asked = False  # whether nodes have clients, which may ask the world
         self.at = 0  # ns, the instant that the clock shows
+        self.began = 0  # ns of wall time, when the clock showed its first instant
         self.world: Any = None
         self.messages: list[list[Any]] = []
         self.counts: dict[str, int] = {}
@@ -141,18 +142,23 @@ class Scenario:
                 subscriptions.append(best)
 
     def take(self) -> dict[str, int]:
-        """Take the messages that have arrived; return how many there were of each topic."""
+        """Take the messages that have arrived; return how many of each topic the clock has caused.
+
+        A message that was sent before the clock began, and comes late, is not among these.
+        """
         found = {}
         for topic, subscriptions in self.watched.items():
-            count = 0
+            count = early = 0
             for subscription in subscriptions:
-                for message in taken_from(subscription, DEPTH - count):
+                for message, info in taken_with_info(subscription, DEPTH - count):
                     count += 1
+                    before = 0 < info["source_timestamp"] < self.began
+                    early += before
                     if count <= MOST_MESSAGES:
-                        self.messages.append([topic, Values().of(message)])
+                        self.messages.append([topic, Values().of(message), before])
             if count:
                 self.counts[topic] = self.counts.get(topic, 0) + count
-            found[topic] = count
+            found[topic] = count - early
         self.goals.take_feedback()
         return found
 
@@ -226,6 +232,7 @@ class Scenario:
 
     def tick(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
         """Move the world and the clock to an instant."""
+        self.began = self.began or time.time_ns()
         self.at = at = command["at"]
         steps = 0
         if self.world is not None:
