@@ -568,6 +568,7 @@ FORMS = (
         ),
         {
             **OTHER_NAME,
+            "name": "node.in_namespace",
             "beat.qos": "topic.wrong_qos",
             "beat.values": "topic.wrong_value",
             "beat.period": "topic.wrong_period",

@@ -463,6 +463,32 @@ def _number(raised: Raised, attribute: str) -> tuple[str, str, str] | None:
     return module.text.code(read), value, name
 
 
+ENDS = (
+    *("cleanup", "clean_up", "close", "delete", "dispose", "end", "exit", "finalize", "kill"),
+    *("quit", "release", "shutdown", "stop", "terminate"),
+)
+BEGINS = ("begin", "execute", "loop", "run", "run_forever", "start")
+
+
+def _other_word(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Main ends or runs the node by a word of another library."""
+    name, source = match["name"], raised.source
+    if match["type"] not in source.known_classes or name in source.methods:
+        return None
+    spins = any(called.rpartition(".")[2].startswith("spin") for _, called in source.calls)
+    rclpy = next((bound for bound, full, _ in imports(raised.module) if full == "rclpy"), "rclpy")
+    for call, called in source.calls:
+        before, _, method = called.rpartition(".")
+        if method != name or before not in source.node_variables or call.args or call.keywords:
+            continue
+        if name in BEGINS and spins:
+            return None
+        written = f"{rclpy}.spin({before})" if name in BEGINS else f"{before}.destroy_node()"
+        found = raised.finding("attribute_unknown", at=call, name=f"{called}()", written=written)
+        return replace(found, variant="written")
+    return None
+
+
 def _of_rclpy(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A function of rclpy is called on the node, or __init__ on super() by half its name."""
     name = match["name"]
@@ -472,6 +498,8 @@ def _of_rclpy(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
             "attribute_unknown", name=code[1] if code else name, written="__init__"
         )
         return replace(found, variant="written")
+    if name in ENDS or name in BEGINS:
+        return _other_word(raised, match)
     if match["type"] not in raised.source.known_classes or name not in ("spin", "spin_once"):
         return None
     rclpy = next((bound for bound, full, _ in imports(raised.module) if full == "rclpy"), "rclpy")

@@ -63,6 +63,10 @@ REFUSED = msg(
 WRITE = msg("Write '{wanted}', then build again.")
 OTHERS = {
     "other": msg("Fix or delete this entry: '{entry}'"),
+    "unnamed": msg(
+        "This entry has no name. Write a name for its executable, and =, before it, such as: '{whole}', "
+        "then build again."
+    ),
     "no_f": msg(
         "Python replaces the names in {{ }} only in a string with an f before it. Write: f'{entry}', "
         "then build again."
@@ -196,7 +200,23 @@ KINDS = (
             ),
         ),
     ),
-    _stops("no_equals", msg("the '=' between the name and the module is missing")),
+    _stops(
+        "no_equals",
+        msg("the '=' between the name and the module is missing"),
+        examples=(
+            example(
+                "second_entry_without_its_name",
+                Write("my_robot_controller/second.py", "def main():\n    pass\n"),
+                Replace(
+                    SETUP,
+                    "first_node:main',\n",
+                    "first_node:main',\n            'my_robot_controller.second:main',\n",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNBUILT,
+            ),
+        ),
+    ),
     _stops("no_name", msg("the name before the '=' is missing")),
     _stops("no_target", msg("there is nothing after the '='")),
     _stops("two_equals", msg("there is more than one '='")),
@@ -539,6 +559,9 @@ KINDS = (
                 "Write in setup() instead of the entry_points that is there, then build again: "
                 "entry_points={{'console_scripts': ['{wanted}']}},"
             ),
+            "header": msg(
+                "Write the line [console_scripts] above this line, in the same text. Then build again."
+            ),
             "group": msg(
                 "Add to the dict entry_points, then build again: 'console_scripts': ['{wanted}'],"
             ),
@@ -566,6 +589,18 @@ KINDS = (
                 "entry_missing",
                 Replace(
                     SETUP, "            'test_node = my_robot_controller.my_first_node:main',\n", ""
+                ),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "text_of_entry_points_without_its_header",
+                Replace(SETUP, "entry_points={", "entry_points='''"),
+                Replace(SETUP, "        'console_scripts': [\n", ""),
+                Replace(
+                    SETUP,
+                    "            'test_node = my_robot_controller.my_first_node:main',\n        ],\n    },",
+                    "        test_node = my_robot_controller.my_first_node:main\n    ''',",
                 ),
                 fails="entry_point.mapping",
                 blocks=UNINSTALLED,
@@ -757,7 +792,29 @@ KINDS = (
             ),
         ),
     ),
-    _raises("other_module", msg("it leads to a different module")),
+    _raises(
+        "other_module",
+        msg("it leads to a different module"),
+        {
+            "swapped": msg(
+                "Line {at} has the module that belongs here. If the two are exchanged, write here: "
+                "'{wanted}', and in line {at}: '{other}'. Then build again."
+            )
+        },
+        examples=(
+            example(
+                "modules_of_two_entries_exchanged",
+                Write("my_robot_controller/second.py", "def main():\n    pass\n"),
+                Replace(
+                    SETUP,
+                    "'test_node = my_robot_controller.my_first_node:main',\n",
+                    "'test_node = my_robot_controller.second:main',\n"
+                    "            'second = my_robot_controller.my_first_node:main',\n",
+                ),
+                fails="entry_point.mapping",
+            ),
+        ),
+    ),
     _raises(
         "misspelt_module",
         msg("there is no module with that name"),

@@ -495,6 +495,10 @@ KINDS = (
                 "writes format 3."
             ),
             "tag": msg("Write <{wanted}> instead of <{tag}>, and the same in its end tag."),
+            "container": msg(
+                "Delete <{tag}> and </{tag}>, and keep what is between them: package.xml has no such "
+                "tag, and its lines are directly in <package>."
+            ),
             "unknown_tag": msg("Delete <{tag}> and what it contains: package.xml has no such tag."),
             "child": msg(
                 "Move <{found}> below </{tag}>: each of the two has a line of its own, and <{tag}> "
@@ -557,6 +561,16 @@ KINDS = (
             example(
                 "run_depend_of_ros_1",
                 Replace(MANIFEST, "<depend>rclpy</depend>", "<run_depend>rclpy</run_depend>"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "dependencies_in_a_tag_of_their_own",
+                Replace(
+                    MANIFEST,
+                    "  <depend>rclpy</depend>",
+                    "  <dependencies>\n    <depend>rclpy</depend>\n  </dependencies>",
+                ),
                 fails="package.manifest",
                 blocks=UNBUILT,
             ),

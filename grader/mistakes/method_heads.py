@@ -215,7 +215,8 @@ def _gives_nothing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
             enters = [m for m in _methods(raised.source, owner) if owner and m.name == ENTER]
             if len(enters) == 1 and not _returns(enters[0]):
                 found = raised.finding("with_method", at=enters[0], name=name)
-                return replace(found, variant="nothing")
+                own = owner in raised.source.class_names
+                return replace(found, variant="nothing_self" if own else "nothing")
     return None
 
 
@@ -266,6 +267,10 @@ def _without_decorator(case: Case) -> Files | None:
     return case.changed(module, module.text.without(line))
 
 
+NO_RETURN = msg(
+    "The name behind as gets what __enter__ returns. This __enter__ has no return with a value, so "
+    "{name} is None."
+)
 _node = Family("node", links.PYTHON_CLASSES)
 KINDS = (
     _node(
@@ -333,10 +338,7 @@ KINDS = (
                 "At the start of its block, with (line {line}) calls __enter__, and Python passes the "
                 "object. The def in this line does not fit that."
             ),
-            "nothing": msg(
-                "The name behind as gets what __enter__ returns. This __enter__ has no return with a "
-                "value, so {name} is None."
-            ),
+            **dict.fromkeys(("nothing", "nothing_self"), NO_RETURN),
         },
         fixes={
             "missing": msg(
@@ -349,6 +351,7 @@ KINDS = (
                 "Write, as the last line of __enter__, return and the object that {name} is to be in "
                 "the block of the with."
             ),
+            "nothing_self": msg("Write, as the last line of __enter__: return self"),
         },
         raised={
             NOT_FOR_WITH: on_line(_misspelt),
@@ -370,6 +373,22 @@ KINDS = (
                 *WITH_RUNNER,
                 Replace(NODE, "__exit__(self, kind, value, trace)", "__exit__(self)"),
                 fails="run.interrupt",
+            ),
+            example(
+                "enter_of_the_node_returns_nothing",
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def __enter__(self):\n        self.counter_ = 0\n\n"
+                    "    def __exit__(self, *error):\n        return error[0] is KeyboardInterrupt\n\n"
+                    "    def timer_callback",
+                ),
+                Replace(
+                    NODE,
+                    BODY_OF_MAIN,
+                    "    rclpy.init(args=args)\n    with MyFirstNode() as node:\n        rclpy.spin(node)\n",
+                ),
+                fails="run.starts",
             ),
             example(
                 "enter_of_with_returns_nothing",

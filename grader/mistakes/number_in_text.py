@@ -520,10 +520,16 @@ def _in_text(suspect: Suspect) -> RecognisedMistake | None:
         return None
     place = _place_of_text(suspect)
     row = suspect.source.module_at(place.file).line(place.line)
-    if f"{{{counter}}}" in suspect.text and f"{{{{{counter}}}}}" not in row:
+    spaced = re.search(rf"\{{\s*{re.escape(counter)}\s*\}}", suspect.text)
+    if spaced is not None and not _is_doubled(counter, row):
         return None
     found = suspect.finding("counter_in_text", place, name=counter)
     return _in_f_string(found, counter, row)
+
+
+def _is_doubled(counter: str, row: str) -> bool:
+    """Whether two braces are around the counter, with or without blanks."""
+    return re.search(rf"\{{\{{\s*{re.escape(counter)}\s*\}}\}}", row) is not None
 
 
 def _in_f_string(found: RecognisedMistake, counter: str, row: str) -> RecognisedMistake:
@@ -532,7 +538,7 @@ def _in_f_string(found: RecognisedMistake, counter: str, row: str) -> Recognised
     if equals is not None:
         words = {**found.words, "found": equals[0], "written": f"{{{counter}}}"}
         return replace(found, words=words, variant="equals")
-    if f"{{{{{counter}}}}}" in row:
+    if _is_doubled(counter, row):
         return replace(found, variant="doubled")
     if "f'" not in row and 'f"' not in row:
         return found
@@ -652,6 +658,15 @@ KINDS = (
                     NODE,
                     "'Hello time: ' + str(self.counter_)",
                     "f'Hello time: {{self.counter_}}'",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "braces_doubled_with_blanks",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "f'Hello time: {{ self.counter_ }}'",
                 ),
                 fails="run.output",
             ),

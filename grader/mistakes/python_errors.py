@@ -90,7 +90,19 @@ def _none_length(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
     """len() gets None: a method that changes a list gives back None, which takes its place."""
     del match
     given = [dotted(n.args[0]) for n in _on_line(raised) if isinstance(n, ast.Call) and n.args]
-    for node in raised.source.own_nodes:
+    return _changed_list(raised, given)
+
+
+def _none_iterated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A for, or square brackets, get None: a method that changes a list has given it back."""
+    parts = [getattr(n, "iter", getattr(n, "value", None)) for n in _on_line(raised)]
+    given = [dotted(part) for part in parts if isinstance(part, ast.Name | ast.Attribute)]
+    return _changed_list(raised, given) or _none_operand(raised, match)
+
+
+def _changed_list(raised: Raised, given: list[str]) -> RecognisedMistake | None:
+    """Return the line that puts what a method such as append returns into one of the names."""
+    for node in raised.source.all_nodes:
         value = node.value if isinstance(node, ast.Assign) else None
         if not isinstance(node, ast.Assign) or not isinstance(value, ast.Call):
             continue
@@ -359,7 +371,7 @@ KINDS = (
             rf"not supported between instances of {NONE_IN}": on_line(_none_operand),
             r"can only concatenate str \(not \"NoneType\"\)": on_line(_none_operand),
             r"object of type 'NoneType' has no len\(\)": on_line(_none_length),
-            r"'NoneType' object is not (?:subscriptable|iterable)": on_line(_none_operand),
+            r"'NoneType' object is not (?:subscriptable|iterable)": on_line(_none_iterated),
         },
         fixed_by=(lines.written,),
         examples=(
@@ -370,6 +382,15 @@ KINDS = (
                 Replace(NODE, "self.counter_ += 1", "self.counter_ = self.counter_.append(1)"),
                 fails="run.output",
                 blocks=("run.period", "run.interrupt"),
+            ),
+            example(
+                "names_are_what_append_returns",
+                Replace(
+                    NODE,
+                    "node = MyFirstNode()\n",
+                    "nodes = []\n    nodes = nodes.append(MyFirstNode())\n    node = nodes[0]\n",
+                ),
+                fails="run.starts",
             ),
             example(
                 "logger_set_in_uncalled_method",

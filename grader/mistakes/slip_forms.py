@@ -229,6 +229,11 @@ FORMS = {
         ":= assigns only to a plain name, without a dot or brackets. Write the assignment with = on "
         "the line above, and only the name here."
     ),
+    "walrus_in_lambda": msg(
+        ":= assigns only to a plain name, without a dot or brackets, and a lambda can hold no line with "
+        "=. Write a method with this assignment, with =, and with what else the lambda does, each on a "
+        "line of its own. Then write the method without () instead of the lambda."
+    ),
     "backslash_alone": msg(
         "Outside of quotes, a backslash means that the statement goes on in the next line, so nothing "
         "may be behind it. Delete the backslash; or, if it is part of a text, write the text in quotes."

@@ -125,6 +125,14 @@ KINDS = (
         fixed_by=(node_values.number,),
         examples=(
             example(
+                "counter_is_a_text_and_a_sum",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = '0'"),
+                Replace(NODE, "str(self.counter_)", "self.counter_"),
+                Replace(NODE, "self.counter_ += 1", "self.counter_ = self.counter_ + '1'"),
+                fails="run.output",
+                blocks=("run.period",),
+            ),
+            example(
                 "counter_grows_as_text",
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = '0'"),
                 Replace(NODE, "str(self.counter_)", "self.counter_"),

@@ -247,6 +247,10 @@ def _rule_change(places: _Places, fault: RuleFault, case: Case) -> tuple[int, in
     tag, head = tags[0], _head_end(found, tags[0].start)
     if fault.variant in ("twice", "redundant", "itself", "unknown_tag", "second_empty"):
         return _whole_line(found, tag)
+    if fault.variant == "container" and tag.inside[0] >= 0:
+        indent = _indent(found, tag.start)
+        kept = re.sub(rb"(?m)^[ \t]+", indent, found[slice(*tag.inside)].strip())
+        return tag.start, tag.end, kept
     if fault.variant == "export_twice":
         empty = tag.inside[0] < 0 or not found[slice(*tag.inside)].strip()
         return _whole_line(found, tag) if empty else None

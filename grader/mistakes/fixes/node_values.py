@@ -26,6 +26,21 @@ def appended(module: Module, name: str) -> list[ast.Constant]:
     return [v for v in values if isinstance(v, ast.Constant) and number_in(v)]
 
 
+def counted_up(module: Module, name: str) -> list[tuple[ast.BinOp, ast.Constant]]:
+    """Return the numbers in quotes that `name = name + …` appends to a name, with the sums."""
+    found = []
+    for node in module.nodes:
+        value = node.value if isinstance(node, ast.Assign) else None
+        if not isinstance(node, ast.Assign) or not isinstance(value, ast.BinOp):
+            continue
+        number = value.right
+        own = [dotted(target) for target in node.targets] == [name] == [dotted(value.left)]
+        plus = isinstance(value.op, ast.Add)
+        if own and plus and isinstance(number, ast.Constant) and number_in(number):
+            found.append((value, number))
+    return found
+
+
 def joined(module: Module, name: str) -> list[ast.expr]:
     """Return the uses of a name that `+` joins to a text, without str()."""
     found: list[ast.expr] = []
@@ -58,10 +73,14 @@ def number(case: Case) -> Files | None:
         return None
     module = node.module_of(start)
     text = module.text
+    sums = counted_up(module, name)
+    inside = [total.left for total, _ in sums]
+    numbers = (start, *appended(module, name), *(number for _, number in sums))
+    uses = [use for use in joined(module, name) if use not in inside]
     return case.changed(
         module,
-        *(text.swap(value, number_in(value)) for value in (start, *appended(module, name))),
-        *(text.swap(use, f"str({text.code(use)})") for use in joined(module, name)),
+        *(text.swap(value, number_in(value)) for value in numbers),
+        *(text.swap(use, f"str({text.code(use)})") for use in uses),
     )
 
 

@@ -141,9 +141,11 @@ def _tags(manifest: Manifest, match: re.Match[str]) -> RuleFault | None:
     close = (
         "exec_depend" if element.tag == "run_depend" else nearest(element.tag, TAGS, cutoff=0.75)
     )
+    inside = [e.tag for e in manifest.elements if e.within == element.tag]
+    holds = bool(inside) and all(tag in TAGS for tag in inside)
     return RuleFault(
-        "tag" if close else "unknown_tag", element.line, element.tag, found=element.tag,
-        wanted=close,
+        "container" if holds else "tag" if close else "unknown_tag", element.line, element.tag,
+        found=element.tag, wanted=close,
     )  # fmt: skip
 
 

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.change import Change, Wanted, additions, of_piece
+from grader.package.source.change_fallbacks import FALLBACK_SORTS
 from grader.package.source.change_sorts import MORE_SORTS
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function, Module
@@ -461,4 +462,5 @@ SORTS: dict[str, Callable[[Module, Wanted, Sequence[str]], Iterator[Change]]] = 
     "next": _next_once,
     "next_line": _next_lines,
     **MORE_SORTS,
+    **FALLBACK_SORTS,
 }

@@ -429,10 +429,17 @@ STATEMENT_LOOKS: tuple[Look, ...] = (
 )  # fmt: skip
 
 
+def _walrus(text: Broken) -> Slip | None:
+    """Return := behind an attribute or brackets; in a lambda no other line can hold it."""
+    in_lambda = re.search(r"\blambda\b.*:=", text.line) is not None
+    said = "cannot use assignment expressions with"
+    return _says(said, "walrus_in_lambda" if in_lambda else "walrus_place")(text)
+
+
 MESSAGE_LOOKS: tuple[Look, ...] = (
     _says(r"Missing parentheses in call to '(\w+)'", "call_of_word"),
     _says(r"cannot contain assignment", "call_assigns"),
-    _says(r"cannot use assignment expressions with", "walrus_place"),
+    _walrus,
     _says(r"':' expected after dictionary key", "key_alone"),
     _says(r"expression expected after dictionary key", "value_missing"),
     _says(r"unexpected character after line continuation", "backslash_alone"),

@@ -214,6 +214,12 @@ COMMENTS = (
     _rule("comment", r"//", "#", certain=False),
     _rule("comment", r"/\*(?P<text>.*)\*/[ \t]*$", r"#\g<text>", certain=False),
     _rule("comment", r"^[ \t]*/\*", None),
+    _rule(
+        "comment",
+        r"(?P<start>[ \t]);[ \t]*(?=[A-Za-z]+[ \t]+[A-Za-z])",
+        r"\g<start># ",
+        certain=False,
+    ),
     _rule("comment", r"^(?P<start>[ \t]*)--[ \t]*(?=\w)", r"\g<start># ", certain=False),
     _rule(
         "comment",

@@ -88,6 +88,14 @@ def broken(evidence: Evidence, entry: Entry, *, is_other: bool) -> Failed:
     variant = "" if is_wanted else "other"
     if mistake == "setup.bad_entry" and NAME_IN_BRACES.search(entry.text):
         variant = "no_f"
+    target = re.fullmatch(r"[\w.]+\.(\w+):\w+", entry.text.strip())
+    if mistake == "setup.no_equals" and not is_wanted and target is not None:
+        whole = f"{target[1]} = {entry.text.strip()}"
+        because = say("the name of the executable and '=' are missing")
+        return _failed(
+            evidence, entry, mistake, because, variant="unnamed", meant_to_be=whole,
+            words={"whole": shown(whole)},
+        )  # fmt: skip
     return _failed(evidence, entry, mistake, variant=variant)
 
 
@@ -220,6 +228,9 @@ def _no_entry(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed
         line = _line_of_argument(setup, close)
     elif (entry := _elsewhere(evidence)) is not None:
         return _misplaced(evidence, entry)
+    elif not points.groups and (row := _without_header(setup, wanted)):
+        line, variant = row, "header"
+        actual = say("the text in entry_points has no line [console_scripts]")
     elif not points.groups and setup.argument("entry_points") is not None:
         variant, actual = "empty", say("entry_points is empty")
     elif not points.groups:
@@ -238,6 +249,15 @@ def _no_entry(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed
         params={"argument": shown(close)} if close else {},
         words={"wanted": wanted_entry(evidence)},
     )
+
+
+def _without_header(setup: SetupPy, wanted: str) -> int:
+    """Return the line of the entry in a text for entry_points without headers; 0 if it has none."""
+    given = setup.argument("entry_points")
+    rows = given.value.splitlines() if isinstance(given, Text) else []
+    begins = re.compile(rf"\s*{re.escape(wanted)}\s*=")
+    found = [n for n, row in enumerate(rows) if begins.match(row)]
+    return given.line + found[0] if len(found) == 1 and isinstance(given, Text) else 0
 
 
 def _has_no_points(setup: SetupPy) -> bool:
@@ -294,8 +314,8 @@ def _misplaced(evidence: Evidence, entry: Misplaced) -> Failed:
     )
 
 
-def other_target(evidence: Evidence, entry: Entry) -> Failed:
-    """Return which part of the target is wrong."""
+def other_target(evidence: Evidence, entry: Entry, entries: list[Entry]) -> Failed:
+    """Return which part of the target is wrong; `entries` are all that console_scripts has."""
     target = "".join(entry.target.split())
     mistake, because = _part(evidence, target)
     wanted = evidence.assignment
@@ -306,6 +326,11 @@ def other_target(evidence: Evidence, entry: Entry) -> Failed:
     calls = calls_of_method(data, target.partition(":")[2]) if in_class else []
     places = {"at": str(calls[0][0]), "code": shown(calls[0][1])} if len(calls) == 1 else {}
     variant = "in_class_called" if places else "in_class" if in_class else ""
+    there = [e for e in entries if "".join(e.target.split()) == wanted.target]
+    swapped = mistake == "setup.other_module" and len(there) == 1
+    if swapped:
+        variant = "swapped"
+        places = {"other": shown(f"{there[0].name} = {target}"), "at": str(there[0].line)}
     return _failed(
         evidence,
         entry,

@@ -69,7 +69,7 @@ def mapping_from_source(evidence: Evidence) -> Passed | None:
     if "".join(entry.target.split()) != assignment.target:
         if _comes_from_name(evidence, setup, entry.target):
             raise Blocked(by="package.manifest")
-        raise entry_faults.other_target(evidence, entry)
+        raise entry_faults.other_target(evidence, entry, entries)
     text = shown(f"{entry.name} = {entry.target}")
     said = say("{file}, line {line}: {entry}", file=entry.file, line=entry.line, entry=text)
     return Passed(actual=said, advice=_advice(evidence))
