@@ -167,6 +167,13 @@ def _no_items(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """Items are needed: by += if what it adds to is a list."""
     statement = statement_at(raised.module, raised.line)
     found = _told("types_do_not_fit", "each")(raised, match)
+    sums = [n for n in _on_line(raised) if isinstance(n, ast.Call) and dotted(n.func) == "sum"]
+    code = raised.module.text.code(sums[0]) if len(sums) == 1 else ""
+    if found is not None and code and "\n" not in code and len(code) <= MOST_CODE:
+        values = " + ".join(raised.module.text.code(part) for part in sums[0].args)
+        words = {**found.words, "name": code, "written": values}
+        two = len(sums[0].args) == 2
+        return replace(found, words=words, variant="sum_of_two" if two else "sum")
     if found is None or not isinstance(statement, ast.AugAssign):
         return found
     name = raised.module.text.code(statement.target)
@@ -321,6 +328,10 @@ def _has_value(function: Function) -> bool:
 
 
 NONE_IN = r"(?:'NoneType' and '\w{1,60}'|'\w{1,60}' and 'NoneType')"
+SUM = msg(
+    "sum() adds up the items of one value, such as a list. The value that it gets first has the type "
+    "{first}, which has no items."
+)
 ROUND = msg("A call is written with (), not with []: replace the square brackets.")
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
@@ -416,6 +427,8 @@ KINDS = (
                 "{name} has items on this line, as a list has. += adds the items of another list to it, and the type "
                 "{first} has no items."
             ),
+            "sum": SUM,
+            "sum_of_two": SUM,
             "set": msg("name[…] = … sets one item. The items of the type {first} cannot be set."),
             "join": msg("join() puts texts together. One item of this list has the type {first}."),
             "sign": msg(
@@ -433,6 +446,11 @@ KINDS = (
                 "Find out which value on this line has the type {first}, and which line gives it. To repeat "
                 "something n times, write range(n)."
             ),
+            "sum": msg(
+                "Find out which value sum() gets here, and which line gives it. Numbers are added with + "
+                "between them."
+            ),
+            "sum_of_two": msg("To add two numbers, write {written} instead of {name}."),
             "set": msg("Make a new value instead, or use a list."),
             "join": msg("Convert each item to a text first: str(…)."),
             "added": msg(
@@ -491,6 +509,12 @@ KINDS = (
             example(
                 "comma_behind_the_step",
                 Replace(NODE, "self.counter_ += 1", "self.counter_ += 1,"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+            example(
+                "sum_of_two_numbers",
+                Replace(NODE, "self.counter_ += 1", "self.counter_ = sum(self.counter_, 1)"),
                 fails="run.output",
                 blocks=("run.interrupt",),
             ),
