@@ -172,7 +172,12 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.abstract_method": {"name": "on_tick", "function": "MyNode"},
     "node.await_of_other": {"first": "bool"},
-    "node.text_and_values": {"first": "str"},
+    "node.text_and_values": {
+        "first": "str",
+        "name": "TEXT % self.counter",
+        "written": "TEXT.format(self.counter)",
+        "place": "{}",
+    },
     "node.no_such_item": {"name": "'count'"},
     "node.no_such_file": {"name": "'config.json'"},
     "node.not_for_with": {"first": "MyNode"},
@@ -392,6 +397,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "type": "Ticks",
         "written": "Ticks.counter",
     },
+    "node.digits_joined": {"name": "self.counter", "value": "self.step"},
     "node.argument_frozen": {
         "name": "lambda n=self.counter: self.show(n)",
         "written": "lambda: self.show(self.counter)",

@@ -12,10 +12,12 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
+from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, LOG, LOG_LINE, NODE, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
+from grader.mistakes.format_fields import text_of
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromError, Raised, RecognisedMistake, always, on_line
 from grader.package.edit.files import Files
@@ -159,8 +161,33 @@ def _too_many_values(raised: Raised, match: re.Match[str]) -> RecognisedMistake 
         n.left for n in _on_line(raised) if isinstance(n, ast.BinOp) and isinstance(n.op, ast.Mod)
     ]
     left += [n.target for n in _on_line(raised) if isinstance(n, ast.AugAssign)]
+    braces = _for_format(raised)
+    if braces is not None:
+        return braces
     written = any(isinstance(n, ast.Constant | ast.JoinedStr) for n in left)
     return _told("text_and_values", "" if written else "left")(raised, match)
+
+
+def _for_format(raised: Raised) -> RecognisedMistake | None:
+    """The only % of the line gets a text with places for format(): {}."""
+    found = [n for n in _on_line(raised) if isinstance(n, ast.BinOp) and isinstance(n.op, ast.Mod)]
+    if len(found) != 1 or isinstance(found[0].right, ast.Tuple | ast.Dict):
+        return None
+    value: ast.expr | None = found[0].left
+    if dotted(found[0].left):
+        value = text_of(raised, found[0].left)
+    text = value.value if isinstance(value, ast.Constant) else None
+    if not isinstance(text, str) or "%" in text or len(re.findall(r"\{[:\w]{0,20}\}", text)) != 1:
+        return None
+    code = raised.module.text.code
+    name, place = code(found[0]), re.search(r"\{[:\w]{0,20}\}", text)
+    field = re.match(r"\{([A-Za-z_]\w*)", place[0]) if place is not None else None
+    given = f"{field[1]}={code(found[0].right)}" if field else code(found[0].right)
+    written = f"{code(found[0].left)}.format({given})"
+    if place is None or "\n" in name or len(name) > MOST_CODE:
+        return None
+    mistake = raised.finding("text_and_values", at=found[0], name=name, written=written)
+    return replace(mistake, words={**mistake.words, "place": shown(place[0])}, variant="braces")
 
 
 def _no_items(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -234,6 +261,8 @@ def _values_outside(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
 
 def _values_inside(case: Case) -> Files | None:
     """Write the values behind % in brackets."""
+    if "written" in case.finding.params:
+        return lines.written(case)
     params = {**case.finding.params, "written": case.finding.params.get("text", "")}
     return lines.written(replace(case, finding=replace(case.finding, params=params)))
 
@@ -644,6 +673,10 @@ KINDS = (
             "type": msg(
                 "The place %d in a text needs a number, and gets a value of the type {first}."
             ),
+            "braces": msg(
+                "The text before % has the place {place}. format() fills it, and % does not: % fills places "
+                "such as %d."
+            ),
             "left": msg(
                 "The value before % is a text on this line. Then % puts values into the places of the text, "
                 "such as %d, and this text has fewer places than there are values. Between two numbers, % "
@@ -652,6 +685,7 @@ KINDS = (
         },
         fixes={
             "outside": msg("Write {text} instead of {name}."),
+            "braces": msg("Write {written} instead of {name}."),
             "type": msg("Write %s in the text, or give it a number."),
             "left": msg(
                 "If you want the remainder, find the line that gives the value before %, and make it a "
@@ -674,6 +708,15 @@ KINDS = (
                     "'Hello time: ' + str(self.counter_)",
                     "'%s: %d' % 'Hello time', self.counter_",
                 ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "braces_before_percent",
+                Replace(
+                    NODE, "class MyFirstNode", "TEXT = 'Hello time: {}'\n\n\nclass MyFirstNode"
+                ),
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "TEXT % self.counter_"),
                 fails="run.output",
                 blocks=DEAD,
             ),
