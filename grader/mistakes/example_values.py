@@ -410,6 +410,12 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "written": "self.numbers()",
         "line": 14,
     },
+    "node.object_added": {
+        "name": "Words.HELLO",
+        "written": "Words.HELLO.value",
+        "type": "Words",
+        "line": 8,
+    },
     "node.sum_not_returned": {"name": "__iadd__", "type": "Ticks"},
     "node.post_init_name": {
         "name": "__postinit__",

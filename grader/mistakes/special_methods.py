@@ -35,6 +35,9 @@ def _no_iterator(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
     if not code or not dotted(calls[0].args[0]) or len(code) > MOST_CODE:
         return None
     if kind not in NOT_CALLED:
+        precise = _named_next(raised, kind) or _made_once(raised, calls[0].args[0])
+        if precise is not None:
+            return precise
         own = [c for module in raised.source.modules for c in module.classes if c.name == kind]
         found = raised.finding("not_an_iterator", at=own[0] if own else None, name=code)
         words = {**found.words, "type": kind, "line": str(raised.line)}
@@ -54,11 +57,69 @@ def _no_iterator(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
     return replace(found, words={**found.words, "function": known[0].name}, variant="kept")
 
 
+def _named_next(raised: Raised, kind: str) -> RecognisedMistake | None:
+    """The class has the method next, as Python 2 wants it, and nothing calls it by this name."""
+    methods = [
+        s
+        for module in raised.source.modules
+        for own in module.classes
+        for s in own.body
+        if own.name == kind and isinstance(s, ast.FunctionDef) and s.name == "next"
+    ]
+    called = any(name.endswith(".next") for _, name in raised.source.calls)
+    if len(methods) != 1 or called:
+        return None
+    found = raised.finding("not_an_iterator", at=methods[0], name="next", written="__next__")
+    return replace(found, words={**found.words, "type": kind}, variant="renamed")
+
+
+def _made_once(raised: Raised, given: ast.expr) -> RecognisedMistake | None:
+    """The only value of the name is a range or a list, and it is made before the callbacks."""
+    values = node_words.values_of(raised.source, given)
+    value = values[0] if len(values) == 1 else None
+    known = isinstance(value, ast.List | ast.Tuple) or (
+        isinstance(value, ast.Call) and dotted(value.func) in ("range", "list", "tuple")
+    )
+    around = raised.source.function_around(value) if value is not None else None
+    if value is None or not known or (around is not None and around.name != "__init__"):
+        return None
+    code = raised.source.module_of(value).text.code(value)
+    if "\n" in code or len(code) > MOST_CODE:
+        return None
+    found = raised.finding("not_an_iterator", at=value, name=code, written=f"iter({code})")
+    kind = "list" if isinstance(value, ast.List) else "tuple"
+    words = {"type": dotted(value.func) if isinstance(value, ast.Call) else kind}
+    return replace(found, words={**found.words, **words}, variant="items")
+
+
 def _is_generator(function: Function) -> bool:
     """Whether a function has a yield, and can be called with nothing in the ()."""
     needed = [a.arg for a in function.args.args if a.arg != "self"]
     gives = any(isinstance(n, ast.Yield) for n in ast.walk(function))
     return gives and len(needed) == len(function.args.defaults)
+
+
+def _object_added(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """One side of + or += is an object of a class of the files, such as a member of an Enum."""
+    given = [name for name in match.groupdict("").values() if name]
+    classes = [c for m in raised.source.modules for c in m.classes if c.name in given]
+    if len(classes) != 1:
+        return None
+    own = classes[0]
+    found = raised.finding("object_added")
+    words = {**found.words, "type": own.name, "line": str(own.lineno)}
+    if not any(last_part(dotted(base)).endswith("Enum") for base in own.bases):
+        return replace(found, words=words)
+    statement = statement_at(raised.module, raised.line)
+    members = [
+        dotted(n)
+        for n in (ast.walk(statement) if statement is not None else ())
+        if isinstance(n, ast.Attribute) and dotted(n.value) == own.name
+    ]
+    if len(members) != 1:
+        return replace(found, words=words, variant="enum")
+    found = raised.finding("object_added", name=members[0], written=f"{members[0]}.value")
+    return replace(found, words={**found.words, "type": own.name}, variant="member")
 
 
 def _sum_lost(suspect: Suspect) -> RecognisedMistake | None:
@@ -124,6 +185,9 @@ STATE = (
     "@dataclass\nclass State:\n    count: int = field(init=False)\n\n"
     "    def __postinit__(self):\n        self.count = 0\n\n\nclass MyFirstNode"
 )
+ENUM = msg(
+    "{type} is an Enum. A member of it is an object with a name and a value: .value is the value."
+)
 _node = Family("node", links.PYTHON_CLASSES)
 KINDS = (
     _node(
@@ -137,6 +201,14 @@ KINDS = (
         ),
         links.PYTHON_ERRORS,
         whys={
+            "items": msg(
+                "next() takes the next item of an iterator. The type {type} has items, but is no iterator: "
+                "iter(…) makes one of it."
+            ),
+            "renamed": msg(
+                "next() calls the method __next__ of an object. The class {type} has only next, which is the "
+                "name of this method in Python 2."
+            ),
             "own": msg(
                 "next() calls the method __next__ of an object. The class {type} has no such method."
             ),
@@ -156,6 +228,8 @@ KINDS = (
                 "call begins again."
             ),
             "kept": msg("Write {written} instead of {name} in this line."),
+            "items": msg("Write {written} instead of {name} in this line."),
+            "renamed": msg("Write {written} instead of {name} in this line."),
             "own": msg(
                 "Line {line} calls next({name}). Write in this class a method def __next__(self): that "
                 "returns the next number."
@@ -174,10 +248,65 @@ KINDS = (
                 blocks=DEAD,
             ),
             example(
+                "next_of_python_2",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class Ticks:\n    def __init__(self):\n        self.value = -1\n\n"
+                    "    def next(self):\n        self.value += 1\n        return self.value\n\n\n"
+                    "class MyFirstNode",
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = Ticks()"),
+                Replace(NODE, "str(self.counter_)", "str(next(self.counter_))"),
+                Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
                 "next_of_a_range",
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = range(1000)"),
                 Replace(NODE, "str(self.counter_)", "str(next(self.counter_))"),
                 Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "object_added",
+        "callback",
+        msg("An object of a class is used with + like a text or a number"),
+        msg(
+            "One side of + is an object of the class {type} (line {line}), and this class has no method for +."
+        ),
+        msg(
+            "Write the text or the number that is meant, instead of the object: one of its attributes, or what "
+            "one of its methods returns."
+        ),
+        links.PYTHON_CLASSES,
+        whys={
+            "enum": ENUM,
+            "member": ENUM,
+        },
+        fixes={
+            "enum": msg("Write .value behind the member of {type}."),
+            "member": msg("Write {written} instead of {name}."),
+        },
+        raised={
+            r"unsupported operand type\(s\) for \+=?: '(?P<first>\w{1,60})' and '(?P<second>\w{1,60})'"
+            r"|can only concatenate str \(not \"(?P<given>\w{1,60})\"\)": on_line(_object_added)
+        },
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "member_of_an_enum_added",
+                Replace(NODE, "import rclpy\n", "from enum import Enum\n\nimport rclpy\n"),
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class Words(Enum):\n    HELLO = 'Hello time: '\n\n\nclass MyFirstNode",
+                ),
+                Replace(NODE, "'Hello time: ' +", "Words.HELLO +"),
                 fails="run.output",
                 blocks=DEAD,
             ),
