@@ -410,6 +410,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "written": "self.numbers()",
         "line": 14,
     },
+    "node.mutable_default": {
+        "name": "values: list = []",
+        "written": "values: list = field(default_factory=list)",
+        "type": "State",
+    },
     "node.object_added": {
         "name": "Words.HELLO",
         "written": "Words.HELLO.value",

@@ -99,6 +99,37 @@ def _is_generator(function: Function) -> bool:
     return gives and len(needed) == len(function.args.defaults)
 
 
+def _mutable(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The only field of the dataclass whose default value is a list, a dict or a set."""
+    statement = statement_at(raised.module, raised.line)
+    own = [c for c in raised.module.classes if c is statement or _begins_at(c, raised.line)]
+    fields = [
+        (s, s.value)
+        for s in (own[0].body if len(own) == 1 else ())
+        if isinstance(s, ast.AnnAssign) and _is_of(s.value, match["type"])
+    ]
+    code = raised.module.text.code(fields[0][1]) if len(fields) == 1 and fields[0][1] else ""
+    if not code or "\n" in code or len(code) > MOST_CODE:
+        return None
+    empty = code in ("[]", "{}", f"{match['type']}()")
+    written = f"field(default_factory={match['type'] if empty else f'lambda: {code}'})"
+    row = raised.module.text.code(fields[0][0])
+    new = f"{row.removesuffix(code)}{written}"
+    found = raised.finding("mutable_default", at=fields[0][0], name=row, written=new)
+    return replace(found, words={**found.words, "type": own[0].name})
+
+
+def _begins_at(own: ast.ClassDef, line: int | None) -> bool:
+    return line in (own.lineno, *(decorator.lineno for decorator in own.decorator_list))
+
+
+def _is_of(value: ast.expr | None, kind: str) -> bool:
+    """Whether a value is written as a list, a dict or a set."""
+    literals = {"list": ast.List, "dict": ast.Dict, "set": ast.Set}
+    called = isinstance(value, ast.Call) and dotted(value.func) == kind
+    return called or (kind in literals and isinstance(value, literals[kind]))
+
+
 def _object_added(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """One side of + or += is an object of a class of the files, such as a member of an Enum."""
     given = [name for name in match.groupdict("").values() if name]
@@ -106,6 +137,9 @@ def _object_added(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     if len(classes) != 1:
         return None
     own = classes[0]
+    methods = {s.name for s in own.body if isinstance(s, ast.FunctionDef)}
+    if methods & {"__add__", "__radd__", "__iadd__", "__str__"}:
+        return None  # (it may be meant to be added, or to be made a text of)
     found = raised.finding("object_added")
     words = {**found.words, "type": own.name, "line": str(own.lineno)}
     if not any(last_part(dotted(base)).endswith("Enum") for base in own.bases):
@@ -309,6 +343,33 @@ KINDS = (
                 Replace(NODE, "'Hello time: ' +", "Words.HELLO +"),
                 fails="run.output",
                 blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "mutable_default",
+        "class",
+        msg("A field of a dataclass has a list, a dict or a set as its default value"),
+        msg(
+            "All objects of {type} would have the same list, dict or set. So a dataclass does not allow such "
+            "a default value: a field needs a function that makes a new one for each object."
+        ),
+        msg(
+            "Write {written} instead of {name}, and from dataclasses import field among the imports."
+        ),
+        raised={r"ValueError: mutable default <class '(?P<type>list|dict|set)'> for": _mutable},
+        examples=(
+            example(
+                "list_as_default_of_a_dataclass",
+                Replace(
+                    NODE, "import rclpy\n", "from dataclasses import dataclass\n\nimport rclpy\n"
+                ),
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "@dataclass\nclass State:\n    values: list = []\n\n\nclass MyFirstNode",
+                ),
+                fails="run.starts",
             ),
         ),
     ),

@@ -179,7 +179,11 @@ KINDS = (
         examples=(
             example(
                 "counter_and_step_are_texts",
-                Replace(NODE, "self.counter_ = 0", "self.counter_ = '0'\n        self.step_ = '1'"),
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "first, self.step_ = '0 1'.split()\n        self.counter_ = first",
+                ),
                 Replace(NODE, "str(self.counter_)", "self.counter_"),
                 Replace(NODE, "self.counter_ += 1", "self.counter_ += self.step_"),
                 fails="run.output",
