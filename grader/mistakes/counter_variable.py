@@ -22,6 +22,7 @@ COUNTER = msg(
     "An attribute (self.…) keeps its value from one callback to the next; a name without self. is "
     "gone when the function ends."
 )
+OF_OWNER = msg("Write {written} instead of {name} everywhere in {function}.")
 UNBOUND = r"UnboundLocalError: .{0,60}'(?P<name>\w{1,120})'"
 
 
@@ -35,10 +36,12 @@ def _local(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     words = {**found.words, "function": function.name, "step": step}
     own, owner = _class_of(raised, function), _owner(raised, function)
     if own is not None and owner != "self":
-        if not owner or not any(name in targets_of(statement) for statement in own.body):
-            return None
+        of_class = any(name in targets_of(statement) for statement in own.body)
+        of_object = owner != own.name and name in raised.source.attributes
         words = {**words, "type": own.name, "written": f"{owner}.{name}"}
-        return replace(found, words=words, variant="of_class")
+        if not of_class and not of_object:
+            return None
+        return replace(found, words=words, variant="of_class" if of_class else "of_object")
     return replace(found, words=words, variant=_form_of_local(raised, function, name))
 
 
@@ -154,7 +157,8 @@ KINDS = (
             )
         },
         fixes={
-            "of_class": msg("Write {written} instead of {name} everywhere in {function}."),
+            "of_object": OF_OWNER,
+            "of_class": OF_OWNER,
             "set": msg("Write self.{name} instead of {name} in {function}."),
             "method": msg(
                 "Write self.{name} instead of {name} in {function}, and self.{name} = 0 in "

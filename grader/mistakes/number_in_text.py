@@ -425,7 +425,8 @@ def _number_format(suspect: Suspect) -> RecognisedMistake | None:
             code = suspect.source.module_of(node).text.code(node)
             step = suspect.finding("number_format", node, name=code, written=new)
             return replace(step, variant="step")
-    return found or _form_unknown(suspect)
+    zeros = re.fullmatch(rf"{head}0\d+{tail}", suspect.text) is not None
+    return found or (_form_elsewhere(suspect) if zeros else None) or _form_unknown(suspect)
 
 
 def _form_elsewhere(suspect: Suspect) -> RecognisedMistake | None:

@@ -138,7 +138,8 @@ def _object_added(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
         return None
     own = classes[0]
     methods = {s.name for s in own.body if isinstance(s, ast.FunctionDef)}
-    if methods & {"__add__", "__radd__", "__iadd__", "__str__"}:
+    with_text = bool(match["given"]) or "str" in given
+    if methods & {"__add__", "__radd__", "__iadd__"} or (with_text and "__str__" in methods):
         return None  # (it may be meant to be added, or to be made a text of)
     found = raised.finding("object_added")
     words = {**found.words, "type": own.name, "line": str(own.lineno)}

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from grader.mistakes.made_by import lines_that_make
-from grader.package.source.node import NodeSource
-from grader.package.source.node import read_node
+from grader.package.source.node import NodeSource, read_node
 
 NODE = """\
 import rclpy
