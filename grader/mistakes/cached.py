@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
@@ -12,6 +13,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
+from grader.package.source.counter import parts_of_callback
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
 from grader.package.source.node import NodeSource
@@ -23,13 +25,23 @@ CACHES = (CACHED_PROPERTY, "cache", "lru_cache")
 def _kept(source: NodeSource) -> tuple[Function, ast.expr, str] | None:
     """Return the only method whose value is kept, its decorator, and the decorator's name."""
     found = []
-    for method in source.methods.values():
+    shown = {m for part in parts_of_callback(source) for m in _methods_read(source, part)}
+    for method in {*source.methods.values(), *shown}:
         for decorator in method.decorator_list:
             called = decorator.func if isinstance(decorator, ast.Call) else decorator
             name = last_part(dotted(called))
             if name in CACHES:
                 found.append((method, decorator, name))
     return found[0] if len(found) == 1 else None
+
+
+def _methods_read(source: NodeSource, part: Function) -> Iterator[Function]:
+    """Yield the methods of other classes of the files that a log call reads by their name."""
+    read = {last_part(dotted(n)) for call in source.logs(part) for n in ast.walk(call)}
+    for module in (*source.modules, *source.imported):
+        for own in module.classes:
+            methods = [s for s in own.body if isinstance(s, Function) and s.name in read]
+            yield from (m for m in methods if own not in source.family)
 
 
 def _cached(suspect: Suspect) -> RecognisedMistake | None:
@@ -87,6 +99,24 @@ KINDS = (
                     "        return f'Hello time: {self.counter_}'\n\n    def timer_callback(self)",
                 ),
                 Replace(NODE, "'Hello time: ' + str(self.counter_)", "self.text"),
+                fails="run.output",
+            ),
+            example(
+                "cached_property_of_a_helper",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "from functools import cached_property\n\nimport rclpy\nfrom",
+                ),
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class Ticks:\n    value = 0\n\n    @cached_property\n    def text(self):\n"
+                    "        return f'Hello time: {self.value}'\n\n\nclass MyFirstNode",
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.ticks_ = Ticks()"),
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "self.ticks_.text"),
+                Replace(NODE, "self.counter_ += 1", "self.ticks_.value += 1"),
                 fails="run.output",
             ),
             example(

@@ -15,12 +15,14 @@ from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import adds_to, declares, names_given, outer_word, targets_of
 from grader.package.source.module import Function
+from grader.package.source.names import dotted
 from grader.package.source.place import function_at
 
 COUNTER = msg(
     "An attribute (self.…) keeps its value from one callback to the next; a name without self. is "
     "gone when the function ends."
 )
+OF_OWNER = msg("Write {written} instead of {name} everywhere in {function}.")
 UNBOUND = r"UnboundLocalError: .{0,60}'(?P<name>\w{1,120})'"
 
 
@@ -32,7 +34,30 @@ def _local(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     found = raised.finding("counter_local", name=name)
     step = raised.assignment.output.step
     words = {**found.words, "function": function.name, "step": step}
+    own, owner = _class_of(raised, function), _owner(raised, function)
+    if own is not None and owner != "self":
+        of_class = any(name in targets_of(statement) for statement in own.body)
+        of_object = owner != own.name and name in raised.source.attributes
+        words = {**words, "type": own.name, "written": f"{owner}.{name}"}
+        if not of_class and not of_object:
+            return None
+        return replace(found, words=words, variant="of_class" if of_class else "of_object")
     return replace(found, words=words, variant=_form_of_local(raised, function, name))
+
+
+def _class_of(raised: Raised, function: Function) -> ast.ClassDef | None:
+    around = raised.module.parents.get(function)
+    return around if isinstance(around, ast.ClassDef) else None
+
+
+def _owner(raised: Raised, function: Function) -> str:
+    """Return what a method has its class or its object by: self, cls, or the name of the class."""
+    own, arguments = _class_of(raised, function), function.args.args
+    if own is None:
+        return ""
+    if not arguments or any(dotted(d) == "staticmethod" for d in function.decorator_list):
+        return own.name
+    return arguments[0].arg
 
 
 def _form_of_local(raised: Raised, function: Function, name: str) -> str:
@@ -125,7 +150,15 @@ KINDS = (
         COUNTER,
         msg("Write self.{name} in the callback and in __init__."),
         links.PYTHON_CLASSES,
+        whys={
+            "of_class": msg(
+                "The class {type} sets {name} outside of its functions. A function of the class finds "
+                "this variable only with the class or the object in front of it: {written}."
+            )
+        },
         fixes={
+            "of_object": OF_OWNER,
+            "of_class": OF_OWNER,
             "set": msg("Write self.{name} instead of {name} in {function}."),
             "method": msg(
                 "Write self.{name} instead of {name} in {function}, and self.{name} = 0 in "
@@ -154,6 +187,19 @@ KINDS = (
                 Replace(NODE, "self.counter_ += 1", "counter_ += 1"),
                 fails="run.output",
                 blocks=DEAD,
+            ),
+            example(
+                "static_method_adds_to_bare_name",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class Ticks:\n    value = 0\n\n    @staticmethod\n    def add():\n"
+                    "        value += 1\n\n\nclass MyFirstNode",
+                ),
+                Replace(NODE, "str(self.counter_)", "str(Ticks.value)"),
+                Replace(NODE, "self.counter_ += 1", "Ticks.add()"),
+                fails="run.output",
+                blocks=("run.interrupt",),
             ),
         ),
     ),

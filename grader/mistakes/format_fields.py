@@ -18,7 +18,7 @@ from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Module
-from grader.package.source.names import called_name
+from grader.package.source.names import called_name, dotted, last_part
 from grader.package.source.place import function_at, statement_at
 from grader.package.source.readable import is_readable
 
@@ -55,9 +55,10 @@ def _formats(raised: Raised) -> Iterator[Format]:
         if not isinstance(call, ast.Call) or called_name(call) != "format":
             continue
         made = call.func.value if isinstance(call.func, ast.Attribute) else None
-        made = _text_of(raised, made) if isinstance(made, ast.Name) else made
-        code = raised.module.text.code(made) if made is not None else ""
-        plain = raised.module.text.plain_string(made)
+        made = text_of(raised, made) if dotted(made or call) else made
+        text = raised.source.module_of(made).text if made is not None else raised.module.text
+        code = text.code(made) if made is not None else ""
+        plain = text.plain_string(made)
         if made is None or plain is None or "\n" in code:
             continue
         try:
@@ -69,8 +70,11 @@ def _formats(raised: Raised) -> Iterator[Format]:
             yield found
 
 
-def _text_of(raised: Raised, name: ast.Name) -> ast.expr | None:
-    """Return the text that a variable of the function gets, if that is its only value."""
+def text_of(raised: Raised, named: ast.expr | None) -> ast.expr | None:
+    """Return the text that a name gets, if that is its only value in its function or its module."""
+    if not isinstance(named, ast.Name):
+        return _text_elsewhere(raised, named) if named is not None else None
+    name = named
     function = function_at(raised.module, raised.line)
     values = [
         n.value
@@ -81,6 +85,22 @@ def _text_of(raised: Raised, name: ast.Name) -> ast.expr | None:
         n.value
         for n in raised.module.tree.body
         if isinstance(n, ast.Assign) and name.id in targets_of(n)
+    ]
+    if not values:
+        return _text_elsewhere(raised, name)
+    return values[0] if len(values) == 1 else None
+
+
+def _text_elsewhere(raised: Raised, named: ast.expr) -> ast.expr | None:
+    """Return the only value of an attribute, or of a variable of an imported module."""
+    plain, name = isinstance(named, ast.Name), last_part(dotted(named))
+    known = raised.source.imported if plain else (*raised.source.modules, *raised.source.imported)
+    values = [
+        n.value
+        for module in known
+        for n in (module.tree.body if plain else module.nodes)
+        if isinstance(n, ast.Assign | ast.AugAssign | ast.AnnAssign)
+        and name in map(last_part, targets_of(n))
     ]
     return values[0] if len(values) == 1 else None
 
@@ -263,6 +283,13 @@ KINDS = (
         raised={NO_KEY: _named, NO_INDEX: _numbered},
         fixed_by=(lines.written,),
         examples=(
+            example(
+                "text_of_the_class_with_a_name",
+                Replace(NODE, "(Node):\n", "(Node):\n    TEXT = 'Hello time: {seconds}'\n\n"),
+                Replace(NODE, TEXT, "self.TEXT.format(self.counter_)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "format_place_with_self",
                 Replace(NODE, TEXT, "'Hello time: {self.counter_}'.format(n=self.counter_)"),

@@ -10,7 +10,7 @@ from dataclasses import replace
 from grader.base.i18n.message import Value, msg
 from grader.mistakes import links
 from grader.mistakes.example import LOG, NODE, SILENT, STEP_LINE, example
-from grader.mistakes.fixes import node_clock
+from grader.mistakes.fixes import lines, node_clock
 from grader.mistakes.fixes.node_clock import count_of
 from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import as_sum
@@ -23,6 +23,7 @@ from grader.package.source.node import NodeSource
 
 CLOCKS = ("time", "monotonic", "perf_counter", "now", "strftime", "seconds_nanoseconds", "ctime")
 """Functions and methods that return or show a time."""
+MOST_CODE = 80  # characters of a piece of code that a text shows
 MOST_STEPS = 3  # assignments through which a value is followed to the line
 
 
@@ -279,10 +280,27 @@ def _frozen(suspect: Suspect) -> RecognisedMistake | None:
     given = {parameter.arg for parameter in parameters}
     logged = {dotted(n) for text in _logged(source, callback) for n in ast.walk(text)}
     for name in sorted(given & logged - _set_in(callback)):
-        return suspect.finding(
-            "argument_frozen", source.timers[0].call if source.timers else None, name=name
-        )
+        at = source.timers[0].call if source.timers else None
+        return _lambda_default(suspect, at) or suspect.finding("argument_frozen", at, name=name)
     return None
+
+
+def _lambda_default(suspect: Suspect, call: ast.Call | None) -> RecognisedMistake | None:
+    """The timer gets a lambda whose only parameter has the counter as its default value."""
+    found = [n for n in ast.walk(call) if isinstance(n, ast.Lambda)] if call is not None else []
+    given = found[0].args if len(found) == 1 else None
+    if given is None or len(given.args) != 1 or len(given.defaults) != 1:
+        return None
+    text, name = suspect.source.module_of(found[0]).text, given.args[0].arg
+    uses = [n for n in ast.walk(found[0].body) if isinstance(n, ast.Name) and n.id == name]
+    code, body = text.code(found[0]), text.code(found[0].body)
+    value = text.code(given.defaults[0])
+    if len(uses) != 1 or not dotted(given.defaults[0]) or "\n" in code or len(code) > MOST_CODE:
+        return None
+    at = text.span(uses[0])[0] - text.span(found[0].body)[0]
+    written = f"lambda: {body[:at]}{value}{body[at + len(name) :]}"
+    mistake = suspect.finding("argument_frozen", found[0], name=code, written=written)
+    return replace(mistake, words={**mistake.words, "value": value}, variant="lambda")
 
 
 def _other_attribute(suspect: Suspect) -> RecognisedMistake | None:
@@ -696,7 +714,15 @@ KINDS = (
         msg("The callback gets the number as an argument, which never changes"),
         msg("An argument is evaluated once, when the timer is created, and not at each call."),
         msg("Give the timer the callback alone, and read the counter in the callback."),
+        whys={
+            "lambda": msg(
+                "A default value is evaluated once, when the lambda is made. So each call gets the "
+                "value that {value} had at that moment."
+            )
+        },
+        fixes={"lambda": msg("Write {written} instead of {name}.")},
         behind={"run.constant_counter": _frozen},
+        fixed_by=(lines.written,),
         examples=(
             example(
                 "argument_frozen",
@@ -711,6 +737,17 @@ KINDS = (
                     "self.create_timer(1.0, partial(self.timer_callback, self.counter_))",
                 ),
                 Replace(NODE, "def timer_callback(self)", "def timer_callback(self, number)"),
+                Replace(NODE, "str(self.counter_)", "str(number)"),
+                fails="run.output",
+            ),
+            example(
+                "default_of_lambda_frozen",
+                Replace(
+                    NODE,
+                    "self.create_timer(1.0, self.timer_callback)",
+                    "self.create_timer(1.0, lambda n=self.counter_: self.show(n))",
+                ),
+                Replace(NODE, "def timer_callback(self)", "def show(self, number)"),
                 Replace(NODE, "str(self.counter_)", "str(number)"),
                 fails="run.output",
             ),

@@ -10,12 +10,13 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import LOG, NODE, example
+from grader.mistakes.example import INNER, LOG, NODE, example
 from grader.mistakes.fixes import lines, node_log, node_worked_out
 from grader.mistakes.kind import Family
+from grader.mistakes.made_by import statements_that_make
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.mistakes.worked_out import first_of, worked_out
-from grader.package.edit.tree import Replace
+from grader.package.edit.tree import Replace, Write
 from grader.package.source.names import dotted
 from grader.package.source.one_change import SEVERAL, logged_lines
 
@@ -49,6 +50,34 @@ def _is_right(suspect: Suspect, value: str, wanted: str) -> bool:
     head, tail = map(re.escape, suspect.output.text.split("{n}"))
     came = suspect.text.replace(value, wanted)
     return suspect.text.count(value) == 1 and bool(re.fullmatch(rf"{head}-?\d+{tail}", came))
+
+
+def _appended(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the only string that is all of what stands behind the required line."""
+    head, tail = map(re.escape, suspect.output.text.split("{n}"))
+    match = re.fullmatch(rf"{head}-?\d+{tail}(?P<more>.*\D)", suspect.text)
+    if match is None or not match["more"].strip():
+        return None
+    logs = suspect.source.own_logs
+    found = {
+        part
+        for n in (*statements_that_make(suspect.source, suspect.place), *logs)
+        for part in ast.walk(n)
+        if isinstance(part, ast.Constant) and part.value == match["more"]
+    }
+    if len(found) != 1:
+        return None
+    part = found.pop()
+    module = suspect.source.module_of(part)
+    if module.text.plain_string(part) is None:
+        return None
+    if isinstance(module.parents.get(part), ast.JoinedStr | ast.keyword):
+        return None
+    quote = module.text.code(part)[0]
+    found_at = suspect.finding(
+        "text_elsewhere", part, name=module.text.code(part), written=quote * 2
+    )
+    return replace(found_at, variant="appended")
 
 
 def _worked_out(suspect: Suspect) -> RecognisedMistake | None:
@@ -101,7 +130,8 @@ def _has_other_parts(given: ast.expr, tail: str) -> bool:
 
 
 def _near(suspect: Suspect, wanted: str) -> Iterator[ast.Constant]:
-    for node in suspect.source.own_nodes:
+    others = [node for module in suspect.source.imported for node in module.nodes]
+    for node in (*suspect.source.own_nodes, *others):
         if not isinstance(node, ast.Constant) or not isinstance(node.value, str):
             continue
         around = suspect.source.module_of(node).parents.get(node)
@@ -152,9 +182,32 @@ KINDS = (
         msg("A string that is logged differs from the required text"),
         msg("The text is compared character by character: case, spaces and punctuation count."),
         msg("Write {written} instead of {name}."),
-        behind={"run.wrong_text": first_of(_worked_out, _elsewhere)},
+        fixes={
+            "appended": msg("Write {written} instead of {name}: the required text ends before it.")
+        },
+        behind={"run.wrong_text": first_of(_worked_out, _elsewhere, _appended)},
         fixed_by=(node_log.right_text(lines.written), node_worked_out.change("text")),
         examples=(
+            example(
+                "text_of_an_imported_constant",
+                Write(f"{INNER}/words.py", "HELLO = 'Hello time:'\n"),
+                Replace(
+                    NODE,
+                    "import rclpy\n",
+                    "import rclpy\nfrom my_robot_controller.words import HELLO\n",
+                ),
+                Replace(NODE, "'Hello time: ' +", "HELLO +"),
+                fails="run.output",
+            ),
+            example(
+                "unit_of_an_imported_constant",
+                Write(f"{INNER}/words.py", "UNIT = ' s'\n"),
+                Replace(
+                    NODE, "import rclpy\n", "import rclpy\nfrom my_robot_controller import words\n"
+                ),
+                Replace(NODE, "str(self.counter_)", "str(self.counter_) + words.UNIT"),
+                fails="run.output",
+            ),
             example(
                 "text_in_attribute",
                 Replace(

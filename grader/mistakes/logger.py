@@ -29,7 +29,32 @@ def _arguments(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
         logs = [
             c for c, _ in raised.source.calls if c.lineno == raised.line and _is_alias(raised, c)
         ]
+    if not logs and not raised.inside:
+        return _passed_on(raised)
     return raised.finding("logger_arguments", at=logs[0]) if logs else None
+
+
+def _passed_on(raised: Raised) -> RecognisedMistake | None:
+    """A function gives the logger all values that it gets, and its only call has several."""
+    logs = [
+        call
+        for call, _ in raised.source.calls
+        if call.lineno == raised.line and raised.source.is_log(call)
+    ]
+    around = raised.source.function_around(logs[0]) if len(logs) == 1 else None
+    given = logs[0].args if len(logs) == 1 else []
+    values = around.args.vararg.arg if around is not None and around.args.vararg else ""
+    if around is None or not values or len(given) != 1:
+        return None
+    if not isinstance(given[0], ast.Starred) or dotted(given[0].value) != values:
+        return None
+    calls = [c for c, name in raised.source.calls if last_part(name) == around.name]
+    first = len([a for a in around.args.args if a.arg not in ("self", "cls")])
+    if len(calls) != 1 or len(calls[0].args) - first < 2:
+        return None
+    found = raised.finding("logger_arguments", at=calls[0])
+    words = {**found.words, "function": around.name, "line": str(logs[0].lineno)}
+    return replace(found, words=words, variant="passed_on")
 
 
 def _is_alias(raised: Raised, call: ast.Call) -> bool:
@@ -346,6 +371,18 @@ KINDS = (
         msg("info() takes one string. print() takes several with commas, the logger does not."),
         msg("Make one string of them: {sum}, or an f-string."),
         links.LOGGING,
+        whys={
+            "passed_on": msg(
+                "{function} gives all values of this call to info() in line {line}. info() takes one "
+                "string, and puts no values into it."
+            )
+        },
+        fixes={
+            "passed_on": msg(
+                "Make one string of the values in this call, as an f-string does, and give {function} "
+                "only this string."
+            )
+        },
         seen=r"\.info\(\) takes 2 positional arguments but \d{1,3} were given",
         raised={
             r"takes (?:from \d{1,3} to )?\d{1,3} positional arguments? but \d{1,3} were given": _arguments
@@ -359,6 +396,18 @@ KINDS = (
                     LOG_LINE,
                     "        log = self.get_logger().info\n        log('Hello time:', self.counter_)\n",
                 ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "helper_passes_on_values",
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def log(self, *values):\n        self.get_logger().info(*values)\n\n"
+                    "    def timer_callback",
+                ),
+                Replace(NODE, LOG, "self.log('Hello time: %d', self.counter_)"),
                 fails="run.output",
                 blocks=DEAD,
             ),

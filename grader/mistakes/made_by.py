@@ -15,6 +15,10 @@ from grader.package.source.traced import traced
 from grader.report.model import Where
 
 MOST_LINES = 6
+TEXT_METHODS = (
+    *("strip", "lstrip", "rstrip", "replace", "title", "upper", "lower", "capitalize"),
+    *("swapcase", "ljust", "rjust", "center", "zfill", "removeprefix", "removesuffix"),
+)
 
 
 def lines_that_make(
@@ -24,15 +28,16 @@ def lines_that_make(
 
     If no log call is there, that of the callback is looked at. None if there is none, if no such
     line is known, or if they are too many for a text. With `only_texts`, those without a piece of
-    text are left out.
+    text, and without a method that changes one, are left out.
     """
     statements = statements_that_make(source, where)
     if only_texts:
-        statements = [n for n in statements if any(map(_is_text, ast.walk(n)))]
+        statements = [n for n in statements if any(map(_makes_text, ast.walk(n)))]
     places = list(dict.fromkeys((source.module_of(n), n.lineno) for n in statements))
     if not 0 < len(places) <= MOST_LINES:
         return None
-    several = len({module.path for module, _ in places}) > 1
+    here = where.file if where is not None else source.module.path
+    several = {module.path for module, _ in places} != {here}
     texts = []
     for module, line in places:
         code = shown(module.line(line))
@@ -102,5 +107,8 @@ def _replaced(source: NodeSource, module: Module, line: int) -> dict[str, str]:
     return {"type": source.node_class.name, "function": function.name}
 
 
-def _is_text(node: ast.AST) -> bool:
+def _makes_text(node: ast.AST) -> bool:
+    """Whether a part is a text, or a call of a method that makes another text of one."""
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+        return node.func.attr in TEXT_METHODS
     return isinstance(node, ast.Constant) and isinstance(node.value, str)

@@ -18,14 +18,15 @@ from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.worked_out import INSTEAD, change_of
 from grader.package.edit.text import SourceText
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import starts_of, targets_of
+from grader.package.source.counter import parts_of_callback, starts_of, targets_of
 from grader.package.source.names import called_name, dotted
-from grader.package.source.number_forms import number_forms
+from grader.package.source.number_forms import number_forms, widths_in
 from grader.package.source.place import function_at, place_of, statement_at
 from grader.package.source.readable import is_readable
 from grader.report.model import Where
 
 MOST_CODE = 80  # characters of a piece of code that a text shows
+NUMBER_ALONE = re.compile(r"(?:^|\]: )-?\d{1,20}\s*$", re.MULTILINE)
 FLOAT_STEP = msg("An integer and a number with a decimal point make one with a point.")
 FLOAT_START = msg("{form} is a number with a decimal point, so each sum with it is one too.")
 OTHER_FORM = msg(
@@ -276,7 +277,7 @@ def _string_of(suspect: Suspect) -> ast.Constant | None:
 
 def _value_forgotten(suspect: Suspect) -> RecognisedMistake | None:
     """The text shows the place of a value, and has the required form with a number there."""
-    match = re.search(r"%[dis]|\{0?\}", suspect.text)
+    match = re.search(r"%[dis]|\{(?:0|(?P<field>[A-Za-z_]\w{0,60}))?\}", suspect.text)
     head, tail = map(re.escape, suspect.output.text.split("{n}"))
     number = suspect.text.replace(match[0], "0", 1) if match is not None else ""
     if match is None or not re.fullmatch(rf"{head}\d+{tail}", number):
@@ -286,17 +287,18 @@ def _value_forgotten(suspect: Suspect) -> RecognisedMistake | None:
     if other is not None:
         return _with_percent(suspect, other, sign)
     counter = str(placeholder_values(suspect.assignment, suspect.source)["counter"])
-    value = f"% {counter}" if sign.startswith("%") else f".format({counter})"
+    given = f"{match['field']}={counter}" if match["field"] else counter
+    value = f"% {counter}" if sign.startswith("%") else f".format({given})"
     found = suspect.finding("value_forgotten", _place_of_text(suspect), name=sign, written=value)
     if not _is_sure(suspect):
         return replace(found, variant="unknown")
     string = _string_of(suspect)
-    given = _given(suspect, string) if string is not None else None
-    if string is None or given is None or _is_beside(suspect, string):
+    used = _given(suspect, string) if string is not None else None
+    if string is None or used is None or _is_beside(suspect, string):
         return found
-    name = suspect.source.module_of(given).text.code(given)
+    name = suspect.source.module_of(used).text.code(used)
     written = f"{name} {value}" if sign.startswith("%") else f"{name}{value}"
-    found = suspect.finding("value_forgotten", given, name=name, written=written)
+    found = suspect.finding("value_forgotten", used, name=name, written=written)
     return replace(found, words={**found.words, "place": sign}, variant="instead")
 
 
@@ -354,6 +356,8 @@ def _without_number(suspect: Suspect) -> RecognisedMistake | None:
     if suspect.text.split() != without and not _constant_text(suspect):
         return None
     found = suspect.finding("text_without_number", _place_of_text(suspect))
+    if NUMBER_ALONE.search(suspect.transcript):
+        return replace(found, variant="parts")
     if not _is_sure(suspect):
         return replace(found, variant="unknown")
     used = _used_in_text(suspect, str(found.words["counter"]))
@@ -406,7 +410,7 @@ def _number_format(suspect: Suspect) -> RecognisedMistake | None:
     head, tail = map(re.escape, suspect.output.text.split("{n}"))
     number = r"[+-]?\d+\.\d+|\+\d+|0\d+|\d(?:\.\d+)?e[+-]?\d+|0[xbo][0-9a-f]+"
     if re.fullmatch(rf"{head}(?: +\d+|\d+ +){tail}", suspect.text):
-        return _other_form(suspect)
+        return _other_form(suspect) or _form_elsewhere(suspect)
     if not re.fullmatch(rf"{head} *(?:{number}) *{tail}", suspect.text):
         return None
     found = _other_form(suspect)
@@ -421,7 +425,23 @@ def _number_format(suspect: Suspect) -> RecognisedMistake | None:
             code = suspect.source.module_of(node).text.code(node)
             step = suspect.finding("number_format", node, name=code, written=new)
             return replace(step, variant="step")
-    return found or _form_unknown(suspect)
+    zeros = re.fullmatch(rf"{head}0\d+{tail}", suspect.text) is not None
+    return found or (_form_elsewhere(suspect) if zeros else None) or _form_unknown(suspect)
+
+
+def _form_elsewhere(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the only piece with a width in the lines that make what is logged, or beside them."""
+    made = statements_that_make(suspect.source, suspect.place)
+    logs = [
+        call for part in parts_of_callback(suspect.source) for call in suspect.source.logs(part)
+    ]
+    found = {piece for n in (*made, *logs) for piece in widths_in(suspect.source.module_of(n), n)}
+    if len(found) != 1:
+        return None
+    piece = found.pop()
+    place = Where(file=piece.module.path, line=piece.line)
+    mistake = suspect.finding("number_format", place, name=piece.name, written=piece.written)
+    return replace(mistake, words={**mistake.words, "form": piece.form}, variant="form")
 
 
 def _form_unknown(suspect: Suspect) -> RecognisedMistake:
@@ -797,6 +817,11 @@ KINDS = (
                 fails="run.output",
             ),
             example(
+                "name_in_braces_without_value",
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: {seconds}'"),
+                fails="run.output",
+            ),
+            example(
                 "format_with_percent",
                 Replace(
                     NODE,
@@ -847,14 +872,22 @@ KINDS = (
         msg("Add the counter to the text: {sum}"),
         links.PYTHON_STRINGS,
         whys={
+            "parts": msg(
+                "The text comes on one line and the number on another: each call of the logger or of print() "
+                "writes a line of its own."
+            ),
             "lost": msg(
                 "Line {line} uses the counter, but its value does not get into the text that is logged."
-            )
+            ),
         },
         fixes={
             "lost": msg(
                 "Follow the value from there to the line that logs the text: find what leaves it out. Or "
                 "make the text in one step: {sum}"
+            ),
+            "parts": msg(
+                "Find the call that makes the line with the text, and the one that makes the line with the "
+                "number. Make one text of both, with + and str(…) or as an f-string, and log it with one call."
             ),
             "unknown": msg(
                 "Add the number of the count to the text, as str() of the value that counts the lines."
@@ -866,6 +899,23 @@ KINDS = (
             example(
                 "first_line_as_constant",
                 Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: 0'"),
+                fails="run.output",
+            ),
+            example(
+                "text_and_number_by_two_methods",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class Out:\n    def __init__(self, logger):\n        self.logger = logger\n\n"
+                    "    def text(self, text):\n        self.logger.info(text)\n        return self\n\n"
+                    "    def value(self, value):\n        self.logger.info(f'{value}')\n\n\n"
+                    "class MyFirstNode",
+                ),
+                Replace(
+                    NODE,
+                    "self.get_logger().info('Hello time: ' + str(self.counter_))",
+                    "Out(self.get_logger()).text('Hello time: ').value(self.counter_)",
+                ),
                 fails="run.output",
             ),
             example(
@@ -921,6 +971,29 @@ KINDS = (
                 "float_in_a_constant_of_the_class",
                 Replace(NODE, "    def __init__", "    FIRST = 0.0\n\n    def __init__"),
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = self.FIRST"),
+                fails="run.output",
+            ),
+            example(
+                "width_in_a_helper",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "def cell(value, width=3):\n    return str(value).rjust(width)\n\n\n"
+                    "class MyFirstNode",
+                ),
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "'Hello time:' + cell(self.counter_)",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "width_in_a_text_with_a_name",
+                Replace(
+                    NODE, "class MyFirstNode", "TEXT = 'Hello time: {:>2}'\n\n\nclass MyFirstNode"
+                ),
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "TEXT.format(self.counter_)"),
                 fails="run.output",
             ),
             example(

@@ -13,6 +13,7 @@ from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
+from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
 from grader.package.source.place import statement_at
@@ -25,6 +26,8 @@ FUNCTION = re.compile(
 )
 SHOWN = re.compile(r"(?<!\w)(?P<name>[A-Z]\w{0,100})\((?P<field>\w{1,100})=[^,()]{0,100}\)")
 WITH_ARGUMENTS = re.compile(r"(?<!\w)(?P<name>[A-Z]\w{0,100})\(.{0,200}\)")
+MEMBER = re.compile(r"(?<![\w.])(?P<name>[A-Za-z_]\w{0,100})\.(?P<member>[A-Za-z_]\w{0,100})")
+OF_ITEMS = re.compile(r"(?<!\w)(?P<name>Counter|OrderedDict|defaultdict|deque|array)\([\[{<]")
 BYTES = re.compile(r"(?<!\w)b(['\"]).{0,200}\1")
 OTHER_NAMES = ("tostring", "string", "str")
 """The names that other languages give to the method that makes a text of an object, without _."""
@@ -33,6 +36,8 @@ OTHER_NAMES = ("tostring", "string", "str")
 def _shown_object(suspect: Suspect) -> RecognisedMistake | None:
     """The text has an object as Python writes it: with its class and its address, or its fields."""
     text = suspect.text
+    if (member := _member(suspect)) is not None:
+        return member
     if (function := FUNCTION.search(text)) is not None:
         return _function(suspect, function["name"])
     if (found := OBJECT.search(text)) is not None:
@@ -47,9 +52,34 @@ def _shown_object(suspect: Suspect) -> RecognisedMistake | None:
             mistake = _told(suspect, found["name"], variant)
             words = {**mistake.words, "field": found.groupdict().get("field") or ""}
             return replace(mistake, words=words)
+    if (held := OF_ITEMS.search(text)) is not None:
+        return _told(suspect, held["name"], "items")
     if re.search(r"(?<![\w.])count\(-?\d{1,20}(?:, -?\d{1,20})?\)", text):
         return _told(suspect, "count", "count")
     return _told(suspect, "bytes", "bytes") if BYTES.search(text) else None
+
+
+def _member(suspect: Suspect) -> RecognisedMistake | None:
+    """The text has a member of an Enum by its name: the class, a dot, and the member."""
+    for match in MEMBER.finditer(suspect.text):
+        own = _class_of(suspect, match["name"])
+        bases = [last_part(dotted(base)) for base in own.bases] if own is not None else []
+        if not any(base.endswith("Enum") for base in bases):
+            continue
+        # (a number of the count can follow the name without a blank)
+        names = [n for s in own.body for n in targets_of(s)] if own is not None else []
+        name = next((n for n in names if match["member"].startswith(n)), "")
+        code = f"{match['name']}.{name}"
+        uses = [
+            n
+            for module in suspect.source.modules
+            for n in module.nodes
+            if isinstance(n, ast.Attribute) and dotted(n) == code
+        ]
+        at = uses[0] if len(uses) == 1 else suspect.place
+        mistake = suspect.finding("object_in_text", at, name=code, written=f"{code}.value")
+        return _with_class(mistake, match["name"], "member") if name else None
+    return None
 
 
 def _told(suspect: Suspect, name: str, variant: str) -> RecognisedMistake:
@@ -139,6 +169,13 @@ KINDS = (
             "renamed": NO_STR,
             "function": FUNCTION_SHOWN,
             "called": FUNCTION_SHOWN,
+            "member": msg(
+                "{class} is an Enum: its members have a name and a value. Such a text shows {name}, the "
+                "name of the member."
+            ),
+            "items": msg(
+                "An object of the type {class} has items. A text shows the type and all items with it."
+            ),
             "bytes": msg("b'…' is how Python shows bytes in a text. They are not a text."),
             "count": msg(
                 "An object of itertools.count is not a number. next() returns its next number."
@@ -163,6 +200,10 @@ KINDS = (
                 "Log what {name} returns: write () behind the name, with the values that it needs."
             ),
             "called": msg("Write {written} instead of {name}."),
+            "member": msg("Write {written} instead of {name}."),
+            "items": msg(
+                "Log only the item that is the number: write its key or its index in [] behind the object."
+            ),
             "bytes": msg(
                 "Make a text of the bytes with .decode() before they are logged, or use a text from the "
                 "start."
@@ -184,6 +225,28 @@ KINDS = (
                 ),
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = Ticks()"),
                 Replace(NODE, "self.counter_ += 1", "self.counter_.value += 1"),
+                fails="run.output",
+            ),
+            example(
+                "member_of_an_enum_in_text",
+                Replace(NODE, "import rclpy\n", "from enum import Enum\n\nimport rclpy\n"),
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class Words(Enum):\n    HELLO = 'Hello time: '\n\n\nclass MyFirstNode",
+                ),
+                Replace(
+                    NODE, "'Hello time: ' + str(self.counter_)", "f'{Words.HELLO}{self.counter_}'"
+                ),
+                fails="run.output",
+            ),
+            example(
+                "counter_of_collections_in_text",
+                Replace(
+                    NODE, "import rclpy\n", "from collections import Counter\n\nimport rclpy\n"
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = Counter(time=0)"),
+                Replace(NODE, "self.counter_ += 1", "self.counter_['time'] += 1"),
                 fails="run.output",
             ),
             example(

@@ -239,10 +239,17 @@ def _callback_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
 def _operator(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A text and something else are joined with another sign than +."""
     statement = statement_at(raised.module, raised.line)
+    texts = match["name"] in "&|^" and "'str' and 'str'" in match[0]
     for part in ast.walk(statement) if statement is not None else ():
-        if isinstance(part, ast.BinOp) and _is_text(part.left):
+        if isinstance(part, ast.BinOp) and (_is_text(part.left) or (texts and _is(part, match))):
             return raised.finding("text_operator", at=part, name=match["name"], written="+")
     return None
+
+
+def _is(part: ast.BinOp, match: re.Match[str]) -> bool:
+    """Whether a part of the line is the operation of the error."""
+    signs = {"&": ast.BitAnd, "|": ast.BitOr, "^": ast.BitXor}
+    return isinstance(part.op, signs[match["name"]])
 
 
 def _is_text(part: ast.expr) -> bool:
@@ -560,6 +567,13 @@ KINDS = (
             example(
                 "ampersand_for_plus",
                 Replace(NODE, "'Hello time: ' +", "'Hello time: ' &"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "ampersand_behind_a_name",
+                Replace(NODE, "class MyFirstNode", "HELLO = 'Hello time: '\n\n\nclass MyFirstNode"),
+                Replace(NODE, "'Hello time: ' +", "HELLO &"),
                 fails="run.output",
                 blocks=DEAD,
             ),

@@ -45,6 +45,7 @@ PRINTS = (
 METHODS = {
     **dict.fromkeys(("toString", "to_string", "ToString", "str"), "str(…)"),
     **dict.fromkeys(("length", "size", "Length"), "len(…)"),
+    **dict.fromkeys(("concat", "Concat"), "+"),
     **dict.fromkeys(("push", "push_back", "add", "Add"), "append(…)"),
 }
 SIGNS = {"%": "percent", "--": "dashes", ";": "semicolon"}

@@ -12,10 +12,12 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
+from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, LOG, LOG_LINE, NODE, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
+from grader.mistakes.format_fields import text_of
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromError, Raised, RecognisedMistake, always, on_line
 from grader.package.edit.files import Files
@@ -171,14 +173,46 @@ def _too_many_values(raised: Raised, match: re.Match[str]) -> RecognisedMistake 
         n.left for n in _on_line(raised) if isinstance(n, ast.BinOp) and isinstance(n.op, ast.Mod)
     ]
     left += [n.target for n in _on_line(raised) if isinstance(n, ast.AugAssign)]
+    braces = _for_format(raised)
+    if braces is not None:
+        return braces
     written = any(isinstance(n, ast.Constant | ast.JoinedStr) for n in left)
     return _told("text_and_values", "" if written else "left")(raised, match)
+
+
+def _for_format(raised: Raised) -> RecognisedMistake | None:
+    """The only % of the line gets a text with places for format(): {}."""
+    found = [n for n in _on_line(raised) if isinstance(n, ast.BinOp) and isinstance(n.op, ast.Mod)]
+    if len(found) != 1 or isinstance(found[0].right, ast.Tuple | ast.Dict):
+        return None
+    value: ast.expr | None = found[0].left
+    if dotted(found[0].left):
+        value = text_of(raised, found[0].left)
+    text = value.value if isinstance(value, ast.Constant) else None
+    if not isinstance(text, str) or "%" in text or len(re.findall(r"\{[:\w]{0,20}\}", text)) != 1:
+        return None
+    code = raised.module.text.code
+    name, place = code(found[0]), re.search(r"\{[:\w]{0,20}\}", text)
+    field = re.match(r"\{([A-Za-z_]\w*)", place[0]) if place is not None else None
+    given = f"{field[1]}={code(found[0].right)}" if field else code(found[0].right)
+    written = f"{code(found[0].left)}.format({given})"
+    if place is None or "\n" in name or len(name) > MOST_CODE:
+        return None
+    mistake = raised.finding("text_and_values", at=found[0], name=name, written=written)
+    return replace(mistake, words={**mistake.words, "place": shown(place[0])}, variant="braces")
 
 
 def _no_items(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """Items are needed: by += if what it adds to is a list."""
     statement = statement_at(raised.module, raised.line)
     found = _told("types_do_not_fit", "each")(raised, match)
+    sums = [n for n in _on_line(raised) if isinstance(n, ast.Call) and dotted(n.func) == "sum"]
+    code = raised.module.text.code(sums[0]) if len(sums) == 1 else ""
+    if found is not None and code and "\n" not in code and len(code) <= MOST_CODE:
+        values = " + ".join(raised.module.text.code(part) for part in sums[0].args)
+        words = {**found.words, "name": code, "written": values}
+        two = len(sums[0].args) == 2
+        return replace(found, words=words, variant="sum_of_two" if two else "sum")
     if found is None or not isinstance(statement, ast.AugAssign):
         return found
     name = raised.module.text.code(statement.target)
@@ -239,6 +273,8 @@ def _values_outside(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
 
 def _values_inside(case: Case) -> Files | None:
     """Write the values behind % in brackets."""
+    if "written" in case.finding.params:
+        return lines.written(case)
     params = {**case.finding.params, "written": case.finding.params.get("text", "")}
     return lines.written(replace(case, finding=replace(case.finding, params=params)))
 
@@ -333,6 +369,10 @@ def _has_value(function: Function) -> bool:
 
 
 NONE_IN = r"(?:'NoneType' and '\w{1,60}'|'\w{1,60}' and 'NoneType')"
+SUM = msg(
+    "sum() adds up the items of one value, such as a list. The value that it gets first has the type "
+    "{first}, which has no items."
+)
 ROUND = msg("A call is written with (), not with []: replace the square brackets.")
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
@@ -437,6 +477,8 @@ KINDS = (
                 "{name} has items on this line, as a list has. += adds the items of another list to it, and the type "
                 "{first} has no items."
             ),
+            "sum": SUM,
+            "sum_of_two": SUM,
             "set": msg("name[…] = … sets one item. The items of the type {first} cannot be set."),
             "join": msg("join() puts texts together. One item of this list has the type {first}."),
             "sign": msg(
@@ -454,6 +496,11 @@ KINDS = (
                 "Find out which value on this line has the type {first}, and which line gives it. To repeat "
                 "something n times, write range(n)."
             ),
+            "sum": msg(
+                "Find out which value sum() gets here, and which line gives it. Numbers are added with + "
+                "between them."
+            ),
+            "sum_of_two": msg("To add two numbers, write {written} instead of {name}."),
             "set": msg("Make a new value instead, or use a list."),
             "join": msg("Convert each item to a text first: str(…)."),
             "added": msg(
@@ -512,6 +559,12 @@ KINDS = (
             example(
                 "comma_behind_the_step",
                 Replace(NODE, "self.counter_ += 1", "self.counter_ += 1,"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+            example(
+                "sum_of_two_numbers",
+                Replace(NODE, "self.counter_ += 1", "self.counter_ = sum(self.counter_, 1)"),
                 fails="run.output",
                 blocks=("run.interrupt",),
             ),
@@ -641,6 +694,10 @@ KINDS = (
             "type": msg(
                 "The place %d in a text needs a number, and gets a value of the type {first}."
             ),
+            "braces": msg(
+                "The text before % has the place {place}. format() fills it, and % does not: % fills places "
+                "such as %d."
+            ),
             "left": msg(
                 "The value before % is a text on this line. Then % puts values into the places of the text, "
                 "such as %d, and this text has fewer places than there are values. Between two numbers, % "
@@ -649,6 +706,7 @@ KINDS = (
         },
         fixes={
             "outside": msg("Write {text} instead of {name}."),
+            "braces": msg("Write {written} instead of {name}."),
             "type": msg("Write %s in the text, or give it a number."),
             "left": msg(
                 "If you want the remainder, find the line that gives the value before %, and make it a "
@@ -671,6 +729,15 @@ KINDS = (
                     "'Hello time: ' + str(self.counter_)",
                     "'%s: %d' % 'Hello time', self.counter_",
                 ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "braces_before_percent",
+                Replace(
+                    NODE, "class MyFirstNode", "TEXT = 'Hello time: {}'\n\n\nclass MyFirstNode"
+                ),
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "TEXT % self.counter_"),
                 fails="run.output",
                 blocks=DEAD,
             ),

@@ -11,6 +11,7 @@ from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
+from grader.mistakes.made_by import statements_that_make
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
@@ -86,6 +87,26 @@ def _made_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
     return replace(found, words=words, where=place)
 
 
+def _digits_joined(suspect: Suspect) -> RecognisedMistake | None:
+    """After a right line, the number has the added one behind it: + joined two texts."""
+    first, step = suspect.output.line(0), str(suspect.output.step)
+    came = suspect.lines or tuple(suspect.transcript.splitlines())
+    if suspect.text != first + step or not any(line.endswith(first) for line in came):
+        return None
+    sums = [
+        n
+        for n in statements_that_make(suspect.source, suspect.place)
+        if isinstance(n, ast.AugAssign) and isinstance(n.op, ast.Add)
+    ]
+    if len(sums) != 1:
+        return None
+    code = suspect.source.module_of(sums[0]).text.code
+    names = {"name": code(sums[0].target), "value": code(sums[0].value)}
+    if any("\n" in name or len(name) > MOST_CODE for name in names.values()):
+        return None
+    return suspect.finding("digits_joined", sums[0], **names)
+
+
 def _is_text(value: ast.expr) -> bool:
     if isinstance(value, ast.Call):
         return dotted(value.func) == "str" or last_part(called_name(value)) == "format"
@@ -138,6 +159,35 @@ KINDS = (
                     "'Hello time: '.join(str(self.counter_))",
                 ),
                 fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "digits_joined",
+        "counter",
+        msg("The counter is a text, and + joins texts"),
+        msg(
+            "+ adds two numbers, and joins two texts: '0' + '1' is '01'. On this line {name} and {value} "
+            "are texts."
+        ),
+        msg(
+            "Find the lines that give {name} its first value, and {value} its value. Make a number of each "
+            "there: without quotes, or with int(…). In the line that is logged, write str(…) around the "
+            "number if + joins it to a text."
+        ),
+        behind={"run.wrong_text": _digits_joined},
+        examples=(
+            example(
+                "counter_and_step_are_texts",
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "first, self.step_ = '0 1'.split()\n        self.counter_ = first",
+                ),
+                Replace(NODE, "str(self.counter_)", "self.counter_"),
+                Replace(NODE, "self.counter_ += 1", "self.counter_ += self.step_"),
+                fails="run.output",
+                blocks=("run.period",),
             ),
         ),
     ),

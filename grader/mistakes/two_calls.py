@@ -85,6 +85,22 @@ KINDS = (
                 fails="run.output",
             ),
             example(
+                "helper_logs_the_parts",
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def show(self, part):\n        self.get_logger().info(str(part))\n\n"
+                    "    def timer_callback",
+                ),
+                Replace(
+                    NODE,
+                    f"{LOG_LINE}        self.counter_ += 1",
+                    "        self.show('Hello time: ')\n        self.show(self.counter_)\n"
+                    "        self.counter_ += 1",
+                ),
+                fails="run.output",
+            ),
+            example(
                 "printed_and_then_logged",
                 Replace(
                     NODE,

@@ -60,7 +60,8 @@ def test_an_f_is_not_written_where_its_values_are_unknown(tmp_path: Path) -> Non
     assert fix_of(found).startswith("Write f'Hello time: {self.counter_}' instead of TEXT in this")
     assert "info(f'Hello time: {self.counter_}')" in patched(found, text, tmp_path)
     for_format = changed((TEXT, "'Hello time: {n}'"))
-    assert behind(for_format, "Hello time: {n}") is None
+    found = behind(for_format, "Hello time: {n}")
+    assert fix_of(found).startswith("Write .format(n=self.counter_) after the string, or")
 
 
 def test_a_text_with_two_places_is_no_text_without_its_value() -> None:

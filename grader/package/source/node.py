@@ -43,6 +43,7 @@ class NodeSource:
             self.module = found[0]
         own = (self.module, self.entry, *([found[0]] if found else []))
         self.modules = tuple(dict.fromkeys(own))
+        self.imported = tuple(module for module in modules if module not in self.modules)
 
     @property
     def paths(self) -> list[str]:
@@ -51,11 +52,13 @@ class NodeSource:
 
     def module_of(self, node: ast.AST) -> Module:
         """Return the file that a piece of syntax is in."""
-        return next((m for m in self.modules if m.has(node)), self.module)
+        known = (*self.modules, *self.imported)
+        return next((m for m in known if m.has(node)), self.module)
 
     def module_at(self, path: str) -> Module:
         """Return the file at a path; that of the class if the node does not have it."""
-        return next((m for m in self.modules if m.path == path), self.module)
+        known = (*self.modules, *self.imported)
+        return next((m for m in known if m.path == path), self.module)
 
     @cached_property
     def family(self) -> list[ast.ClassDef]:

@@ -157,6 +157,36 @@ def _in_call(module: Module, call: ast.Call, names: set[str]) -> Iterator[Number
             yield _piece(module, call, name, f"str({value})", form, start)
 
 
+def widths_in(module: Module, part: ast.AST) -> Iterator[NumberForm]:
+    """Yield what sets a width in a piece of syntax: a place of a text, or a method such as rjust()."""
+    for node in ast.walk(part):
+        called = node.func if isinstance(node, ast.Call) else None
+        if (
+            isinstance(node, ast.Call)
+            and isinstance(called, ast.Attribute)
+            and called.attr in FILLS
+        ):
+            name, value = module.text.code(node), module.text.code(called.value)
+            form, start = name[len(value) :].strip(), module.text.span(node)[0]
+            yield _piece(module, node, name, value, form, start)
+        inside = isinstance(module.parents.get(node), ast.JoinedStr)
+        if not isinstance(node, ast.Constant | ast.JoinedStr) or inside:
+            continue
+        first, code = module.text.span(node)[0], module.text.code(node)
+        if isinstance(node, ast.JoinedStr):
+            for match in IN_F_STRING.finditer(code):
+                new = f"{{{match['value'].strip()}}}"
+                yield _piece(module, node, match[0], new, match["form"], first + match.start())
+        if not _is_text(node):
+            continue
+        for match in IN_FORMAT.finditer(code):
+            new = f"{{{match['value']}}}"
+            yield _piece(module, node, match[0], new, match["form"], first + match.start())
+        for match in IN_PERCENT.finditer(code):
+            if match[0] not in PLAIN:
+                yield _piece(module, node, match[0], "%d", match["form"], first + match.start())
+
+
 def _starts(source: NodeSource, names: set[str], start: int) -> Iterator[NumberForm]:
     """Yield the counter's first value if it is a float; only the required one."""
     literals = list(starts_of(source, float).values())

@@ -1,4 +1,4 @@
-"""Two calls of the logger or of print that each write a part of one line."""
+"""Two calls of the logger, of print or of a helper that each write a part of one line."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ import ast
 from dataclasses import dataclass
 
 from grader.package.edit.text import Splice
-from grader.package.source.module import Module
-from grader.package.source.names import dotted
+from grader.package.source.module import Function, Module
+from grader.package.source.names import called_name, dotted
 from grader.package.source.node import NodeSource
 from grader.package.source.place import blocks_in
 
@@ -58,7 +58,7 @@ def _joined(
     code = module.text.code
     value = _number_of(source, number)
     calls = [s.value for s in (number, text) if isinstance(s.value, ast.Call)]
-    logs = [call for call in calls if source.is_log(call)]
+    logs = [call for call in calls if _logs(source, call)]
     row = module.text.line(text.lineno).partition("#")[0].strip()
     alone = text.lineno == text.end_lineno and row == code(text)
     if value is None or not logs or not alone or number.lineno == text.lineno:
@@ -84,7 +84,30 @@ def _call(source: NodeSource, statement: ast.stmt) -> ast.Call | None:
     call = statement.value if isinstance(statement, ast.Expr) else None
     if not isinstance(call, ast.Call) or not _given(call):
         return None
-    return call if source.is_log(call) or dotted(call.func) == "print" else None
+    return call if _logs(source, call) or dotted(call.func) == "print" else None
+
+
+def _logs(source: NodeSource, call: ast.Call) -> bool:
+    """Whether a call is one of the logger, or of a function that logs only what it is given."""
+    if source.is_log(call):
+        return True
+    name = called_name(call)
+    found = [n for n in source.all_nodes if isinstance(n, Function) and n.name == name]
+    logs = source.logs(found[0]) if len(found) == 1 else []
+    names = [a.arg for a in found[0].args.args if a.arg not in ("self", "cls")] if logs else []
+    if len(logs) != 1 or not names or len(logs[0].args) != 1:
+        return False
+    shown = logs[0].args[0]
+    if isinstance(shown, ast.Call) and dotted(shown.func) == "str" and len(shown.args) == 1:
+        shown = shown.args[0]
+    elif isinstance(shown, ast.JoinedStr) and len(shown.values) == 1:
+        shown = getattr(shown.values[0], "value", shown)
+    alone = len(found[0].body) == len([s for s in found[0].body if not _is_branch(s)])
+    return alone and dotted(shown) == names[0]
+
+
+def _is_branch(statement: ast.stmt) -> bool:
+    return isinstance(statement, ast.If | ast.For | ast.While | ast.Try)
 
 
 def _writes(source: NodeSource, statement: ast.stmt, head: str) -> bool:
