@@ -490,6 +490,10 @@ KINDS = (
             ),
             "attribute_name": msg("Write {wanted}= instead of {found}= in that tag."),
             "attribute": msg("Delete {found}=… from the tag <{tag}>."),
+            "content": msg(
+                "Write {wanted} in that line: what {found}=… contains belongs between <{tag}> and "
+                "</{tag}>."
+            ),
             "format": msg(
                 'Write <package format="3">. Each format has its own tags, and ros2 pkg create '
                 "writes format 3."
@@ -557,6 +561,12 @@ KINDS = (
             example(
                 "run_depend_of_ros_1",
                 Replace(MANIFEST, "<depend>rclpy</depend>", "<run_depend>rclpy</run_depend>"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "depend_in_an_attribute",
+                Replace(MANIFEST, "<depend>rclpy</depend>", '<depend include="rclpy"/>'),
                 fails="package.manifest",
                 blocks=UNBUILT,
             ),
