@@ -522,7 +522,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "last": "14",
         "columns": "4",
     },
-    "node.global_lost": {"name": "node", "function": "main", "line": "20"},
+    "node.signal_handler": {"line": "24"},
+    "node.global_lost": {"name": "node", "function": "main", "line": "20", "word": "global"},
     "node.set_under_guard": {"name": "PERIOD", "line": "30"},
     "node.self_second": {"method": "text", "parameter": "n", "head": "def text(self, n):"},
     "node.with_method": {
