@@ -713,6 +713,13 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "name": "self.get_logger()",
         "written": "self.get_logger().info",
     },
+    "node.two_ways_to_count": {
+        "name": "0 if self.counter == 4 else self.counter + 1",
+        "written": "self.counter + 1",
+        "form": "self.counter == 4",
+        "first": "15",
+        "line": "18",
+    },
     "node.text_changed": {"name": "text.upper()", "written": "text", "form": ".upper()"},
     "node.one_digit": {"name": "chr(48 + self.counter)", "written": "str(self.counter)"},
     "node.number_changed": {"name": "self.counter + 1", "written": "self.counter"},
