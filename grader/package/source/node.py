@@ -29,7 +29,7 @@ Read = Callable[[str], "bytes | None"]
 class NodeSource:
     """The facts of a node: `entry` is the entry point's file, `module` the one with the class.
 
-    Both are the same file in most packages. `main` is the entry function, None if it is missing.
+    Both are the same file in most packages. `beside` are the other files that these import. `main` is the entry function, None if it is missing.
     """
 
     def __init__(self, modules: Sequence[Module], function: str) -> None:
@@ -43,6 +43,7 @@ class NodeSource:
             self.module = found[0]
         own = (self.module, self.entry, *([found[0]] if found else []))
         self.modules = tuple(dict.fromkeys(own))
+        self.beside = tuple(m for m in modules if m not in self.modules)
 
     @property
     def paths(self) -> list[str]:
@@ -51,7 +52,7 @@ class NodeSource:
 
     def module_of(self, node: ast.AST) -> Module:
         """Return the file that a piece of syntax is in."""
-        return next((m for m in self.modules if m.has(node)), self.module)
+        return next((m for m in (*self.modules, *self.beside) if m.has(node)), self.module)
 
     def module_at(self, path: str) -> Module:
         """Return the file at a path; that of the class if the node does not have it."""
