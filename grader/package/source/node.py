@@ -252,7 +252,10 @@ class NodeSource:
 
     @cached_property
     def name_given(self) -> ast.Call | None:
-        """The call that gives the node its name: that of a base class, if this gives it itself."""
+        """The call that gives the node its name: that of a base class, if this gives it itself.
+
+        A base class that passes its own first parameter on gets the name from the node's class.
+        """
         call, node = self.super_init, self.node_class
         bases = {last_part(dotted(base)) for base in (node.bases if node is not None else ())}
         own = [c for c in self.family if c.name in bases and c is not node]
@@ -260,7 +263,10 @@ class NodeSource:
             return call
         inits = [s for s in own[0].body if isinstance(s, Function) and s.name == "__init__"]
         calls = [c for init in inits for c, name in calls_in(init) if name == "super().__init__"]
-        return calls[0] if len(calls) == 1 and calls[0].args else call
+        if len(calls) != 1 or not calls[0].args:
+            return call
+        first = [a.arg for a in inits[0].args.args][1:2] if len(inits) == 1 else []
+        return call if dotted(calls[0].args[0]) in first else calls[0]
 
     @property
     def created_node(self) -> ast.Call | None:
