@@ -523,6 +523,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "columns": "4",
     },
     "node.signal_handler": {"line": "24"},
+    "node.spin_until_done": {
+        "name": "self.done.set_result",
+        "line": "17",
+        "written": "rclpy.spin(node)",
+    },
     "node.never_added": {"name": "other", "written": "node", "executor": "executor.add_node"},
     "node.global_lost": {"name": "node", "function": "main", "line": "20", "word": "global"},
     "node.set_under_guard": {"name": "PERIOD", "line": "30"},
