@@ -37,7 +37,7 @@ def lines_that_make(
     places = list(dict.fromkeys((module, n.lineno) for module, n in found))
     if not 0 < len(places) <= MOST_LINES:
         return None
-    here = {where.file} if where is not None and where.line else set()
+    here = {source.module_of(call).path} if call is not None else set()
     several = len({module.path for module, _ in places} | here) > 1
     texts = []
     for module, line in places:

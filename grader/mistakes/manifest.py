@@ -737,6 +737,11 @@ KINDS = (
         whys={
             **dict.fromkeys(("outside", "into", "outside_too", "out_of_other"), DEGRADES),
             "several": msg("The build type tells colcon how to build: a package has only one."),
+            "line": msg(
+                "The build type tells colcon how to build. Only with ament_python does colcon build a "
+                "Python package of ROS: for other types it looks for a CMakeLists.txt, or does not know "
+                "them and builds nothing."
+            ),
         },
         fix=msg(
             "Write above </package> in package.xml, then build again: "

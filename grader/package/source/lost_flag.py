@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from dataclasses import dataclass
 
-from grader.package.source.counter import targets_of
+from grader.package.source.counter import declares, targets_of
 from grader.package.source.imported import full_name
 from grader.package.source.module import Function, Module
 from grader.package.source.scopes import Scope, bindings, scope_of
@@ -43,7 +43,7 @@ def _of_loop(module: Module, handler: Function, loop: ast.AST) -> LostFlag | Non
     if not isinstance(loop, ast.While):
         return None
     for read in ast.walk(loop.test):
-        if not isinstance(read, ast.Name):
+        if not isinstance(read, ast.Name) or declares(handler, read.id):
             continue
         bound = bindings(module, read.id)
         scopes = {one.scope for one in bound if one.scope is not handler}
