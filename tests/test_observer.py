@@ -45,6 +45,12 @@ def test_wrong_lines_before_a_traceback_count() -> None:
     assert Watch(clock="virtual", events=wrong + crash).counted == wrong
 
 
+def test_numbers_filled_up_to_a_width_are_one_count() -> None:
+    texts = [f"Hello time: {n:2d}" for n in range(13)]
+    events = [event(t, due=n, n=n if n > 9 else None) for n, t in enumerate(texts)]
+    assert Watch(clock="virtual", events=events).counted == events
+
+
 def test_a_record_lost_with_its_node_is_not_a_forgery() -> None:
     last = event("Hello time: 2", due=2, source="faked", n=2)
     assert asked(logger, run_of(last, ended=True)) is not None

@@ -578,7 +578,14 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "last": "14",
         "columns": "4",
     },
-    "node.global_lost": {"name": "node", "function": "main", "line": "20"},
+    "node.signal_handler": {"line": "24"},
+    "node.spin_until_done": {
+        "name": "self.done.set_result",
+        "line": "17",
+        "written": "rclpy.spin(node)",
+    },
+    "node.never_added": {"name": "other", "written": "node", "executor": "executor.add_node"},
+    "node.global_lost": {"name": "node", "function": "main", "line": "20", "word": "global"},
     "node.set_under_guard": {"name": "PERIOD", "line": "30"},
     "node.self_second": {"method": "text", "parameter": "n", "head": "def text(self, n):"},
     "node.with_method": {
@@ -766,6 +773,13 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.logger_called": {
         "name": "self.get_logger()",
         "written": "self.get_logger().info",
+    },
+    "node.two_ways_to_count": {
+        "name": "0 if self.counter == 4 else self.counter + 1",
+        "written": "self.counter + 1",
+        "form": "self.counter == 4",
+        "first": "15",
+        "line": "18",
     },
     "node.text_changed": {"name": "text.upper()", "written": "text", "form": ".upper()"},
     "node.one_digit": {"name": "chr(48 + self.counter)", "written": "str(self.counter)"},

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import LOG, NODE, SILENT, STEP_LINE, example
+from grader.mistakes.example import LOG, NODE, SILENT, SPIN_UNTIL_CTRL_C, STEP_LINE, example
 from grader.mistakes.fixes import lines, node_logging, node_threads
 from grader.mistakes.fixes.node_timer import value_of
 from grader.mistakes.kind import Family
@@ -16,6 +16,7 @@ from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.imported import full_name, imports
+from grader.package.source.lost_flag import lost_flag
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
 from grader.package.source.node import NodeSource
@@ -101,6 +102,8 @@ def _python_logging_hidden(suspect: Suspect) -> RecognisedMistake | None:
 def _signal_handler(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a handler of Ctrl+C that does not end the program."""
     source = suspect.source
+    if lost_flag(source.module) is not None:
+        return None
     for call in source.calls_of("signal"):
         module = source.module_of(call)
         given = [*call.args, *(word.value for word in call.keywords)]
@@ -110,8 +113,20 @@ def _signal_handler(suspect: Suspect) -> RecognisedMistake | None:
         if last_part(dotted(given[1])) == "SIG_IGN":
             return replace(suspect.finding("signal_handler", call), variant="ignored")
         if not last_part(dotted(given[1])).startswith("SIG_") and not _may_end(source, given[1]):
-            return suspect.finding("signal_handler", call)
+            return _with_loop(source, suspect.finding("signal_handler", call))
     return None
+
+
+def _with_loop(source: NodeSource, found: RecognisedMistake) -> RecognisedMistake:
+    """Name the loop that spins, if nothing calls spin."""
+    loops = [
+        n
+        for n in source.all_nodes
+        if isinstance(n, ast.While) and source.calls_of("spin_once", within=n)
+    ]
+    if len(loops) != 1 or source.calls_of("spin", "spin_until_future_complete"):
+        return found
+    return replace(found, variant="loop", words={**found.words, "line": str(loops[0].lineno)})
 
 
 def _may_end(source: NodeSource, handler: ast.expr) -> bool:
@@ -372,7 +387,11 @@ KINDS = (
             "ignored": msg(
                 "Delete this line. To end without a traceback, catch KeyboardInterrupt around the "
                 "line that spins: try: above it, and except KeyboardInterrupt: pass below it."
-            )
+            ),
+            "loop": msg(
+                "Remove signal.signal and its function, and call rclpy.spin({node}) in place of the loop "
+                "that begins in line {line}: Ctrl+C ends rclpy.spin by itself."
+            ),
         },
         behind={"run.ignores_interrupt": _signal_handler},
         examples=(
@@ -383,6 +402,17 @@ KINDS = (
                     NODE,
                     "    try:\n",
                     "    signal.signal(signal.SIGINT, lambda *_: None)\n    try:\n",
+                ),
+                fails="run.interrupt",
+            ),
+            example(
+                "ctrl_c_only_prints",
+                Replace(NODE, "import rclpy\nfrom", "import signal\n\nimport rclpy\nfrom"),
+                Replace(
+                    NODE,
+                    SPIN_UNTIL_CTRL_C,
+                    "    signal.signal(signal.SIGINT, lambda *_: print('bye'))\n    while rclpy.ok():\n"
+                    "        rclpy.spin_once(node, timeout_sec=0.1)\n",
                 ),
                 fails="run.interrupt",
             ),

@@ -490,6 +490,10 @@ KINDS = (
             ),
             "attribute_name": msg("Write {wanted}= instead of {found}= in that tag."),
             "attribute": msg("Delete {found}=… from the tag <{tag}>."),
+            "content": msg(
+                "Write {wanted} in that line: what {found}=… contains belongs between <{tag}> and "
+                "</{tag}>."
+            ),
             "format": msg(
                 'Write <package format="3">. Each format has its own tags, and ros2 pkg create '
                 "writes format 3."
@@ -571,6 +575,8 @@ KINDS = (
                     "  <depend>rclpy</depend>",
                     "  <dependencies>\n    <depend>rclpy</depend>\n  </dependencies>",
                 ),
+                "depend_in_an_attribute",
+                Replace(MANIFEST, "<depend>rclpy</depend>", '<depend include="rclpy"/>'),
                 fails="package.manifest",
                 blocks=UNBUILT,
             ),
@@ -741,6 +747,11 @@ KINDS = (
         whys={
             **dict.fromkeys(("outside", "into", "outside_too", "out_of_other"), DEGRADES),
             "several": msg("The build type tells colcon how to build: a package has only one."),
+            "line": msg(
+                "The build type tells colcon how to build. Only with ament_python does colcon build a "
+                "Python package of ROS: for other types it looks for a CMakeLists.txt, or does not know "
+                "them and builds nothing."
+            ),
         },
         fix=msg(
             "Write above </package> in package.xml, then build again: "

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import DEAD, NODE, example
+from grader.mistakes.example import DEAD, NODE, SPIN_UNTIL_CTRL_C, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
@@ -26,6 +26,7 @@ from grader.package.edit.text import Splice, indent_of
 from grader.package.edit.tree import Replace, Write
 from grader.package.source.counter import targets_of
 from grader.package.source.guard import is_guard
+from grader.package.source.lost_flag import lost_flag
 from grader.package.source.module import Function, Module
 from grader.package.source.node import read_module
 from grader.package.source.place import statement_at
@@ -182,6 +183,19 @@ def _global_lost(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
     return raised.finding("global_lost", at=owner, params=params)
 
 
+def _flag_lost(suspect: Suspect) -> RecognisedMistake | None:
+    """A function that Ctrl+C calls sets a variable of its own, and the loop reads the other one."""
+    module = suspect.source.module
+    found = lost_flag(module)
+    if found is None:
+        return None
+    sets = next(s for s in ast.walk(found.handler) if found.name in targets_of(s))
+    params = {"name": found.name, "function": found.handler.name, "line": str(found.loop.lineno)}
+    at = sets if isinstance(sets, ast.stmt) else found.handler
+    told = suspect.finding("global_lost", at=at, **params, word=found.word)
+    return replace(told, variant="flag")
+
+
 def _with_global(case: Case) -> Files | None:
     """Write the global as the first line of the function."""
     module, params = read_module(case.files.data, case.finding.file), case.finding.params
@@ -192,7 +206,7 @@ def _with_global(case: Case) -> Files | None:
     if not body or body[0].lineno == made.lineno:
         return None
     indent = indent_of(module.text.line(body[0].lineno))
-    row = f"{indent}global {params.get('name', '')}"
+    row = f"{indent}{params.get('word', 'global')} {params.get('name', '')}"
     return case.changed(module, module.text.before(body[0].lineno, row))
 
 
@@ -278,6 +292,15 @@ KINDS = (
             "sets {name} in {function} only, and {name} of the file stays None."
         ),
         msg("Write global {name} as the first line of {function}."),
+        whys={
+            "flag": msg(
+                "A function that gives a name a value has a variable of its own with this name. Ctrl+C "
+                "calls {function}, which sets its own {name}. The loop in line {line} reads the other "
+                "{name}, which stays as it was."
+            )
+        },
+        fixes={"flag": msg("Write {word} {name} as the first line of {function}.")},
+        behind={"run.ignores_interrupt": _flag_lost},
         raised={
             r"AttributeError: 'NoneType' object has no attribute '(?P<name>\w{1,120})'": on_line(
                 _global_lost
@@ -290,6 +313,22 @@ KINDS = (
                 Write(NODE, NODE_OF_FILE),
                 fails="run.output",
                 blocks=DEAD,
+            ),
+            example(
+                "flag_of_ctrl_c_without_global",
+                Replace(NODE, "import rclpy\nfrom", "import signal\n\nimport rclpy\nfrom"),
+                Replace(
+                    NODE,
+                    "def main(",
+                    "running = True\n\n\ndef stop(signum, frame):\n    running = False\n\n\ndef main(",
+                ),
+                Replace(
+                    NODE,
+                    SPIN_UNTIL_CTRL_C,
+                    "    signal.signal(signal.SIGINT, stop)\n    while running:\n"
+                    "        rclpy.spin_once(node, timeout_sec=0.1)\n",
+                ),
+                fails="run.interrupt",
             ),
         ),
     ),

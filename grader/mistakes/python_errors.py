@@ -28,6 +28,7 @@ from grader.package.source.names import called_name, dotted, own_name
 from grader.package.source.place import statement_at
 
 OF_LISTS = ("append", "extend", "insert", "sort", "reverse", "clear", "update", "add")
+STARTERS = ("run", "Popen", "call", "check_call", "check_output", "execv", "execvp", "spawn")
 MOST_CODE = 60  # characters of a piece of code that a text shows
 NONE = msg(
     "A function without return gives back None, and a name that was set to None has this value."
@@ -222,9 +223,23 @@ def _no_items(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
 
 
 def _no_file(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """The path is relative, or a whole one."""
+    """The path is relative, or a whole one, of a file that is read or written."""
+    calls = [n for n in _on_line(raised) if isinstance(n, ast.Call)]
+    if any(called_name(call) in STARTERS for call in calls):
+        return None
+    if any(_writes(call) for call in calls):
+        return _told("no_such_file", "written")(raised, match)
     whole = match["name"].startswith("'/")
     return _told("no_such_file", "whole" if whole else "")(raised, match)
+
+
+def _writes(call: ast.Call) -> bool:
+    """Whether a call opens a file to write it."""
+    given = [*call.args[:2], *(w.value for w in call.keywords if w.arg == "mode")]
+    modes = [n.value for n in given[-1:] if isinstance(n, ast.Constant)]
+    mode = str(modes[0]) if modes else ""
+    opens = called_name(call) == "open" and re.fullmatch(r"[wax][bt+]*", mode) is not None
+    return opens or called_name(call) in ("write_text", "write_bytes", "mkdir")
 
 
 def _frozen(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -801,20 +816,26 @@ KINDS = (
             "started, and not beside the file of the node."
         ),
         msg(
-            "Remove the lines that open {name} if the exercise does not need it. Otherwise let "
-            "setup.py install the file, and open it by its whole path."
+            "Write the values that the program takes from {name} into the program, in place of what "
+            "opens and reads the file. If it must be a file, let setup.py install it: add it to the list "
+            "with 'package.xml' in data_files, and build again. Then open it in the folder that "
+            "get_package_share_directory('{package}') returns (from ament_index_python.packages)."
         ),
         whys={
             "whole": msg(
                 "There is no file {name} on the computer that runs the node. The folders of one computer do "
                 "not exist on another one."
-            )
+            ),
+            "written": msg(
+                "Python creates a file that is opened to be written, but not the folder that contains it. "
+                "A path that does not begin with / begins in the folder in which ros2 run is started."
+            ),
         },
         fixes={
-            "whole": msg(
-                "Remove the lines that open {name} if the exercise does not need it. Otherwise correct the "
-                "path, and let setup.py install the file."
-            )
+            "written": msg(
+                "Create the folder of {name} before this line, with os.makedirs(…, exist_ok=True), or "
+                "write the file into a folder that exists."
+            ),
         },
         raised={
             r"FileNotFoundError: \[Errno 2\] No such file or directory: (?P<name>'[^'\n]{1,120}')": (

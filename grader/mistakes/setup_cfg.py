@@ -23,6 +23,11 @@ OTHER_PLACE = msg(
     "another path they can get into another folder, and then ros2 run answers: No executable found. "
     "[develop] is for colcon build --symlink-install, [install] for a build without it."
 )
+OTHER_KEY = msg(
+    "setup.cfg sets where executables are installed. ros2 run looks only in lib/<package>. [develop] "
+    "is for colcon build --symlink-install, [install] for a build without it. Each has keys of its own, "
+    "and a build that reads a key which setuptools does not know there stops."
+)
 NEW_CFG = msg(
     "Create setup.cfg beside setup.py. Below [develop] write script_dir=$base/lib/{package}, and "
     "below [install] write install_scripts=$base/lib/{package}. Then build again."
@@ -166,9 +171,8 @@ KINDS = (
         title=msg("setup.cfg installs executables where ros2 run does not look"),
         why=OTHER_PLACE,
         whys={
-            **dict.fromkeys(
-                ("key", "misspelt", "heading", "section", "swapped", "one_line"), TWO_SECTIONS
-            ),
+            **dict.fromkeys(("key", "heading", "section", "swapped", "one_line"), TWO_SECTIONS),
+            **dict.fromkeys(("misspelt", "line"), OTHER_KEY),
             "indented": msg(
                 "In setup.cfg, a line that begins with a space continues the line above. So this "
                 "line, and those below it, belong to the value above, and begin no section."
@@ -229,6 +233,7 @@ KINDS = (
             ),
             "key": msg("Write below [{section}]: {key}={wanted}, then build again."),
             "misspelt": msg("Write {key} instead of {close} in this line, then build again."),
+            "line": msg("Write {key}={wanted} in place of this line, then build again."),
             "heading": msg("Write [{section}] instead of [{close}], then build again."),
             "section": msg(
                 "Add two lines: [{section}] and below it {key}={wanted}. Then build again."
@@ -331,6 +336,13 @@ KINDS = (
                 fails="package.setup_cfg",
                 also={"build.colcon": "build.failed"},
                 note="setuptools refuses the key, so the build fails too",
+            ),
+            example(
+                "setup_cfg_key_of_the_other_section",
+                Replace(CFG, "install_scripts", "script_dir"),
+                fails="package.setup_cfg",
+                blocks=UNBUILT,
+                note="setuptools refuses the key",
             ),
             example(
                 "setup_cfg_other_package",

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import NODE, SPIN_UNTIL_CTRL_C, example
+from grader.mistakes.example import NODE, SPIN_UNTIL_CTRL_C, STEP_LINE, example
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
-from grader.package.source.time_limit import time_limit
+from grader.package.source.time_limit import done_future, time_limit
 
 
 def _limited(suspect: Suspect) -> RecognisedMistake | None:
@@ -21,12 +23,25 @@ def _limited(suspect: Suspect) -> RecognisedMistake | None:
     return suspect.finding("spin_has_timeout", call, timeout=timeout, written=spin)
 
 
-def _spun(case: Case) -> Files | None:
-    """Spin without the timeout."""
-    found = time_limit(case.node) if case.node is not None else None
-    if case.node is None or found is None:
+def _done(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the call that makes the future done until which the node is spun."""
+    found = done_future(suspect.source)
+    if found is None:
         return None
-    module = case.node.module_of(found[0])
+    call, done, spin = found
+    module = suspect.source.module_of(done)
+    name = module.text.code(done.func)
+    found_at = suspect.finding("spin_until_done", call, name=name, written=spin)
+    return replace(found_at, words={**found_at.words, "line": str(done.lineno)})
+
+
+def _spun(case: Case) -> Files | None:
+    """Spin without the timeout, or without the future."""
+    node = case.node
+    found = (time_limit(node) or done_future(node)) if node is not None else None
+    if node is None or found is None:
+        return None
+    module = node.module_of(found[0])
     return case.changed(module, module.text.swap(found[0], found[2]))
 
 
@@ -54,6 +69,35 @@ KINDS = (
                         "rclpy.spin(node)",
                         "rclpy.spin_until_future_complete(node, Future(), timeout_sec=3.0)",
                     ),
+                ),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+        ),
+    ),
+    _node(
+        "spin_until_done",
+        "spin",
+        msg("The line that spins the node ends when a future is done"),
+        msg(
+            "This line waits until its future is done, and then the program goes on below it. "
+            "{name} in line {line} makes the future done. A node runs until Ctrl+C."
+        ),
+        msg("Write {written} instead: it waits until Ctrl+C."),
+        behind={"run.ended_early": _done},
+        fixed_by=(_spun,),
+        examples=(
+            example(
+                "spins_until_the_first_callback",
+                Replace(NODE, "import rclpy\n", "import rclpy\nfrom rclpy.task import Future\n"),
+                Replace(
+                    NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.done_ = Future()"
+                ),
+                Replace(NODE, STEP_LINE, f"{STEP_LINE}        self.done_.set_result(True)\n"),
+                Replace(
+                    NODE,
+                    "rclpy.spin(node)",
+                    "rclpy.spin_until_future_complete(node, node.done_)",
                 ),
                 fails="run.output",
                 blocks=("run.interrupt",),

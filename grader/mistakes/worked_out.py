@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
@@ -12,6 +13,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromSource, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.change import Change
+from grader.package.source.number_forms import number_forms
 from grader.package.source.one_change import changes, logged_lines, wanted_lines
 
 LONGEST = 200  # characters of a piece of code that a text shows
@@ -66,6 +68,26 @@ def _joined(suspect: Suspect) -> RecognisedMistake | None:
     return worked_out("join_between", "joined")(suspect)
 
 
+def _branch(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a condition of which one part alone gives the right lines."""
+    change = change_of(suspect, "branch")
+    if change is None or "\n" in change.form:
+        return None
+    found = worked_out("two_ways_to_count", "branch")(suspect)
+    whole = found is not None and isinstance(change.at, ast.If)
+    if found is None or not whole:
+        return found
+    words = {**found.words, "first": change.at.lineno, "line": change.at.end_lineno or 0}
+    return replace(found, words=words, variant="lines")
+
+
+def _method(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a method that changes the text; one that fills up a number is told elsewhere."""
+    output = suspect.output
+    forms = number_forms(suspect.source, output.start, output.step)
+    return None if forms else worked_out("text_changed", "method")(suspect)
+
+
 _node = Family("node", links.PYTHON_STRINGS)
 KINDS = (
     _node(
@@ -100,7 +122,7 @@ KINDS = (
         msg("A method changes the text before it is logged"),
         msg("{form} returns another text than the one that it is called on."),
         INSTEAD,
-        behind={"run.wrong_text": worked_out("text_changed", "method")},
+        behind={"run.wrong_text": _method},
         fixed_by=(node_worked_out.change("method"),),
         examples=(
             example(
@@ -109,6 +131,65 @@ KINDS = (
                     NODE,
                     "('Hello time: ' + str(self.counter_))",
                     "(('Hello time: ' + str(self.counter_)).upper())",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "number_filled_up_by_a_helper",
+                Replace(
+                    NODE,
+                    "class MyFirst",
+                    "def pad(n):\n    return str(n).rjust(3)\n\n\nclass MyFirst",
+                ),
+                Replace(NODE, "str(self.counter_)", "pad(self.counter_)"),
+                fails="run.output",
+            ),
+            example(
+                "each_word_in_capitals_by_a_helper",
+                Replace(
+                    NODE, "class MyFirst", "def head(t):\n    return t.title()\n\n\nclass MyFirst"
+                ),
+                Replace(NODE, "'Hello time: '", "head('hello time: ')"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "two_ways_to_count",
+        "counter",
+        msg("A condition gives the number in two ways"),
+        msg(
+            "The condition {form} does not always have the same value, so the number is not made in the "
+            "same way in each callback. {written} alone gives the required lines."
+        ),
+        INSTEAD,
+        fixes={
+            "lines": msg(
+                "Write only {written} in place of the lines {first} to {line}, indented as far as the if "
+                "is indented."
+            )
+        },
+        behind=dict.fromkeys(
+            ("run.wrong_step", "run.wrong_start", "run.constant_counter"), _branch
+        ),
+        fixed_by=(node_worked_out.change("branch"),),
+        examples=(
+            example(
+                "count_back_to_zero_in_the_else",
+                Replace(
+                    NODE,
+                    "        self.counter_ += 1\n",
+                    "        if self.counter_ < 4:\n            self.counter_ += 1\n"
+                    "        else:\n            self.counter_ = 0\n",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "count_back_to_zero_in_one_line",
+                Replace(
+                    NODE,
+                    "self.counter_ += 1",
+                    "self.counter_ = 0 if self.counter_ == 4 else self.counter_ + 1",
                 ),
                 fails="run.output",
             ),

@@ -79,8 +79,8 @@ class Watch:
         """The events of the count: lines of the expected form, else those that recur, else any."""
         own = [event for event in self.events if event.n is not None]
         if own:
-            shapes = {NUMBER.sub("#", event.text) for event in own}
-            alike = [event for event in self.events if NUMBER.sub("#", event.text) in shapes]
+            shapes = {_shape(event.text) for event in own}
+            alike = [event for event in self.events if _shape(event.text) in shapes]
             # 00, 01, …, 09 have another form than 10, but they are one count
             return own if alike[0].n is not None or len(alike) < 2 * len(own) else alike
         before = {id(event) for event in self.before_start}
@@ -91,6 +91,11 @@ class Watch:
         moments = {event.due if self.clock == "virtual" else event.wall for event in others}
         # lines at one moment only are a message or a traceback, not a count
         return others if len(moments - {None}) > 1 else []
+
+
+def _shape(text: str) -> str:
+    """Return a line without its numbers, and without what fills them up to a width."""
+    return re.sub(r"[ \t]+#", " #", NUMBER.sub("#", text))
 
 
 def recurring(events: Iterable[Event], *, on_wall: bool) -> list[Event]:

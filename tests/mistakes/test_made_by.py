@@ -7,12 +7,16 @@ import pytest
 from grader.mistakes.made_by import lines_that_make
 from grader.mistakes.recognise import behind_symptom
 from grader.mistakes.recognised import Suspect
+from grader.package.source.lost_flag import lost_flag
+from grader.package.source.module import parse_module
+from grader.package.source.node import read_node
 from grader.package.source.plain_counter import plain_start
 from tests.marking import ASSIGNMENT
 from tests.mistakes.test_from_source import line_of, look, node_in, raised
 from tests.mistakes.test_named_exactly import LOG, STEP, changed, fix_of
 from tests.mistakes.test_worked_out import found_in
 
+NODE = "my_robot_controller/my_first_node.py"
 START = "        self.counter_ = 0\n"
 TEXT = "'Hello time: ' + str(self.counter_)"
 COUNT = ("import rclpy\n", "import itertools\n\nimport rclpy\n")
@@ -178,3 +182,59 @@ def test_no_number_is_named_where_the_line_has_no_sum() -> None:
 def test_what_is_used_as_an_object_is_no_plain_number(used: str) -> None:
     assert plain_start(node_in(changed((TEXT, f"str({used})"))), "self.counter_") is None
     assert plain_start(node_in(changed()), "self.counter_") is not None
+
+
+CONSTANTS = "class Texts:\n    HELLO = 'Hello time:'\n\n\ndef pad(n):\n    return str(n).rjust(3)\n"
+
+
+@pytest.mark.parametrize(
+    ("imported", "text", "code"),
+    [
+        (
+            "from my_robot_controller import words as w",
+            "w.Texts.HELLO + str(self.counter_)",
+            "HELLO =",
+        ),
+        (
+            "from my_robot_controller.words import Texts",
+            "Texts.HELLO + str(self.counter_)",
+            "HELLO =",
+        ),
+        ("from .words import pad", "'Hello time: ' + pad(self.counter_)", "return str(n).rjust(3)"),
+    ],
+)
+def test_a_text_of_a_file_beside_it_is_named(imported: str, text: str, code: str) -> None:
+    node = changed(("import rclpy\n", f"import rclpy\n{imported}\n"), (TEXT, text))
+    files = {NODE: node.encode(), "my_robot_controller/words.py": CONSTANTS.encode()}
+    source = read_node(files.get, NODE, "main")
+    assert source is not None
+    made = str(lines_that_make(source, None, only_texts=True))
+    assert f"words.py, line {line_of(CONSTANTS, code)}: {code}" in made
+
+
+def test_the_name_is_given_where_the_class_calls_its_base() -> None:
+    base = "class Base(Node):\n    def __init__(self, name='base'):\n        super().__init__(name)\n\n\n"
+    text = changed(
+        (CLASS, f"{base}{CLASS}"),
+        ("MyFirstNode(Node)", "MyFirstNode(Base)"),
+        ("super().__init__('my_first_node')", "super().__init__()"),
+    )
+    source = read_node({NODE: text.encode()}.get, NODE, "main")
+    given = source.name_given if source is not None else None
+    assert given is not None
+    assert given.lineno == line_of(text, "super().__init__()")
+
+
+@pytest.mark.parametrize(("scope", "word"), [("", "global"), ("    ", "nonlocal")])
+def test_a_flag_of_a_handler_is_lost_without_its_word(scope: str, word: str) -> None:
+    rows = ["go = True", "def stop(*_):", "    go = False"]
+    loop = ["    signal.signal(signal.SIGINT, stop)", "    while go:", "        work()"]
+    own = [scope + row for row in rows]
+    lines = ["def main():", *own, *loop] if scope else [*own, "def main():", *loop]
+    module = parse_module("a.py", "\n".join(["import signal", *lines, ""]).encode())
+    found = lost_flag(module)
+    assert found is not None
+    assert (found.name, found.handler.name, found.word) == ("go", "stop", word)
+    declared = [line.replace("go = False", f"{word} go; go = False") for line in lines]
+    right = parse_module("a.py", "\n".join(["import signal", *declared, ""]).encode())
+    assert lost_flag(right) is None

@@ -228,6 +228,26 @@ def test_a_whole_path_is_not_told_to_begin_with_a_slash(path: str, variant: str)
     assert (found.kind, found.variant) == ("node.no_such_file", variant)
 
 
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("open('notes/log.txt', 'w')", "Create the folder of 'notes/log.txt'"),
+        ("open('notes/log.txt', mode='a')", "Create the folder of 'notes/log.txt'"),
+        ("open('notes/log.txt', 'r')", "Write the values that the program takes from"),
+    ],
+)
+def test_a_file_that_is_written_needs_its_folder(line: str, told: str) -> None:
+    text = changed((START, f"self.counter_ = {line}"))
+    error = "FileNotFoundError: [Errno 2] No such file or directory: 'notes/log.txt'"
+    assert told in fix_of(at(error, text, "open("))
+
+
+def test_a_program_that_cannot_be_started_is_no_file_to_be_read() -> None:
+    text = changed((START, "subprocess.run(['rviz'])"))
+    error = "FileNotFoundError: [Errno 2] No such file or directory: 'rviz'"
+    assert raised(error, text, line_of(text, "subprocess.run")) is None
+
+
 def test_a_timer_of_pythons_threading_is_not_one_of_rclpy() -> None:
     text = changed((START, f"{START}\n        Timer(1.0)"))
     error = "TypeError: Timer.__init__() missing 1 required positional argument: 'function'"

@@ -268,6 +268,8 @@ def _rule_change(places: _Places, fault: RuleFault, case: Case) -> tuple[int, in
         )
         match = name.search(found, tag.start, head)
         return (*match.span(), b"") if match is not None else None
+    if fault.variant == "content" and fault.wanted.isascii():
+        return tag.start, tag.end, fault.wanted.encode()
     if fault.variant == "tag" and tag.inside[0] >= 0:
         old, new = fault.tag.encode(), fault.wanted.encode()
         start = found[tag.start : tag.inside[0]].replace(old, new, 1)

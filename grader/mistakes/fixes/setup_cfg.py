@@ -17,6 +17,7 @@ from grader.package.source.setup_cfg import (
     behind_heading,
     indented_heading,
     is_swapped,
+    meant_key,
     read_setup_cfg,
 )
 
@@ -117,7 +118,7 @@ def _change(cfg: SetupCfg, text: SourceText, section: str, row: str) -> Splice |
             return Splice(at, at + len(close), section)
         return text.before(len(text.lines) + 1, f"[{section}]", row)
     settings = cfg.sections[section]
-    names = (key, key.replace("_", "-"), nearest(key, settings))
+    names = (key, key.replace("_", "-"), meant_key(cfg, section, row.partition("=")[2]))
     old = next((settings[name] for name in names if name in settings), None)
     if old is None:
         head = cfg.lines.get(section)  # None for an indented heading

@@ -258,6 +258,26 @@ def _whole(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Ch
                 yield of_piece(module, "whole", given, f"f'{head}{{{code}}}{tail}'")
 
 
+def _branches(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
+    """Yield one part of a condition without the condition and its other part."""
+    del wanted, before
+    text = module.text
+    for node in module.nodes:
+        if isinstance(node, ast.IfExp):
+            for part in (node.body, node.orelse):
+                yield of_piece(module, "branch", node, text.code(part), text.code(node.test))
+        elif isinstance(node, ast.If) and not text.line(node.lineno).lstrip().startswith("elif"):
+            last = node.end_lineno or node.lineno
+            ends = text.start_of(node.lineno), text.start_of(last) + len(text.line(last))
+            indent = indent_of(text.line(node.lineno))
+            for block in (node.body, node.orelse) if node.orelse else ():
+                kept = block[0]
+                if len(block) == 1 and kept.lineno == kept.end_lineno != node.lineno:
+                    code = text.code(kept)
+                    swap = Splice(*ends, f"{indent}{code}")
+                    yield Change("branch", node, "if", code, (swap,), text.code(node.test))
+
+
 MORE_SORTS: dict[str, Callable[[Module, Wanted, Sequence[str]], Iterator[Change]]] = {
     "taken": _taken,
     "joined": _joined,
@@ -268,4 +288,5 @@ MORE_SORTS: dict[str, Callable[[Module, Wanted, Sequence[str]], Iterator[Change]
     "key": _keys,
     "whole": _whole,
     "character": _one_character,
+    "branch": _branches,
 }

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from xml.sax.saxutils import escape, quoteattr
 
 from grader.base.nearest import nearest
 from grader.package.source.broken_xml import TAGS
@@ -25,6 +26,8 @@ NEEDS = {
     "url": ("type",),
 }
 """The attributes of the tags, except the conditions of dependencies."""
+HOLD_CONTENT = ("name", "value", "package", "pkg", "include", "text", "id")
+"""Attributes in which other formats keep what package.xml has between a tag and its end."""
 
 
 @dataclass(frozen=True)
@@ -159,10 +162,25 @@ def _attributes(manifest: Manifest, match: re.Match[str]) -> RuleFault | None:
         return None
     free = [a for a in NEEDS.get(element.tag, ()) if a not in element.attributes]
     close = nearest(name, free, cutoff=0.6)
+    if not close and element is not root and _is_empty(manifest, element):
+        return _content(element, [n.strip() for n in match["names"].split(",")])
     return RuleFault(
         "attribute_name" if close else "attribute", element.line, element.tag, found=name,
         wanted=close,
     )  # fmt: skip
+
+
+def _content(element: Element, unknown: list[str]) -> RuleFault:
+    """Return how an empty tag is written whose content is the value of an attribute."""
+    given = [n for n in unknown if n in element.attributes]
+    name = next((n for n in given if n in HOLD_CONTENT), given[0])
+    value = element.attributes[name].strip()
+    if not value or (name not in HOLD_CONTENT and len(given) > 1):
+        return RuleFault("attribute", element.line, element.tag, found=name)
+    kept = {n: v for n, v in element.attributes.items() if n not in given}
+    head = "".join(f" {n}={quoteattr(v)}" for n, v in kept.items())
+    wanted = f"<{element.tag}{head}>{escape(value)}</{element.tag}>"
+    return RuleFault("content", element.line, element.tag, found=name, wanted=wanted)
 
 
 def _children(manifest: Manifest, match: re.Match[str]) -> RuleFault | None:

@@ -29,7 +29,7 @@ Read = Callable[[str], "bytes | None"]
 class NodeSource:
     """The facts of a node: `entry` is the entry point's file, `module` the one with the class.
 
-    Both are the same file in most packages. `main` is the entry function, None if it is missing.
+    Both are the same file in most packages. `beside` are the other files that these import. `main` is the entry function, None if it is missing.
     """
 
     def __init__(self, modules: Sequence[Module], function: str) -> None:
@@ -44,6 +44,7 @@ class NodeSource:
         own = (self.module, self.entry, *([found[0]] if found else []))
         self.modules = tuple(dict.fromkeys(own))
         self.imported = tuple(module for module in modules if module not in self.modules)
+        self.beside = tuple(m for m in modules if m not in self.modules)
 
     @property
     def paths(self) -> list[str]:
@@ -54,6 +55,7 @@ class NodeSource:
         """Return the file that a piece of syntax is in."""
         known = (*self.modules, *self.imported)
         return next((m for m in known if m.has(node)), self.module)
+        return next((m for m in (*self.modules, *self.beside) if m.has(node)), self.module)
 
     def module_at(self, path: str) -> Module:
         """Return the file at a path; that of the class if the node does not have it."""
@@ -254,7 +256,10 @@ class NodeSource:
 
     @cached_property
     def name_given(self) -> ast.Call | None:
-        """The call that gives the node its name: that of a base class, if this gives it itself."""
+        """The call that gives the node its name: that of a base class, if this gives it itself.
+
+        A base class that passes its own first parameter on gets the name from the node's class.
+        """
         call, node = self.super_init, self.node_class
         bases = {last_part(dotted(base)) for base in (node.bases if node is not None else ())}
         own = [c for c in self.family if c.name in bases and c is not node]
@@ -262,7 +267,10 @@ class NodeSource:
             return call
         inits = [s for s in own[0].body if isinstance(s, Function) and s.name == "__init__"]
         calls = [c for init in inits for c, name in calls_in(init) if name == "super().__init__"]
-        return calls[0] if len(calls) == 1 and calls[0].args else call
+        if len(calls) != 1 or not calls[0].args:
+            return call
+        first = [a.arg for a in inits[0].args.args][1:2] if len(inits) == 1 else []
+        return call if dotted(calls[0].args[0]) in first else calls[0]
 
     @property
     def created_node(self) -> ast.Call | None:

@@ -23,6 +23,7 @@ PLACES = re.compile(r"%[-+ 0-9.]*[a-zA-Z]|\{[^{}]*\}")
 SEVERAL = re.compile(r"(?:'[^'\\\n]*'|\"[^\"\\\n]*\")(?: +(?:'[^'\\\n]*'|\"[^\"\\\n]*\"))+")
 SHORTEST = 3  # characters of a part of an f-string that is looked for in a line
 LETTER_METHODS = ("capitalize", "lower", "lstrip", "rstrip", "strip", "title", "upper")
+FILL_METHODS = ("center", "ljust", "rjust", "zfill")
 AS_CODE = ("repr", "ascii")
 SUM = ast.Add | ast.Sub
 
@@ -327,17 +328,21 @@ def _is_in_addition(module: Module, node: ast.BinOp) -> bool:
 
 
 def _methods(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
-    """Yield a text in place of what a method makes of it."""
+    """Yield a text in place of what a method makes of it, and another method for its letters."""
     del wanted, before
     text = module.text
     for node in module.nodes:
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
             whole, form = text.code(node), f".{node.func.attr}()"
-            if node.func.attr in LETTER_METHODS:
+            if node.func.attr in (*LETTER_METHODS, *FILL_METHODS):
                 inside = text.text[text.span(node)[0] : text.span(node.func.value)[1]]
                 inside += ")" * (inside.count("(") - inside.count(")"))
                 swap = text.swap(node, inside)
                 yield Change("method", node, whole, inside, (swap,), form)
+            for other in LETTER_METHODS if node.func.attr in LETTER_METHODS else ():
+                made = f"{text.code(node.func.value)}.{other}()"
+                if other != node.func.attr and not node.args:
+                    yield of_piece(module, "method", node, made, form)
 
 
 def _digits(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:

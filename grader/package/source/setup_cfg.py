@@ -7,6 +7,7 @@ import re
 from dataclasses import dataclass
 
 from grader.base.i18n.message import say
+from grader.base.nearest import nearest
 
 MOST_BYTES = 100_000
 NO_EQUALS = re.compile(r"[ \t]*(?P<key>script[_-]dir|install[_-]scripts)[ \t]*(?P<value>\$.*)")
@@ -147,6 +148,19 @@ def indented_heading(text: str) -> int:
             return number
         has_value = has_value or re.match(r"[\w-]+[ \t]*[=:]", row) is not None
     return 0
+
+
+def meant_key(cfg: SetupCfg, section: str, wanted: str) -> str:
+    """Return the key of a section that stands in place of the one it needs; "" if none does."""
+    settings, key = cfg.sections.get(section, {}), KEYS[section]
+    others = {name for name in KEYS.values() if name != key}
+    close = nearest(key, settings)
+    placed = (
+        name
+        for name, setting in settings.items()
+        if name.replace("-", "_") in others or setting.value.rstrip("/") == wanted
+    )
+    return close or next(placed, "")
 
 
 def is_swapped(cfg: SetupCfg) -> bool:

@@ -129,7 +129,11 @@ def colcon_builds(evidence: Evidence) -> Passed:
 
 def _no_marker(evidence: Evidence) -> list[str]:
     """Return advice if the build installed no marker, and package.marker has not said so."""
-    if evidence.has_failed("package.marker") or NO_MARKER not in evidence.build.log:
+    other_name = evidence.has_mistake("package.manifest", "package.name_mismatch")
+    told = (
+        evidence.has_failed("package.marker") or other_name
+    )  # (colcon looks for the name's marker)
+    if told or NO_MARKER not in evidence.build.log:
         return []
     return [
         say(

@@ -218,8 +218,12 @@ def _tag_fault(manifest: Manifest, tag: str) -> tuple[str, Message]:
 
 
 def _check_rules(evidence: Evidence, manifest: Manifest) -> None:
+    rule = rule_fault(manifest, evidence.asked.package) if manifest.fault else None
     for tag in REQUIRED:
         element = manifest.first(tag)
+        in_attribute = rule is not None and rule.variant == "content" and rule.tag == tag
+        if in_attribute:
+            continue  # the rule says more than that the tag is empty
         if element is None:
             _check_tag_name(manifest, tag, within="package")
         if element is None or (not element.text and tag != "description"):
@@ -309,6 +313,7 @@ def _rule_found(fault: RuleFault, error: str, words: Mapping[str, Value]) -> str
         "format": say('the tag <package> does not have format="3"', **words),
         "child": say("<{found}> is inside of <{tag}>, which begins in line {first}", **words),
         "empty": say("<{tag}> is empty", **words),
+        "content": say("<{tag}> is empty, and has the attribute {found}", **words),
         "second_empty": say("<{tag}> is empty", **words),
     }
     return texts.get(fault.variant, error)

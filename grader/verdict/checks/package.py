@@ -17,6 +17,7 @@ from grader.package.source.setup_cfg import (
     behind_heading,
     indented_heading,
     is_swapped,
+    meant_key,
     read_setup_cfg,
     slip_of_path,
 )
@@ -378,11 +379,11 @@ def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) 
         said = say("[{section}] has {key}={value}", section=section, key=key, value=value)
         actual = with_difference(said, setting.value, wanted)
     elif section in cfg.sections:
-        variant, close = "key", nearest(key, settings)
+        variant, close = "key", meant_key(cfg, section, wanted)
         if close:  # (the misspelt key)
             line = settings[close].line
             right = settings[close].value.rstrip("/") == wanted
-            variant = "misspelt" if right else "key"
+            variant = "misspelt" if right else "line"
         elif behind_heading(cfg.text, section):
             line, variant = behind_heading(cfg.text, section), "one_line"
         said = say("[{section}] has no {key}", section=section, key=key) + there_is(close)
