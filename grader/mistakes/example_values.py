@@ -677,7 +677,30 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.callback_decorated": {"name": "staticmethod"},
     "node.counter_in_text": {**COUNTER, "found": "(", "written": "{self.counter}"},
     "node.loop_in_callback": {"name": "for", "number": "i"},
-    "node.log_if": {"name": "self.counter < 5"},
+    "node.never_awaited": {"name": "say_hello"},
+    "node.static_self": {
+        "name": "staticmethod",
+        "written": "self",
+        "method": "on_timer",
+        "type": "MyNode",
+        "lines": "12",
+    },
+    "node.class_to_executor": {
+        "name": "executor.add_node(MyNode)",
+        "written": "executor.add_node(MyNode())",
+        "type": "MyNode",
+    },
+    "node.executor_with_node": {
+        "name": "MultiThreadedExecutor(node)",
+        "written": "MultiThreadedExecutor()",
+        "call": "executor.add_node(node)",
+    },
+    "node.base_for_super": {
+        "name": "base.__init__('my_node')",
+        "written": "super().__init__('my_node')",
+    },
+    "node.method_bind": {"name": "self.on_timer.bind(self)", "written": "self.on_timer"},
+    "node.log_if": {"name": "self.counter < 5", "seconds": "0.1"},
     "node.count_if": {"name": "self.counter", "text": "self.counter > 0"},
     "node.ends_in_callback": {"name": "rclpy.shutdown()"},
     "node.as_code": {
