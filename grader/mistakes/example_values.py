@@ -266,7 +266,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.main_prints": {"name": "while"},
     "node.spin_has_timeout": {"timeout": "timeout_sec=10.0", "written": "rclpy.spin(node)"},
     "node.waits_first": {"name": "input()", "written": "rclpy.spin(node)"},
-    "node.callback_called": {"written": "self.callback"},
+    "node.callback_called": {"written": "self.callback", "name": "partial(self.callback())"},
     "node.logs_before_timer": {"function": "__init__"},
     "node.init_underscores": {"name": "_init_"},
     "node.method_misspelt": {"name": "creat_timer"},
@@ -754,7 +754,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.timer_after_spin": {"name": "node.start()", "line": "12"},
     "node.thread_for_timer": {"name": "run", "loop": "while", "line": "12"},
     "node.thread_goes_on": {"name": "run"},
-    "node.asyncio_used": {"name": "asyncio.sleep(…)", "method": "on_timer"},
+    "node.asyncio_used": {"name": "asyncio.sleep(…)", "method": "on_timer", "lines": "18"},
     "node.timer_hides_method": {"name": "on_timer"},
     "node.not_overridden": {
         "name": "def onCycle",

@@ -84,8 +84,8 @@ KINDS = (
         "spin",
         msg("The executor gets a class instead of a node"),
         msg(
-            "{type} is the class. add_node needs a node: an object of the class, which the () make. "
-            "The error comes only when the executor spins."
+            "{type} is the class. add_node needs a node, which is an object of the class. The error "
+            "comes only when the executor spins."
         ),
         INSTEAD,
         raised={r"'property' object|missing 1 required positional argument: 'self'": _class_added},

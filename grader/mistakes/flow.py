@@ -30,7 +30,7 @@ from grader.package.source.endless import methods_run_by
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
-from grader.package.source.period import is_right
+from grader.package.source.period import is_right, seconds_of
 from grader.package.source.place import function_at, statement_at
 
 ENDS = ("destroy_node", "rclpy.shutdown", "rclpy.try_shutdown")
@@ -111,7 +111,8 @@ def _and_period(look: FromSource) -> FromSource:
 
     def found(suspect: Suspect) -> RecognisedMistake | None:
         mistake, timers = look(suspect), suspect.source.timers
-        seconds = timers[0].seconds if len(timers) == 1 else None
+        period = timers[0].period if len(timers) == 1 else None
+        seconds = seconds_of(suspect.source, period) if period is not None else None
         if mistake is None or seconds is None or is_right(seconds, suspect.output.period):
             return mistake
         words = {**mistake.words, "seconds": f"{seconds:g}"}

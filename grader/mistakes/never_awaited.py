@@ -84,7 +84,9 @@ KINDS = (
                 "only waits, because the timer waits from one call to the next."
             )
         },
-        behind=dict.fromkeys(("run.no_lines", "run.wrong_step"), _not_awaited),
+        behind=dict.fromkeys(
+            ("run.no_lines", "run.constant_counter", "run.wrong_step"), _not_awaited
+        ),
         fixed_by=(_plain,),
         examples=(
             example(
