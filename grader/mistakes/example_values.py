@@ -248,7 +248,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.letter_for_digit": {"name": "l", "written": "1"},
     "node.module_not_imported": {"name": "os", "statement": "import os"},
     "node.makes_itself": {"name": "self.node", "type": "MyNode"},
-    "node.property_of_itself": {"name": "self.count", "written": "self._count"},
+    "node.property_of_itself": {"name": "self.count", "written": "self._count", "lines": "14, 18"},
     "node.calls_itself": {"name": "self.callback()", "function": "callback"},
     "node.finished_elsewhere": {"there": "my_package/my_node_final.py"},
     "node.copy_increased": {
@@ -677,6 +677,13 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.callback_decorated": {"name": "staticmethod"},
     "node.counter_in_text": {**COUNTER, "found": "(", "written": "{self.counter}"},
     "node.loop_in_callback": {"name": "for", "number": "i"},
+    "node.nth_call": {
+        "name": "self.calls % 20 == 0",
+        "written": "self.calls % 10 == 0",
+        "many": 20,
+        "seconds": "0.1",
+        "total": "2",
+    },
     "node.never_awaited": {"name": "say_hello"},
     "node.static_self": {
         "name": "staticmethod",
