@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import ast
 import re
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
+from grader.mistakes.recognised import NAME_ERROR, OWN_ATTRIBUTE, Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
-from grader.package.source.names import dotted, own_name
+from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.place import function_at, statement_at
 
 BASES = ("base", "parent", "Base", "Parent")
+RUNS = ("run", "Run", "start", "Start", "listen", "serve_forever", "mainloop", "loop", "exec")
+"""Methods with which the objects of other frameworks begin their work."""
 STARTS = ("", "()", ".__init__", "().__init__", ".constructor", ".Node")
 
 
@@ -54,6 +57,23 @@ def _bound(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     return None
 
 
+def _runs(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A statement starts the node with a method of other frameworks, and nothing spins."""
+    source, statement = raised.source, statement_at(raised.module, raised.line)
+    call = statement.value if isinstance(statement, ast.Expr) else None
+    if not isinstance(call, ast.Call) or match["name"] not in RUNS:
+        return None
+    owner, _, method = dotted(call.func).rpartition(".")
+    spins = any(last_part(name).startswith("spin") for _, name in source.calls)
+    if spins or method != match["name"] or owner not in source.node_variables:
+        return None
+    params = {"name": raised.module.text.code(call), "written": f"rclpy.spin({owner})"}
+    if "\n" in params["name"]:
+        return None
+    found = raised.finding("run_for_spin", at=statement, params=params)
+    return replace(found, words={**found.words, "method": method})
+
+
 INSTEAD = msg("Write {written} instead of {name}.")
 _node = Family("node", links.PYTHON_CLASSES)
 KINDS = (
@@ -69,6 +89,23 @@ KINDS = (
             example(
                 "base_of_c_sharp",
                 Replace(NODE, "super().__init__(", "base.__init__("),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "run_for_spin",
+        "spin",
+        msg("The node is started with a method that a node does not have"),
+        msg("A node has no method {method}: rclpy.spin(…) calls its callbacks until Ctrl+C."),
+        INSTEAD,
+        links.EXECUTORS,
+        raised={OWN_ATTRIBUTE: _runs},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "node_run_like_an_app",
+                Replace(NODE, "rclpy.spin(node)", "node.run(debug=True)"),
                 fails="run.starts",
             ),
         ),

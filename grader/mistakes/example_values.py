@@ -684,6 +684,18 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "seconds": "0.1",
         "total": "2",
     },
+    "node.base_created": {
+        "name": "BaseNode()",
+        "written": "MyNode()",
+        "type": "MyNode",
+        "line": 16,
+    },
+    "node.first_base_alone": {
+        "name": "super().__init__('my_node')",
+        "written": "Node.__init__(self, 'my_node')",
+        "called": "Counting.__init__(self)",
+        "type": "Counting",
+    },
     "node.never_awaited": {"name": "say_hello"},
     "node.static_self": {
         "name": "staticmethod",
@@ -705,6 +717,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.base_for_super": {
         "name": "base.__init__('my_node')",
         "written": "super().__init__('my_node')",
+    },
+    "node.run_for_spin": {
+        "name": "node.run(debug=True)",
+        "written": "rclpy.spin(node)",
+        "method": "run",
     },
     "node.method_bind": {"name": "self.on_timer.bind(self)", "written": "self.on_timer"},
     "node.log_if": {"name": "self.counter < 5", "seconds": "0.1"},

@@ -205,3 +205,30 @@ def test_a_constructor_that_calls_the_earlier_one() -> None:
         f"Write def __init__(self, name='my_first_node'): in line {line}, and delete the def in this "
         "line with its block."
     )
+
+
+@pytest.mark.parametrize(("made", "told"), [("Base()", True), ("MyFirstNode()", False)])
+def test_the_base_class_is_created(made: str, told: bool) -> None:
+    base = "class Base(Node):\n    def __init__(self):\n        super().__init__('my_first_node')\n"
+    text = changed(
+        (CLASS, f"{base}\n\nclass MyFirstNode(Base):"),
+        (
+            "        super().__init__('my_first_node')\n        self",
+            "        super().__init__()\n        self",
+        ),
+        ("node = MyFirstNode()", f"node = {made}"),
+    )
+    found = look("run.no_lines", text)
+    assert (found is not None and found.kind == "node.base_created") is told
+    assert found is None or not told or fix_of(found) == "Write MyFirstNode() instead of Base()."
+
+
+def test_super_is_the_first_base_class() -> None:
+    mixin = "class Counting:\n    def __init__(self):\n        self.counter_ = 0\n\n\n"
+    text = changed((CLASS, f"{mixin}class MyFirstNode(Counting, Node):"))
+    error = "TypeError: Counting.__init__() takes 1 positional argument but 2 were given"
+    found = found_at(error, text, "super().__init__('my_first_node')")
+    assert fix_of(found).startswith(
+        "Write Node.__init__(self, 'my_first_node') instead of super().__init__('my_first_node'), and "
+        "Counting.__init__(self) on a line of its own below it."
+    )
