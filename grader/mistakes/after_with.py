@@ -217,8 +217,8 @@ KINDS = (
         ),
         msg(
             "Follow {function} from its first line to this line, with all that it calls, and find what "
-            "shuts ROS down: rclpy.shutdown(), rclpy.try_shutdown(), or the end of a with block. That must "
-            "come after this line."
+            "shuts ROS down before it: rclpy.shutdown(), rclpy.try_shutdown(), the end of a with block, or "
+            "Ctrl+C, which ends spin. This line must run before that, or not at all."
         ),
         raised={NO_CONTEXT: _not_running},
     ),

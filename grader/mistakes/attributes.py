@@ -8,6 +8,7 @@ from __future__ import annotations
 import ast
 import re
 from dataclasses import replace
+from typing import TypeGuard
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
@@ -142,6 +143,18 @@ def _without_dot(raised: Raised, name: str) -> ast.stmt | None:
     return None
 
 
+def _node_of_init(owner: ast.ClassDef) -> str:
+    """Return the parameter of __init__ on which methods of a node are called; "" if none."""
+    inits = [s for s in owner.body if isinstance(s, ast.FunctionDef) and s.name == "__init__"]
+    given = {a.arg for init in inits for a in init.args.args[1:]}
+    called = [dotted(n.value) for i in inits for n in ast.walk(i) if _is_node_method(n)]
+    return next((name for name in called if name in given), "")
+
+
+def _is_node_method(part: ast.AST) -> TypeGuard[ast.Attribute]:
+    return isinstance(part, ast.Attribute) and part.attr in NODE_METHODS
+
+
 def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if not of_self(raised, match) or match["name"] in raised.module.functions:
         return None
@@ -150,11 +163,16 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return private
     name, close = match["name"], _close_attribute(raised, match["name"])
     owner = class_of(raised.module, function_at(raised.module, raised.line))
-    helper = owner is not None and not owner[0].bases and owner[0] not in raised.source.family
+    held = raised.source.held_node
+    helper = owner is not None and not owner[0].bases
+    if owner is not None and owner[0] in raised.source.family and held:
+        helper = False
     if owner is not None and helper and name in NODE_METHODS:
         found = raised.finding("attribute_not_set", name=name)
-        return replace(found, variant="no_node", words={**found.words, "type": owner[0].name})
-    held = raised.source.held_node
+        words = {**found.words, "type": owner[0].name, "parameter": _node_of_init(owner[0])}
+        return replace(
+            found, variant="no_node_kept" if words["parameter"] else "no_node", words=words
+        )
     if held and name in NODE_METHODS:
         params = {"name": f"self.{name}", "written": f"{held}.{name}"}
         found = raised.finding("attribute_not_set", params=params)
@@ -526,6 +544,10 @@ def _through_helper(case: Case) -> Files | None:
     return case.changed(module, *(module.text.swap(use, new) for use in uses))
 
 
+NO_NODE = msg(
+    "{name} belongs to the node. The class {type} does not inherit from Node, so its objects "
+    "do not have it."
+)
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -576,6 +598,10 @@ KINDS = (
                 "Pass the node to {type} when it is made, as self in {type}(self). Keep it in its "
                 "__init__(self, node) with self.node = node, and write self.node.{name} here."
             ),
+            "no_node_kept": msg(
+                "Write self.{parameter} = {parameter} in the __init__ of {type}, and "
+                "self.{parameter}.{name} instead of self.{name}."
+            ),
             "held": msg("Write {written} instead of {name}."),
             "dot": msg("A dot is missing. Write {written} instead of {name}."),
             "period": msg(
@@ -623,10 +649,8 @@ KINDS = (
                 "A name that begins with two underscores belongs to its class alone. The class {type} sets "
                 "{name}, and a class that inherits from it does not see that attribute."
             ),
-            "no_node": msg(
-                "{name} belongs to the node. The class {type} does not inherit from Node, so its objects "
-                "do not have it."
-            ),
+            "no_node": NO_NODE,
+            "no_node_kept": NO_NODE,
             "held": msg(
                 "This class is no node: it does not inherit from Node. Its node is {held}, which has "
                 "this method."

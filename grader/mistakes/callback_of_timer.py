@@ -23,6 +23,9 @@ from grader.mistakes.recognised import (
 )
 from grader.mistakes.timer_period import TIMER
 from grader.package.edit.tree import Replace
+from grader.package.source.module import Function
+from grader.package.source.names import dotted, last_part
+from grader.package.source.node import NodeSource
 from grader.package.source.place import function_at
 from grader.package.source.timer import Timer
 
@@ -40,14 +43,39 @@ def _called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     return _without_brackets(raised, called[0]) if called else None
 
 
-def _without_brackets(where: Raised | Suspect, timer: Timer) -> RecognisedMistake:
+def _without_brackets(where: Raised | Suspect, timer: Timer) -> RecognisedMistake | None:
     """Return that a timer's callback is called where it should be passed, and how it is passed."""
-    call = timer.callback
+    call, source = timer.callback, where.source
     named = call.func if isinstance(call, ast.Call) else timer.call
-    written = where.source.module_of(named).text.code(named)
+    variant = ""
+    if isinstance(call, ast.Call) and not _is_own(source, named):
+        inside = [p.func if isinstance(p, ast.Call) else p for p in _given(call)]
+        own = [part for part in inside if _is_own(source, part)]
+        if len(own) != 1:
+            return None  # (a function of a library: what it is for is not known)
+        named, variant = own[0], "wrapped"
+    written = source.module_of(named).text.code(named)
     if isinstance(where, Suspect):
-        return where.finding("callback_called", timer.call, written=written)
-    return where.finding("callback_called", at=timer.call, written=written)
+        found = where.finding("callback_called", timer.call, written=written)
+    else:
+        found = where.finding("callback_called", at=timer.call, written=written)
+    code = source.module_of(timer.call).text.code
+    given = code(call) if call is not None else ""
+    return replace(found, words={**found.words, "name": given}, variant=variant or found.variant)
+
+
+def _given(call: ast.Call) -> list[ast.expr]:
+    return [*call.args, *(keyword.value for keyword in call.keywords)]
+
+
+def _is_own(source: NodeSource, named: ast.expr) -> bool:
+    """Whether a name is of a method of the class, or of a function in the student's files."""
+    name = last_part(dotted(named))
+    functions = {f for module in source.modules for f in module.functions}
+    methods = {
+        s.name for m in source.modules for c in m.classes for s in c.body if isinstance(s, Function)
+    }
+    return name in methods or dotted(named) in functions or isinstance(named, ast.Lambda)
 
 
 def _called_with(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -148,6 +176,13 @@ KINDS = (
         msg("create_timer gets a call instead of the callback"),
         CALLED,
         msg("Remove the () after the callback's name: create_timer({period}, {written})"),
+        fixes={"wrapped": msg("Pass the callback itself: write {written} instead of {name}.")},
+        whys={
+            "wrapped": msg(
+                "create_timer takes the period in seconds and the callback itself, and calls it later. "
+                "{name} runs now, and its result (None) is passed instead."
+            )
+        },
         seen=r"TypeError: 'NoneType' object is not callable"
         r"|UnboundLocalError: .{0,60}'arg_name'",
         raised={

@@ -86,7 +86,28 @@ def _not_overridden(suspect: Suspect) -> RecognisedMistake | None:
                     found = suspect.finding("not_overridden", method, **params)
                     words = {"method": base.name, "line": str(base.lineno)}
                     return replace(found, words={**found.words, **words})
+        callback = _callback_not_overridden(suspect, derived, empty, named)
+        if callback is not None:
+            return callback
     return None
+
+
+def _callback_not_overridden(
+    suspect: Suspect, derived: ast.ClassDef, empty: list[ast.FunctionDef], named: set[str]
+) -> RecognisedMistake | None:
+    """The base class gives an empty method to the timer, and one method here is not called."""
+    own = [m for m in derived.body if isinstance(m, ast.FunctionDef)]
+    timed = {timer.method for timer in suspect.source.timers}
+    bases = [m for m in empty if m.name in timed and m.name not in {o.name for o in own}]
+    unused = [m for m in own if m.name not in named and not m.name.startswith("__")]
+    if len(bases) != 1 or len(unused) != 1 or not suspect.source.logs(unused[0]):
+        return None
+    if unused[0].decorator_list or len(unused[0].args.args) != len(bases[0].args.args):
+        return None
+    params = {"name": f"def {unused[0].name}", "written": f"def {bases[0].name}"}
+    found = suspect.finding("not_overridden", unused[0], **params)
+    words = {"method": bases[0].name, "line": str(bases[0].lineno)}
+    return replace(found, words={**found.words, **words})
 
 
 def _is_empty(method: ast.FunctionDef) -> bool:

@@ -242,6 +242,18 @@ def _in_namespace(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+def _namespace_invalid(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The class gives its node a namespace that ROS does not allow."""
+    del match
+    call = raised.source.super_init
+    given = [k for k in call.keywords if k.arg == "namespace"] if call is not None else []
+    if call is None or not given:
+        return None
+    code = raised.source.module_of(call).text.code(given[0].value)
+    found = raised.finding("in_namespace", at=call, name=f"namespace={code}")
+    return replace(found, variant="invalid")
+
+
 def _without_namespace(case: Case) -> Files | None:
     """Delete the namespace, if it is the last argument."""
     call = case.node.super_init if case.node is not None else None
@@ -621,9 +633,21 @@ KINDS = (
         ),
         msg("Delete the argument {name}."),
         links.NAMES,
+        whys={
+            "invalid": msg(
+                "ROS does not allow this namespace: it has a character or a form that is none of a "
+                "namespace. The node needs no namespace, its full name is /{node_name}."
+            )
+        },
+        raised={"InvalidNamespaceException": _namespace_invalid},
         behind={"run.wrong_node_name": _in_namespace},
         fixed_by=(_without_namespace,),
         examples=(
+            example(
+                "namespace_with_a_dot",
+                Replace(NODE, "'my_first_node')", "'my_first_node', namespace='my.robot')"),
+                fails="run.starts",
+            ),
             example(
                 "node_in_namespace",
                 Replace(NODE, "'my_first_node')", "'my_first_node', namespace='robot')"),

@@ -18,15 +18,19 @@ from grader.mistakes.example import (
     STEP_LINE,
     example,
 )
-from grader.mistakes.fixes import lines, node_loops, node_try
+from grader.mistakes.fixes import lines, node_loops, node_timer, node_try
+from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Suspect
 from grader.mistakes.worked_out import first_of, worked_out
+from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import adds_to, logged_counter, starts_of, targets_of
 from grader.package.source.endless import methods_run_by
+from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
+from grader.package.source.period import is_right, seconds_of
 from grader.package.source.place import function_at, statement_at
 
 ENDS = ("destroy_node", "rclpy.shutdown", "rclpy.try_shutdown")
@@ -100,6 +104,27 @@ def _needless_if(suspect: Suspect) -> RecognisedMistake | None:
         if isinstance(block, ast.If | ast.While) and block.lineno == line
     ]
     return None if any(_has_effect(suspect.source, test) for test in tests) else found
+
+
+def _and_period(look: FromSource) -> FromSource:
+    """Return what finds the same, and says the right period too if the only timer has another."""
+
+    def found(suspect: Suspect) -> RecognisedMistake | None:
+        mistake, timers = look(suspect), suspect.source.timers
+        period = timers[0].period if len(timers) == 1 else None
+        seconds = seconds_of(suspect.source, period) if period is not None else None
+        if mistake is None or seconds is None or is_right(seconds, suspect.output.period):
+            return mistake
+        words = {**mistake.words, "seconds": f"{seconds:g}"}
+        return replace(mistake, words=words, variant="period")
+
+    return found
+
+
+def _unwrapped(case: Case) -> Files | None:
+    """Remove the condition; give the timer the required period, if it has another one."""
+    files = lines.unwrapped(case)
+    return files and (node_timer.period(replace(case, files=files)) or files)
 
 
 def _has_effect(source: NodeSource, test: ast.expr) -> bool:
@@ -205,7 +230,24 @@ def _placeholder(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
         return None
     found = raised.finding("placeholder", at=statement, name=function.name)
     alone = [s for s in function.body if s is not statement and not _is_text(s)]
+    heir = _heir(raised.source, function)
+    if not alone and heir is not None:
+        words = {**found.words, "type": heir.name}
+        return replace(found, variant="inherited", words=words)
     return found if alone else replace(found, variant="alone")
+
+
+def _heir(source: NodeSource, method: Function) -> ast.ClassDef | None:
+    """Return the class that inherits the method and has none of this name, if there is one."""
+    classes = [c for module in source.modules for c in module.classes]
+    owners = [c.name for c in classes if method in c.body]
+    heirs = [
+        c
+        for c in classes
+        if any(last_part(dotted(base)) in owners for base in c.bases)
+        and not any(isinstance(s, Function) and s.name == method.name for s in c.body)
+    ]
+    return heirs[0] if len(heirs) == 1 else None
 
 
 def _is_text(statement: ast.stmt) -> bool:
@@ -376,14 +418,20 @@ KINDS = (
         msg("A condition decides whether the line is logged"),
         msg("The line is logged only while the condition {name} is true."),
         msg("Remove this if, and indent the lines below it as far as the if is indented now."),
-        behind={
-            "run.no_lines": _logs_if,
-            "run.stops": _logs_if,
-            "run.wrong_start": first_of(_needless_if, _logs_if),
-            "run.wrong_step": _needless_if,
-            "run.wrong_period": _needless_if,
+        fixes={
+            "period": msg(
+                "Remove this if, and indent the lines below it as far as the if is indented now. Then "
+                "give create_timer the period {period} instead of {seconds}: the timer itself waits."
+            )
         },
-        fixed_by=(lines.unwrapped,),
+        behind={
+            "run.no_lines": _and_period(_logs_if),
+            "run.stops": _and_period(_logs_if),
+            "run.wrong_start": _and_period(first_of(_needless_if, _logs_if)),
+            "run.wrong_step": _and_period(_needless_if),
+            "run.wrong_period": _and_period(_needless_if),
+        },
+        fixed_by=(_unwrapped,),
         examples=(
             example(
                 "logs_until_five",
@@ -565,7 +613,19 @@ KINDS = (
         msg("raise NotImplementedError ends the program where the code is still to be written."),
         msg("Delete this line: the lines of {name} are below it or above it."),
         links.PYTHON_ERRORS,
-        fixes={"alone": msg("Write the lines of {name} instead of this line.")},
+        whys={
+            "inherited": msg(
+                "{type} has no method {name} of its own, so the one of its base class is called. "
+                "raise NotImplementedError says there that each class has to write it."
+            )
+        },
+        fixes={
+            "alone": msg("Write the lines of {name} instead of this line."),
+            "inherited": msg(
+                "Write a method {name} in the class {type}. If {type} has a method that is meant to be "
+                "it, give this one the name {name}."
+            ),
+        },
         raised={"NotImplementedError": _placeholder},
         fixed_by=(lines.deleted,),
         examples=(

@@ -198,7 +198,7 @@ def _passed_name(raised: Raised, name: str) -> RecognisedMistake | None:
     if name not in parameters or len(calls) != 1 or calls[0].keywords:
         return None
     at, text = parameters.index(name), source.module_of(calls[0]).text
-    if at >= len(calls[0].args):
+    if at >= len(calls[0].args) or _has_more_use(init, name):
         return None
     codes = [text.code(given) for given in calls[0].args]
     texts = [n for n, given in enumerate(calls[0].args) if is_text(given)]
@@ -214,6 +214,12 @@ def _passed_name(raised: Raised, name: str) -> RecognisedMistake | None:
     found = raised.finding("name_not_text", at=calls[0], params=params)
     words = {**found.words, "parameter": name, "value": old}
     return replace(found, words=words, variant="given")
+
+
+def _has_more_use(init: Function | None, name: str) -> bool:
+    """Whether __init__ uses the parameter for more than the node's name: it has several values."""
+    parts = ast.walk(init) if init is not None else ()
+    return sum(isinstance(n, ast.Name) and n.id == name for n in parts) > 1
 
 
 def is_text(given: ast.expr) -> bool:

@@ -183,8 +183,21 @@ def _several_defs(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     head = _with_defaults(raised, first, last)
     if head:
         params["written"] = head
+    if len(calls[0].args) + own > len(last.args.args):
+        return _first_is_meant(raised, first, last, params)
     found = raised.finding("last_def_counts", at=last, params=params)
     return replace(found, variant="defaults" if head else "")
+
+
+def _first_is_meant(
+    raised: Raised, first: Function, last: Function, params: dict[str, str]
+) -> RecognisedMistake:
+    """The last def takes less than the call gives: if it only calls the first, it gives defaults."""
+    head = _with_defaults(raised, last, first)
+    if head:
+        params = {**params, "written": head}
+    found = raised.finding("last_def_counts", at=last, params=params)
+    return replace(found, variant="first_defaults" if head else "first")
 
 
 def _takes(made: Function, call: ast.Call, *, own: bool) -> bool:
@@ -229,7 +242,13 @@ KINDS = (
         fixes={
             "defaults": msg(
                 "Write {written} instead of this line, and delete the def in line {line} with its block."
-            )
+            ),
+            "first": msg(
+                "Keep the def in line {line}. Delete the def in this line with its block."
+            ),
+            "first_defaults": msg(
+                "Write {written} in line {line}, and delete the def in this line with its block."
+            ),
         },
         raised={ANY: on_line(_several_defs)},
         examples=(

@@ -74,7 +74,9 @@ def _own_class(raised: Raised, function: Function) -> RecognisedMistake | None:
 
 
 def _own_property(raised: Raised, function: Function) -> RecognisedMistake | None:
-    """A property reads itself."""
+    """A property reads or sets itself."""
+    if any(dotted(d) == f"{function.name}.setter" for d in function.decorator_list):
+        return _own_setter(raised, function)
     if not any(dotted(d) in PROPERTY for d in function.decorator_list):
         return None
     code = f"self.{function.name}"
@@ -87,6 +89,25 @@ def _own_property(raised: Raised, function: Function) -> RecognisedMistake | Non
                 raised.finding("property_of_itself", at=part, params=params), variant="new"
             )
     return None
+
+
+def _own_setter(raised: Raised, function: Function) -> RecognisedMistake | None:
+    """The setter of a property sets the property."""
+    around = raised.module.parents.get(function)
+    code = f"self.{function.name}"
+    parts = [
+        n
+        for method in (around.body if isinstance(around, ast.ClassDef) else ())
+        if isinstance(method, Function) and method.name == function.name
+        for n in ast.walk(method)
+        if isinstance(n, ast.Attribute) and dotted(n) == code
+    ]
+    if not any(n in list(ast.walk(function)) and isinstance(n.ctx, ast.Store) for n in parts):
+        return None
+    params = {"name": code, "written": f"self._{function.name}"}
+    found = raised.finding("property_of_itself", at=_statement(raised, parts[-1]), params=params)
+    rows = ", ".join(map(str, sorted({n.lineno for n in parts})))
+    return replace(found, words={**found.words, "lines": rows}, variant="setter")
 
 
 def _itself(raised: Raised, function: Function) -> RecognisedMistake | None:
@@ -147,13 +168,22 @@ KINDS = (
     _node(
         "property_of_itself",
         "callback",
-        msg("A property reads itself"),
+        msg("A property reads or sets itself"),
         msg("{name} is this property: each time it is read, the property runs and reads it again."),
         msg("Write {written} instead of {name} on this line."),
         fixes={
             "new": msg(
                 "Give the value another name than the property: write {written} instead of {name} on "
                 "this line, and set {written} in __init__."
+            ),
+            "setter": msg(
+                "Give the value another name than the property: write {written} instead of {name} in the "
+                "lines of the property (line {lines}). All other lines keep {name}."
+            ),
+        },
+        whys={
+            "setter": msg(
+                "{name} is this property: each time it is set, the setter runs and sets it again."
             )
         },
         fixed_by=(lines.written,),

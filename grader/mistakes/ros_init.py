@@ -114,7 +114,14 @@ def _ran_before(raised: Raised, inits: list[ast.Call]) -> bool:
         return False
     made = [call.lineno for call, _ in calls_in(main) if raised.source.is_node_class(call.func)]
     plain = [s.value for s in main.body if isinstance(s, ast.Expr) and s.value in inits]
+    if plain and not _calls_above(main, plain[0]):
+        return True
     return bool(plain and made) and plain[0].lineno < min(made)
+
+
+def _calls_above(main: Function, init: ast.Call) -> bool:
+    """Whether main calls something of its own above the line with init."""
+    return any(call.lineno < init.lineno for s in main.body for call, _ in calls_in(s))
 
 
 def _init_twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake:

@@ -507,7 +507,8 @@ SIGNS = {
         "lines of the function to which it belongs, or delete it if it belongs to none."
     ),
     "await_outside": msg(
-        "await and async work only inside an async def, and a node needs neither. Delete that word."
+        "await and async work only inside an async def, and a node needs neither. Delete that word, "
+        "and async before the def of each function of yours."
     ),
     "backslash": msg(
         "In a text, a backslash and a letter are a code, and Python does not know this one. Write "

@@ -14,7 +14,8 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.imported import full_name
-from grader.package.source.names import calls_in
+from grader.package.source.module import Module
+from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.place import function_at, statement_at
 from grader.package.source.threads import own_threads
 
@@ -53,8 +54,29 @@ def _asyncio(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
             looped = any(isinstance(n, ast.While | ast.For) for n in module.around(statement))
             sleeps = full_name(module, call.func) == "asyncio.sleep"
             variant = ("loop" if looped else "") if sleeps else "other"
-            return replace(found, variant=variant, words={**found.words, "method": function.name})
+            words = {**found.words, "method": function.name}
+            uses = _awaited(module, function.name)
+            if uses and not variant:
+                code = [s for s in function.body if not _is_docstring(s)]
+                variant = "only" if code == [statement] else "awaited"
+                words["lines"] = ", ".join(map(str, uses))
+            return replace(found, variant=variant, words=words)
     return None
+
+
+def _awaited(module: Module, name: str) -> list[int]:
+    """Return the lines that await a call of a function of the student's."""
+    return sorted(
+        n.lineno
+        for n in module.nodes
+        if isinstance(n, ast.Await)
+        and isinstance(n.value, ast.Call)
+        and last_part(dotted(n.value.func)) == name
+    )
+
+
+def _is_docstring(statement: ast.stmt) -> bool:
+    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
 
 
 IMPORT = Replace(NODE, "import rclpy\nfrom", "import threading\nimport time\nimport rclpy\nfrom")
@@ -167,9 +189,18 @@ KINDS = (
                 "async. A timer calls a method again and again: self.create_timer({period}, "
                 "self.{callback})"
             ),
+            "awaited": msg(
+                "Delete this line, and write def {method} without async. Delete the word await before "
+                "each call of {method} (line {lines}). import asyncio is not needed any more."
+            ),
+            "only": msg(
+                "Delete {method} with its lines, and what calls it (line {lines}). import asyncio is not "
+                "needed any more."
+            ),
             "other": msg(
-                "Do without asyncio: write def {method} without async, and call the functions "
-                "directly. What must come later belongs in the callback of a timer."
+                "Do without asyncio: write def without async, and call the functions directly, "
+                "without await and without asyncio. Delete what only waits. What must come later "
+                "belongs in the callback of a timer."
             ),
         },
         raised={r"RuntimeError: no running event loop": _asyncio},

@@ -309,7 +309,7 @@ KINDS = (
         "timer_cancelled",
         "timer",
         msg("The timer is stopped"),
-        msg("cancel() stops a timer: it no longer calls its callback."),
+        msg("cancel() and destroy_timer() stop a timer: it no longer calls its callback."),
         msg("Remove the .cancel()."),
         whys={
             "destroyed": DESTROYED,

@@ -14,8 +14,10 @@ from grader.mistakes.fixes import lines, node_timer
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, always
 from grader.package.edit.tree import Replace
+from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
 from grader.package.source.period import is_right, origin_of, seconds_of
+from grader.package.source.timer import Timer
 
 MOST_EXPONENT = 9
 MICRO = 1e5  # seconds: a period in microseconds is ten times as long
@@ -141,15 +143,54 @@ def _argument_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake
         if raised.line not in (None, *lines_of(timer.call)):
             continue
         period = repr(raised.assignment.output.period)
+        if (decorates := _decorates(raised, timer)) is not None:
+            return decorates
         found = node_timer.completed(raised.source, timer, period)
         if found is None:
             return raised.finding("timer_argument_missing", at=timer.call)
+        if (other := _used_elsewhere(raised, timer)) is not None:
+            return other
         code = " ".join(raised.source.module_of(timer.call).text.code(timer.call).split())
         code = re.sub(r",? \)", ")", code.replace("( ", "("))
         params = {"name": code, "written": found.written}
         mistake = raised.finding("timer_argument_missing", at=timer.call, params=params)
         return replace(mistake, variant="written")
     return raised.finding("timer_argument_missing")
+
+
+def _decorates(raised: Raised, timer: Timer) -> RecognisedMistake | None:
+    """The call of create_timer is written as a decorator of the callback."""
+    module = raised.source.module_of(timer.call)
+    function = module.parents.get(timer.call)
+    if not isinstance(function, Function) or timer.call not in function.decorator_list:
+        return None
+    code = module.text.code
+    in_class = isinstance(module.parents.get(function), ast.ClassDef)
+    owner = "self." if in_class else code(timer.call.func).removesuffix("create_timer")
+    period = timer.period
+    seconds = code(period) if period is not None else repr(raised.assignment.output.period)
+    callback = f"self.{function.name}" if in_class else function.name
+    written = f"{owner}create_timer({seconds}, {callback})"
+    name = f"@{code(timer.call)}"
+    found = raised.finding("timer_argument_missing", at=timer.call, name=name)
+    words = {**found.words, "method": function.name, "written": written}
+    return replace(found, words=words, variant="decorator_in_class" if in_class else "decorator")
+
+
+def _used_elsewhere(raised: Raised, timer: Timer) -> RecognisedMistake | None:
+    """A method is called on the timer in the same line, and gets the callback: .then(callback)."""
+    module = raised.source.module_of(timer.call)
+    attribute = module.parents.get(timer.call)
+    call = module.parents.get(attribute) if isinstance(attribute, ast.Attribute) else None
+    if not isinstance(call, ast.Call) or call.func is not attribute:
+        return None
+    code, given = module.text.code, [*call.args, *(k.value for k in call.keywords)]
+    name = code(call)
+    if len(given) != 1 or timer.period is None or "\n" in name:
+        return None
+    written = f"{code(timer.call.func)}({code(timer.period)}, {code(given[0])})"
+    found = raised.finding("timer_argument_missing", at=call, name=name, written=written)
+    return replace(found, variant="written")
 
 
 def _milliseconds(suspect: Suspect) -> RecognisedMistake | None:
@@ -203,6 +244,10 @@ def _integer(part: ast.expr) -> int | None:
     return value if type(value) is int else None
 
 
+NO_DECORATOR = msg(
+    "create_timer is no decorator: it is called with the period and the callback, and creates the "
+    "timer."
+)
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -335,11 +380,26 @@ KINDS = (
         msg("An argument of create_timer is missing"),
         msg("create_timer takes the period first, then the callback."),
         TIMER,
-        fixes={"written": msg("Write {written} instead of {name}.")},
+        fixes={
+            "written": msg("Write {written} instead of {name}."),
+            "decorator": msg(
+                "Delete the line {name}, and write {written} on a line of its own below the lines of "
+                "{method}, indented like def {method}."
+            ),
+            "decorator_in_class": msg(
+                "Delete the line {name}, and write {written} in __init__, below super().__init__(…)."
+            ),
+        },
+        whys={"decorator": NO_DECORATOR, "decorator_in_class": NO_DECORATOR},
         seen=r"create_timer\(\) missing \d{1,3} required positional argument",
         raised={r"create_timer\(\) missing": _argument_missing},
-        fixed_by=(node_timer.arguments,),
+        fixed_by=(lines.written, node_timer.arguments),
         examples=(
+            example(
+                "callback_given_to_then",
+                Replace(NODE, "(1.0, self.timer_callback)", "(1.0).then(self.timer_callback)"),
+                fails="run.starts",
+            ),
             example("period_missing", Replace(NODE, "(1.0, self", "(self"), fails="run.starts"),
         ),
     ),

@@ -11,7 +11,7 @@ from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.endless import endless_loop
 from grader.package.source.module import Module
-from grader.package.source.names import dotted
+from grader.package.source.names import dotted, last_part
 from grader.package.source.place import function_at
 from grader.package.source.thread_timers import thread_timer
 from grader.package.source.threads import OwnThread, own_threads, variables_of
@@ -108,7 +108,13 @@ def without_asyncio(case: Case) -> Files | None:
         return None
     line = module.line(case.finding.line).partition("#")[0].strip()
     looped = any(isinstance(n, ast.While | ast.For) for n in ast.walk(function))
-    if looped or not (line.startswith("await ") and "sleep(" in line):
+    awaited = any(
+        isinstance(n, ast.Await)
+        and isinstance(n.value, ast.Call)
+        and last_part(dotted(n.value.func)) == function.name
+        for n in module.nodes
+    )
+    if looped or awaited or not (line.startswith("await ") and "sleep(" in line):
         return None
     deleted = lines.deleted(case)
     if deleted is None:
