@@ -132,7 +132,20 @@ def _keyword(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         value for timer in plain for value in timer.call.args
     ]
     own = any(own_name(value) in raised.source.methods for value in given)
-    return replace(found, variant="timer" if own else "timer_names")
+    if own:
+        return replace(found, variant="timer")
+    calls = [timer.call for timer in plain]
+    left = _open_names(calls[0]) if len(calls) == 1 else []
+    if len(left) == 1:
+        params = {"name": f"{name}=", "written": f"{left[0]}="}
+        return replace(raised.finding("keyword_unknown", params=params), variant="written")
+    return replace(found, variant="timer_names")
+
+
+def _open_names(call: ast.Call) -> list[str]:
+    """Return the first parameters of create_timer that a call gives no value."""
+    names = ["timer_period_sec", "callback"][len(call.args) :]
+    return [name for name in names if name not in {keyword.arg for keyword in call.keywords}]
 
 
 def _option(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
@@ -632,6 +645,7 @@ KINDS = (
         links.PYTHON_ERRORS,
         fixes={
             "timer": msg("Write create_timer({period}, self.{callback})"),
+            "written": msg("Write {written} instead of {name} in this call."),
             "timer_names": msg(
                 "The first parameters of create_timer are timer_period_sec and callback. Write one of "
                 "these names instead of {name}, or remove {name}=…"
@@ -644,6 +658,7 @@ KINDS = (
             node_arguments.without_names,
             node_arguments.without_option,
             node_arguments.only_name,
+            lines.written,
         ),
         examples=(
             example(

@@ -24,7 +24,6 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, on_line
 from grader.package.edit.tree import Replace
 from grader.package.source.module import Function, Module
-from grader.package.source.names import dotted
 from grader.package.source.place import statement_at
 from grader.package.source.scopes import Bound, bindings, scope_of, seen_from
 
@@ -90,8 +89,7 @@ def _told(raised: Raised, uses: list[ast.Name]) -> RecognisedMistake | None:
         return None
     words = {"line": str(taken.first.line), "row": str(taken.use.lineno)}
     words["written"] = shown(module.line(taken.first.line).strip())
-    found_here = raised.finding("name_reused", at=at, params={"name": at.id, **words})
-    return found_here
+    return raised.finding("name_reused", at=at, params={"name": at.id, **words})
 
 
 def _taken(module: Module, use: ast.Name) -> _Taken | None:
@@ -152,7 +150,9 @@ KINDS = (
             ),
             example(
                 "number_named_like_an_import",
-                Replace(NODE, "import rclpy\nfrom", "from itertools import count\nimport rclpy\nfrom"),
+                Replace(
+                    NODE, "import rclpy\nfrom", "from itertools import count\nimport rclpy\nfrom"
+                ),
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = next(count(0))"),
                 Replace(NODE, "def main(", "count = 0\n\n\ndef main("),
                 fails="run.starts",

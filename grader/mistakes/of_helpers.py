@@ -23,12 +23,8 @@ from grader.package.source.names import dotted, last_part
 from grader.package.source.place import function_at
 from grader.package.source.scopes import class_of
 
-TAKES_NONE = (
-    r"TypeError: (?P<type>\w{1,120})\.(?P<name>\w{1,120})\(\) takes 0 positional arguments but 1 was "
-)
-LACKS = (
-    r"TypeError: (?P<type>\w{1,120})\.(?P<name>\w{1,120})\(\) missing 1 required positional argument"
-)
+TAKES_NONE = r"TypeError: (?P<type>\w{1,120})\.(?P<name>\w{1,120})\(\) takes 0 positional arguments but 1 was "
+LACKS = r"TypeError: (?P<type>\w{1,120})\.(?P<name>\w{1,120})\(\) missing 1 required positional argument"
 TAKES = (
     r"TypeError: (?P<type>\w{1,120})\.(?P<name>\w{1,120})\(\) takes (?P<taken>\d{1,2}) positional "
     r"arguments? but (?P<given>\d{1,2}) were given"

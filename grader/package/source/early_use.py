@@ -60,8 +60,16 @@ def _reached(source: NodeSource, statement: ast.stmt) -> list[Function]:
     waiting: list[ast.AST] = [statement]
     for part in waiting:
         for call, _ in calls_in(part):
-            method = source.methods.get(own_name(call.func))
+            name = own_name(call.func)
+            method = source.methods.get(name) or _of_family(source, name)
             if method is not None and method not in reached:
                 reached.append(method)
                 waiting.append(method)
     return reached
+
+
+def _of_family(source: NodeSource, name: str) -> Function | None:
+    """Return the only method of a name in the node's class and its bases."""
+    methods = [s for c in source.family for s in c.body if isinstance(s, Function)]
+    found = [method for method in methods if name and method.name == name]
+    return found[0] if len(found) == 1 else None

@@ -144,9 +144,22 @@ def _without_def(text: Broken, above: Above) -> Slip | None:
     head = f"def {name}(self):"
     indent = indent_of(text.source.line(above.line))
     new = text.changed(text.source.before(text.number, indent + head)) if name else None
+    if new is None and _is_like_earlier(text, above.line):
+        return _line_between(text, above)
     shown = text.source.line(text.number).strip()
     variant = "def_gone" if new is not None else "def_gone_unknown"
     return Slip("signs", variant, text.number, shown, head, new, other=above.line)
+
+
+def _line_between(text: Broken, above: Above) -> Slip:
+    """Return the line above, which is indented less than the lines of a method around it."""
+    row = text.source.line(above.line)
+    old, wanted = indent_of(row), indent_of(text.source.line(text.number))
+    start = text.source.start_of(above.line)
+    new = text.source.spliced([Splice(start, start + len(old), wanted)])
+    if re.search(r"\bself\.", text.code.line(above.line)) and new is not None and can_parse(new):
+        return Slip("signs", "line_above", above.line, row.strip(), "", new, other=text.number)
+    return Slip("signs", "line_between", above.line, row.strip(), "", other=text.number)
 
 
 def _missing_method(text: Broken) -> str:

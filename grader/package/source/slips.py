@@ -446,6 +446,8 @@ def _quotes(text: Broken) -> Slip | None:
         return None
     quote, rest = written[opened], written[opened + 1 :]
     ends = len(rest.rstrip(" \t,])}"))
+    blank = re.match(r"[ \t]+(?=[,)\]}])", rest[ends:])
+    ends += len(blank[0]) if blank and ends else 0  # (a blank at the end of the text)
     fits = [text.within(opened + 1 + ends, opened + 1 + ends, quote)] if rest[:ends] else []
     if not fits:  # the text ends here, and its first quote is missing
         begins = {m.end() for m in re.finditer(r"^[ \t]*|=[ \t]*", written[:opened])}
