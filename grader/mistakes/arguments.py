@@ -237,6 +237,14 @@ def _exit(raised: Raised, found: RecognisedMistake) -> RecognisedMistake:
     return replace(raised.finding("arguments_many", at=made[0], name="__exit__"), variant="exit")
 
 
+def _is_of_object(raised: Raised, taken: Function, name: str, made: str) -> bool:
+    """Whether a call is of a method of an object, and not of a class; or of what it creates."""
+    owner, _, method = name.rpartition(".")
+    return name == made or (
+        bool(owner) and method == taken.name and owner not in raised.source.known_classes
+    )
+
+
 def _without_self(raised: Raised, taken: Function) -> RecognisedMistake | None:
     """The method has no self: the object goes into its first parameter."""
     first = taken.args.args[0].arg
@@ -246,7 +254,7 @@ def _without_self(raised: Raised, taken: Function) -> RecognisedMistake | None:
     given = [
         call
         for call, name in raised.source.calls
-        if name in (f"self.{taken.name}", made) and raised.line in lines_of(call)
+        if _is_of_object(raised, taken, name, made) and raised.line in lines_of(call)
     ]
     if len(given) != 1 or not read or taken.decorator_list:
         return None

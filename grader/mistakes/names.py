@@ -93,7 +93,8 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     binding = _binding(raised, name, close) if close else None
     if binding is not None:
         return binding
-    whole = [] if close else [n for n in known if len(name) > 2 and n.startswith(name)]
+    begun = [n for n in seen & raised.module.names if len(name) > 2 and n.startswith(name)]
+    whole = [] if close else [n for n in begun if n != name]
     if len(whole) == 1 and raised.module.line(raised.line).rstrip().endswith(name):
         found = raised.finding("name_unknown", name=name)
         return replace(found, variant="cut", words={**found.words, "written": whole[0]})
