@@ -14,6 +14,7 @@ from grader.mistakes.constructor import lines_of
 from grader.mistakes.example import DEAD, LOG, NODE, example
 from grader.mistakes.fixes import lines, node_timer
 from grader.mistakes.kind import Family
+from grader.mistakes.own_calls import DATACLASS
 from grader.mistakes.recognised import OWN_ATTRIBUTE, Raised, RecognisedMistake, on_line
 from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
@@ -193,10 +194,11 @@ def _never_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
     owner = here[0]
     bases = [dotted(base) for base in owner.bases if dotted(base) != "object"]
     row = raised.module.line(raised.line)
-    if bases or owner.decorator_list or not re.search(rf"\bself\.{name}\b", row):
+    data = [dotted(d.func if isinstance(d, ast.Call) else d) for d in owner.decorator_list]
+    if bases or not set(data) <= set(DATACLASS) or not re.search(rf"\bself\.{name}\b", row):
         return None
     defined = {s.name for s in owner.body if isinstance(s, Function)}
-    known = {target for s in owner.body for target in targets_of(s)} | defined
+    known = {target for s in owner.body for target in targets_of(s)} | defined | set(_fields(owner))
     if name in known or name in NODE_METHODS or _set_in(owner, name):
         return None
     if raised.source.held_node or nearest(name, defined):
@@ -206,15 +208,28 @@ def _never_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
     if local is not None:
         found = raised.finding("helper_never_sets", at=local, params=params)
         return replace(found, variant="local", words={**found.words, "attribute": name})
-    own = sorted({n.attr for n in ast.walk(owner) if isinstance(n, ast.Attribute)
-                  and isinstance(n.ctx, ast.Store) and dotted(n.value) == "self"} - {name})  # fmt: skip
+    stored = {
+        n.attr
+        for n in ast.walk(owner)
+        if isinstance(n, ast.Attribute) and isinstance(n.ctx, ast.Store)
+        if dotted(n.value) == "self"
+    }
+    own = sorted({*stored, *_fields(owner)} - {name})
     near = nearest(name, dict.fromkeys(own))
     if near:
         found = raised.finding("helper_never_sets", params={**params, "written": f"self.{near}"})
         return replace(found, variant="near")
     found = raised.finding("helper_never_sets", params=params)
+    words = {**found.words, "attribute": name}
+    if data:
+        return replace(found, variant="fields", words={**words, "names": ", ".join(own)})
     names = ", ".join(f"self.{each}" for each in own)
     return replace(found, variant="others" if own else "", words={**found.words, "names": names})
+
+
+def _fields(owner: ast.ClassDef) -> list[str]:
+    """Return the names with a type in a class, of which a dataclass makes attributes."""
+    return [dotted(s.target) for s in owner.body if isinstance(s, ast.AnnAssign)]
 
 
 def _local(owner: ast.ClassDef, name: str) -> ast.stmt | None:
@@ -364,6 +379,11 @@ KINDS = (
         fixes={
             "local": msg("Write {name} instead of {attribute} in this line, before the =."),
             "near": msg("Write {written} instead of {name}."),
+            "fields": msg(
+                "The class {type} has: {names}. Write what is meant instead of {attribute}. If nothing of "
+                "this is meant, add {attribute}, with its type and its first value, to the lines at the "
+                "beginning of {type}."
+            ),
             "others": msg(
                 "The class {type} sets: {names}. Write what is meant instead of {name}. If nothing of this is "
                 "meant, give {name} its first value in __init__ of {type}."

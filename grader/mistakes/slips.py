@@ -387,8 +387,11 @@ SIGNS = {
     ),
     "arrow_half": msg("An arrow, ->, is before the type that a function returns. Write: {wanted}"),
     "bracket_closed_before": msg(
-        "All brackets of this line are closed before its last ) already. If what follows there is too "
-        "much, delete it: {wanted} If it is needed, delete the ) before it, which closes too early."
+        "All brackets of this line are closed before its last ) already, and what follows there is in "
+        "the line twice. Write: {wanted}"
+    ),
+    "bracket_too_early": msg(
+        "A ) closes the brackets too early: the last ) of the line has none to close. Write: {wanted}"
     ),
     "quote_at_end": msg(
         "The text ends with a quote, and the three quotes that end it follow directly: Python takes "

@@ -55,13 +55,14 @@ def _closed_before(text: Broken, at: int) -> Slip | None:
     rest = text.code.text[end:at]
     if end == start or not re.match(r"[ \t]*,[ \t]*\S", rest) or "(" in rest:
         return None
-    splice = Splice(end, at + 1, "")
+    written = text.source.text
+    twice = written[end:at].strip(" \t,") in written[start:end]
+    splice = Splice(end, at + 1, "") if twice else Splice(end - 1, end, "")
     new = text.changed(splice)
     if new is None or not can_parse(new):
         return None
-    twice = rest.strip(" \t,") in text.code.text[start:end]
-    shown = text.source.line(text.number)
-    return text.slip("signs", "bracket_closed_before", shown, splice, fixed=new if twice else None)
+    variant = "bracket_closed_before" if twice else "bracket_too_early"
+    return text.slip("signs", variant, text.source.line(text.number), splice, fixed=new)
 
 
 def _unmatched(code: str) -> int | None:
