@@ -132,7 +132,20 @@ def _keyword(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         value for timer in plain for value in timer.call.args
     ]
     own = any(own_name(value) in raised.source.methods for value in given)
-    return replace(found, variant="timer" if own else "timer_names")
+    if own:
+        return replace(found, variant="timer")
+    calls = [timer.call for timer in plain]
+    left = _open_names(calls[0]) if len(calls) == 1 else []
+    if len(left) == 1:
+        params = {"name": f"{name}=", "written": f"{left[0]}="}
+        return replace(raised.finding("keyword_unknown", params=params), variant="written")
+    return replace(found, variant="timer_names")
+
+
+def _open_names(call: ast.Call) -> list[str]:
+    """Return the first parameters of create_timer that a call gives no value."""
+    names = ["timer_period_sec", "callback"][len(call.args) :]
+    return [name for name in names if name not in {keyword.arg for keyword in call.keywords}]
 
 
 def _option(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
@@ -224,6 +237,14 @@ def _exit(raised: Raised, found: RecognisedMistake) -> RecognisedMistake:
     return replace(raised.finding("arguments_many", at=made[0], name="__exit__"), variant="exit")
 
 
+def _is_of_object(raised: Raised, taken: Function, name: str, made: str) -> bool:
+    """Whether a call is of a method of an object, and not of a class; or of what it creates."""
+    owner, _, method = name.rpartition(".")
+    return name == made or (
+        bool(owner) and method == taken.name and owner not in raised.source.known_classes
+    )
+
+
 def _without_self(raised: Raised, taken: Function) -> RecognisedMistake | None:
     """The method has no self: the object goes into its first parameter."""
     first = taken.args.args[0].arg
@@ -233,7 +254,7 @@ def _without_self(raised: Raised, taken: Function) -> RecognisedMistake | None:
     given = [
         call
         for call, name in raised.source.calls
-        if name in (f"self.{taken.name}", made) and raised.line in lines_of(call)
+        if _is_of_object(raised, taken, name, made) and raised.line in lines_of(call)
     ]
     if len(given) != 1 or not read or taken.decorator_list:
         return None
@@ -632,6 +653,7 @@ KINDS = (
         links.PYTHON_ERRORS,
         fixes={
             "timer": msg("Write create_timer({period}, self.{callback})"),
+            "written": msg("Write {written} instead of {name} in this call."),
             "timer_names": msg(
                 "The first parameters of create_timer are timer_period_sec and callback. Write one of "
                 "these names instead of {name}, or remove {name}=…"
@@ -644,6 +666,7 @@ KINDS = (
             node_arguments.without_names,
             node_arguments.without_option,
             node_arguments.only_name,
+            lines.written,
         ),
         examples=(
             example(

@@ -71,11 +71,22 @@ def _not_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
     code = raised.module.text.code(part)
     method = raised.source.methods.get(own_name(part))
     function = raised.module.functions.get(code) if isinstance(part, ast.Name) else method
+    if function is not None and not _gives_value(function):
+        return None
     arguments = _arguments(raised, code, function)
     shown = raised.finding("not_called", at=part, name=code, written=f"{code}({arguments})")
     if "…" not in arguments:
         return shown
     return replace(shown, params={}, variant="open")
+
+
+def _gives_value(function: Function) -> bool:
+    """Whether a function has a return with a value, a yield, or a decorator."""
+    return bool(function.decorator_list) or any(
+        isinstance(n, ast.Yield | ast.YieldFrom)
+        or (isinstance(n, ast.Return) and n.value is not None and ast.unparse(n.value) != "None")
+        for n in ast.walk(function)
+    )
 
 
 def _assigned(raised: Raised, named: ast.expr) -> ast.expr | None:

@@ -297,6 +297,16 @@ def _name_given(source: NodeSource) -> ast.Constant | None:
     return given if isinstance(given, ast.Constant) and code[:1] in ("'", '"') else None
 
 
+def _super_bare(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    """Super has no () behind it."""
+    del match
+    row = raised.module.line(raised.line)
+    if len(re.findall(r"\bsuper\.__init__\b", row)) != 1:
+        return raised.finding("super_not_called")
+    params = {"name": "super.__init__", "written": "super().__init__"}
+    return replace(raised.finding("super_not_called", params=params), variant="written")
+
+
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -481,8 +491,10 @@ KINDS = (
         ),
         SUPER,
         links.PYTHON_CLASSES,
+        fixes={"written": msg("Write {written} instead of {name} in this line.")},
         seen=r"TypeError: descriptor '__init__' requires a 'super' object",
-        raised={"descriptor '__init__' requires a 'super' object": always("super_not_called")},
+        raised={"descriptor '__init__' requires a 'super' object": _super_bare},
+        fixed_by=(lines.written,),
         examples=(
             example(
                 "super_without_brackets",

@@ -16,6 +16,7 @@ from grader.mistakes.fixes import lines, node_imports, node_life, node_names, no
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect, always
 from grader.package.edit.tree import Replace, Write
+from grader.package.source.names import dotted
 from grader.package.source.place import statement_at
 from grader.report.model import Where
 
@@ -163,6 +164,12 @@ def _part_of_module(raised: Raised, name: str) -> RecognisedMistake | None:
     return replace(found, variant="class")
 
 
+def _used_of(raised: Raised, name: str) -> list[ast.Attribute]:
+    """Return where the file reads something of a module by the module's full name."""
+    parts = [n for n in raised.module.nodes if isinstance(n, ast.Attribute)]
+    return sorted((p for p in parts if dotted(p.value) == name), key=lambda p: p.lineno)
+
+
 def _head(name: str) -> str:
     """Return what is before the first dot."""
     return name.partition(".")[0]
@@ -171,15 +178,23 @@ def _head(name: str) -> str:
 def _known_by_its_names(raised: Raised, name: str) -> RecognisedMistake | None:
     """The module of rclpy is unknown, but not the names that the line imports from it."""
     statement = statement_at(raised.module, raised.line)
-    if not isinstance(statement, ast.ImportFrom) or statement.module != name:
+    used = _used_of(raised, name) if isinstance(statement, ast.Import) else []
+    if isinstance(statement, ast.ImportFrom) and statement.module == name:
+        homes = {HOMES.get(alias.name, "") for alias in statement.names}
+    elif used:
+        homes = {HOMES.get(part.attr, "") for part in used}
+    else:
         return None
-    homes = {HOMES.get(alias.name, "") for alias in statement.names}
     home = min(homes)
     if len(homes) != 1 or not home or _head(name) not in ("rclpy", *OTHER_CLIENTS):
         return None
     found = raised.finding("import_misspelt", name=name, close=home)
     right, word = home.rpartition(".")[2], name.rpartition(".")[2]
-    others = _replaced(raised, right, word)
+    others = [f"{home}.{part.attr} ({part.lineno})" for part in used]
+    others += _replaced(raised, right, word)
+    if used and len(others) == len(used):
+        rows = ", ".join(str(row) for row in sorted({part.lineno for part in used}))
+        return replace(found, variant="used", words={**found.words, "lines": rows})
     if _head(name) != "rclpy" or not others:
         return found
     words = {**found.words, "word": right, "others": ", ".join(others)}
@@ -472,6 +487,7 @@ KINDS = (
                 "as if {word} had been replaced by another word everywhere. Their right names, with "
                 "the lines: {others}."
             ),
+            "used": msg("Write {close} instead of {name}, here and in line {lines}."),
             "unused": msg("Delete this line: {name} is not installed here, and no line uses it."),
             "class": msg("Write {written}: after a plain import, only modules can be named."),
         },

@@ -72,7 +72,8 @@ def _read_only(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
         if method.name == name and any(dotted(d) == "property" for d in method.decorator_list):
             found = raised.finding("property_set", at=method, name=name)
             if (kept := _returned(method)) and kept != f"self.{name}":
-                words = {**found.words, "written": kept, "line": str(raised.line)}
+                rows = _set_on(raised, name) or [raised.line or 0]
+                words = {**found.words, "written": kept, "line": ", ".join(map(str, rows))}
                 return replace(found, words=words, variant="kept")
             return found if _is_set(raised, name) else replace(found, variant="computed")
     return None
@@ -83,6 +84,18 @@ def _returned(function: Function) -> str:
     returns = [n for n in ast.walk(function) if isinstance(n, ast.Return)]
     named = dotted(returns[0].value) if len(returns) == 1 and returns[0].value else ""
     return named if named.startswith("self.") and named.count(".") == 1 else ""
+
+
+def _set_on(raised: Raised, name: str) -> list[int]:
+    """Return the lines of the file that give an attribute of self a value."""
+    return sorted(
+        {
+            n.lineno
+            for n in raised.module.nodes
+            if isinstance(n, ast.Assign | ast.AugAssign | ast.AnnAssign)
+            and f"self.{name}" in targets_of(n)
+        }
+    )
 
 
 def _is_set(raised: Raised, name: str) -> bool:

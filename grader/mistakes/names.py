@@ -68,7 +68,7 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return joined
     if name in TYPES and (types := _as_type(raised, name)) is not None:
         return types
-    if (guard := _guard(raised, name)) is not None:
+    if (guard := _guard(raised, name) or _alias_of_rclpy(raised, name)) is not None:
         return guard
     timers = [] if bindings(raised.module, name) else raised.source.timers
     if any(dotted(timer.period or timer.call) == name for timer in timers):
@@ -93,6 +93,11 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     binding = _binding(raised, name, close) if close else None
     if binding is not None:
         return binding
+    begun = [n for n in seen & raised.module.names if len(name) > 2 and n.startswith(name)]
+    whole = [] if close else [n for n in begun if n != name]
+    if len(whole) == 1 and raised.module.line(raised.line).rstrip().endswith(name):
+        found = raised.finding("name_unknown", name=name)
+        return replace(found, variant="cut", words={**found.words, "written": whole[0]})
     found = raised.finding("name_unknown", name=name, close=close)
     return _instead(found) if close and nearest(name, [close], cutoff=MISSPELT) else found
 
@@ -123,6 +128,19 @@ def _of_rclpy(module: Module, name: str) -> str | None:
     uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
     called = any(isinstance(module.parents.get(use), ast.Call) for use in uses)
     return f"{known[0]}.{name}" if known and called and name in ("init", "spin", "ok") else None
+
+
+def _alias_of_rclpy(raised: Raised, name: str) -> RecognisedMistake | None:
+    """Rclpy is imported, and the unknown name only stands before its functions."""
+    module = raised.module
+    uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
+    read = {getattr(module.parents.get(use), "attr", "") for use in uses}
+    known = any(bound == full == "rclpy" for bound, full, _ in imports(module))
+    if not known or not read or not read <= set(RCLPY):
+        return None
+    rows = ", ".join(str(row) for row in sorted({use.lineno for use in uses}))
+    found = raised.finding("name_unknown", name=name, close="rclpy")
+    return replace(found, variant="alias", words={**found.words, "lines": rows})
 
 
 def _in_other_case(name: str) -> str | None:
@@ -329,7 +347,16 @@ def _value_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     calls = [name for _, name in calls_in(statement)] if statement is not None else [""]
     if all(name.startswith("rclpy.") or last_part(name) in OF_ROS for name in calls):
         return _value_passed(raised, match)
-    return raised.finding("not_callable", type=match["type"])
+    found = raised.finding("not_callable", type=match["type"])
+    return found if _is_value(raised, calls) else replace(found, variant="open")
+
+
+def _is_value(raised: Raised, calls: list[str]) -> bool:
+    """Whether the only thing called that no function can be is an attribute of the node."""
+    attributes = [own for name in calls if (own := name.removeprefix("self.")) != name]
+    source = raised.source
+    known = [a for a in attributes if a in source.attributes and a not in source.methods]
+    return len(known) == 1
 
 
 def _value_passed(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -394,6 +421,14 @@ KINDS = (
             "period": msg("Write the period in seconds instead of {name}: {written}"),
             "instead": msg("Write {close} instead of {name}."),
             "type": msg("Write {close} instead of {name} in line {lines}."),
+            "alias": msg(
+                "The file knows {close} by its own name. Write {close} instead of {name} in line {lines}. Or "
+                "write import {close} as {name} instead of import {close}."
+            ),
+            "cut": msg(
+                "The line ends with {name}, and the file has {written}. If {written} is meant, write it "
+                "here, with all that belongs behind it."
+            ),
             "guard": msg(
                 "Write {written} instead of {name}, with two underscores before and behind both words."
             ),
@@ -501,10 +536,15 @@ KINDS = (
         links.PYTHON_ERRORS,
         whys={"passed": msg("The timer calls what create_timer gets, which must be a method.")},
         fixes={
+            "open": msg(
+                "This line calls a value of the type {type}. If the value is meant, remove the () behind "
+                "its name. If a function is meant, a line has given its name this value: give the value "
+                "another name there."
+            ),
             "passed": msg(
                 "Pass the name of your method to create_timer: create_timer({period}, "
                 "self.{callback})"
-            )
+            ),
         },
         seen=r"TypeError: '(?P<type>int|float|str)' object is not callable",
         raised={

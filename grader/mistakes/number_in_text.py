@@ -268,7 +268,7 @@ def _string_of(suspect: Suspect) -> ast.Constant | None:
     """Return the string that is the logged text: the only one of the callback, or of the files."""
     callback = suspect.source.callback
     of_callback = list(ast.walk(callback)) if callback is not None else []
-    for nodes in (of_callback, suspect.source.own_nodes):
+    for nodes in (of_callback, suspect.source.own_nodes, suspect.source.all_nodes):
         found = [n for n in nodes if isinstance(n, ast.Constant) and n.value == suspect.text]
         if found:
             return found[0] if len(found) == 1 else None

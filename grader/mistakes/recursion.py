@@ -75,6 +75,7 @@ def _own_class(raised: Raised, function: Function) -> RecognisedMistake | None:
 
 def _own_property(raised: Raised, function: Function) -> RecognisedMistake | None:
     """A property reads or sets itself."""
+    """A property reads itself, or its setter sets it."""
     if any(dotted(d) == f"{function.name}.setter" for d in function.decorator_list):
         return _own_setter(raised, function)
     if not any(dotted(d) in PROPERTY for d in function.decorator_list):
@@ -108,6 +109,26 @@ def _own_setter(raised: Raised, function: Function) -> RecognisedMistake | None:
     found = raised.finding("property_of_itself", at=_statement(raised, parts[-1]), params=params)
     rows = ", ".join(map(str, sorted({n.lineno for n in parts})))
     return replace(found, words={**found.words, "lines": rows}, variant="setter")
+    """A setter sets the property, and not the attribute that the property returns."""
+    code = f"self.{function.name}"
+    sets = [
+        n
+        for n in ast.walk(function)
+        if isinstance(n, ast.Attribute) and isinstance(n.ctx, ast.Store) and dotted(n) == code
+    ]
+    returned = {
+        dotted(n.value)
+        for getter in raised.module.nodes
+        if isinstance(getter, Function) and getter.name == function.name and getter is not function
+        for n in ast.walk(getter)
+        if isinstance(n, ast.Return) and n.value is not None
+    }
+    kept = min(returned, default="")
+    if len(sets) != 1 or len(returned) != 1 or not kept.startswith("self.") or kept == code:
+        return None
+    params = {"name": f"{code} =", "written": f"{kept} =", "method": function.name}
+    found = raised.finding("property_of_itself", at=sets[0], params=params)
+    return replace(found, variant="setter")
 
 
 def _itself(raised: Raised, function: Function) -> RecognisedMistake | None:
@@ -171,6 +192,12 @@ KINDS = (
         msg("A property reads or sets itself"),
         msg("{name} is this property: each time it is read, the property runs and reads it again."),
         msg("Write {written} instead of {name} on this line."),
+        whys={
+            "setter": msg(
+                "This is the setter of the property {method}. Each time the property is set, the setter "
+                "runs, and here it sets the property again."
+            )
+        },
         fixes={
             "new": msg(
                 "Give the value another name than the property: write {written} instead of {name} on "

@@ -315,6 +315,11 @@ SIGNS = {
     "line_above": msg(
         "Indent this line as far as line {line}: the lines of one block begin in the same column."
     ),
+    "line_between": msg(
+        "This line is indented less than the lines above it and than line {line}, so it ends their "
+        "block. If it belongs to the block, indent it as far as line {line}. If not, move it to the place "
+        "where it belongs, or delete it."
+    ),
     "behind_colon": msg(
         "This line has its block behind the colon, so the block ends with the line, and line {line} "
         "belongs to no block. Move this to a line of its own below, indented as far as line {line}: "
@@ -379,6 +384,14 @@ SIGNS = {
     ),
     "arrow_behind_colon": msg(
         "The type that a function returns is before the colon, behind ->. Write: {wanted}"
+    ),
+    "arrow_half": msg("An arrow, ->, is before the type that a function returns. Write: {wanted}"),
+    "bracket_closed_before": msg(
+        "All brackets of this line are closed before its last ) already, and what follows there is in "
+        "the line twice. Write: {wanted}"
+    ),
+    "bracket_too_early": msg(
+        "A ) closes the brackets too early: the last ) of the line has none to close. Write: {wanted}"
     ),
     "quote_at_end": msg(
         "The text ends with a quote, and the three quotes that end it follow directly: Python takes "

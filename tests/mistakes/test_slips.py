@@ -553,6 +553,29 @@ SIGNS += [
      f"{METHOD}\n    def g(self):\n        pass\n"),
     ("# a\n import a\nimport b\n", "line_above", 2, "# a\nimport a\nimport b\n"),
 ]  # fmt: skip
+CLASS = "class A:\n    def f(self):\n        self.a = 1\n"
+SIGNS += [
+    # a line of the class between the lines of a method: its own if it uses self
+    (f"{CLASS}    self.b = 1\n        self.c = 1\n", "line_above", 4,
+     f"{CLASS}        self.b = 1\n        self.c = 1\n"),
+    (f"{CLASS}    b = 1\n        self.c = 1\n", "line_between", 4, ""),
+    ("def f(a) - None:\n    pass\n", "arrow_half", 1, "def f(a) -> None:\n    pass\n"),
+    ("def f(a) => int:\n    pass\n", "arrow_half", 1, "def f(a) -> int:\n    pass\n"),
+    ("a = f(1, b=c), b=c)\n", "bracket_closed_before", 1, "a = f(1, b=c)\n"),
+    ("a = f(1), b=c)\n", "bracket_too_early", 1, "a = f(1, b=c)\n"),
+    (f"{CLASS}        b = f(1), self.f)\n", "bracket_too_early", 4,
+     f"{CLASS}        b = f(1, self.f)\n"),
+    (f"{CLASS}    self.b = 1\n    self.d = 1\n        self.c = 1\n", "line_above", 4,
+     f"{CLASS}        self.b = 1\n        self.d = 1\n        self.c = 1\n"),
+    ("a = f('b:  + str(c))\n", "quote", 1, "a = f('b: ' + str(c))\n"),
+    ("a = f('b: + str(c))\n", "quote", 1, "a = f('b: '+ str(c))\n"),
+    ("a = {\n    'b': 'c: ,\n}\n", "quote", 2, "a = {\n    'b': 'c: ',\n}\n"),
+    ("def f():\n    return a.b str(c)\n", "plus_missing", 2, "def f():\n    return a.b + str(c)\n"),
+    ("f(self.a self.b)\n", "comma_missing", 1, "f(self.a, self.b)\n"),
+    ("f(a b)\n", "comma_or_name", 1, ""),
+    ("super(A, self.__init__('a')\nb = 1\n", "bracket_end", 1,
+     "super(A, self).__init__('a')\nb = 1\n"),
+]  # fmt: skip
 CODE = ["a = 1\n", "b = 4 // 2\n", "c = a < b > a\n", "'''\nPython\n// a++\n'''\n", "# \u201cx\u201d\n",
         "d = '\u201cx\u201d'\n", "...\n", "Python = 1\nPython\n",
         "ls = l = 1\nls -l\n", "code = 1\ncode = code if code else 1\n", "f(\n    code in b,\n)\n"]  # fmt: skip

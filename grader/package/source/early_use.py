@@ -24,9 +24,21 @@ def early_use(source: NodeSource, module: Module, line: int, name: str) -> Early
 
     None if __init__ does not set the attribute, or if it does so before this line runs.
     """
-    init = source.method("__init__")
-    if init is None or not module.has(init):
-        return None
+    own = source.method("__init__")
+    for init in dict.fromkeys((own, *_constructors(source))):
+        found = _in(source, init, line, name) if init and module.has(init) else None
+        if found is not None:
+            return found
+    return None
+
+
+def _constructors(source: NodeSource) -> list[Function]:
+    """Return the __init__ of the node's class and of its bases in the student's files."""
+    methods = [s for c in source.family for s in c.body if isinstance(s, Function)]
+    return [method for method in methods if method.name == "__init__"]
+
+
+def _in(source: NodeSource, init: Function, line: int, name: str) -> EarlyUse | None:
     found = [n for n in ast.walk(init) if f"self.{name}" in targets_of(n)]
     sets = [n for n in found if isinstance(n, ast.Assign | ast.AnnAssign) and n.value]
     first = min(sets, key=lambda n: n.lineno, default=None)
@@ -48,8 +60,16 @@ def _reached(source: NodeSource, statement: ast.stmt) -> list[Function]:
     waiting: list[ast.AST] = [statement]
     for part in waiting:
         for call, _ in calls_in(part):
-            method = source.methods.get(own_name(call.func))
+            name = own_name(call.func)
+            method = source.methods.get(name) or _of_family(source, name)
             if method is not None and method not in reached:
                 reached.append(method)
                 waiting.append(method)
     return reached
+
+
+def _of_family(source: NodeSource, name: str) -> Function | None:
+    """Return the only method of a name in the node's class and its bases."""
+    methods = [s for c in source.family for s in c.body if isinstance(s, Function)]
+    found = [method for method in methods if name and method.name == name]
+    return found[0] if len(found) == 1 else None

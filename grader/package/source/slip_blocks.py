@@ -36,6 +36,8 @@ def _bracket(text: Broken) -> Slip | None:
     if at is None or at < start:
         return None
     sign = text.code.text[at]
+    if (closed := _closed_before(text, at)) is not None:
+        return closed
     new = text.changed(Splice(at, at + 1, ""))
     if new is None:
         return None
@@ -43,6 +45,24 @@ def _bracket(text: Broken) -> Slip | None:
     shown = text.source.line(text.number).strip()
     variant = "bracket_extra" if double else "bracket_alone"
     return Slip("signs", variant, text.number, shown, sign, new if double else None)
+
+
+def _closed_before(text: Broken, at: int) -> Slip | None:
+    """Return a call that is closed, with more values and a second closing bracket behind it."""
+    start = text.code.start_of(text.number)
+    before = text.code.text[start:at]
+    end = start + before.rfind(")") + 1
+    rest = text.code.text[end:at]
+    if end == start or not re.match(r"[ \t]*,[ \t]*\S", rest) or "(" in rest:
+        return None
+    written = text.source.text
+    twice = written[end:at].strip(" \t,") in written[start:end]
+    splice = Splice(end, at + 1, "") if twice else Splice(end - 1, end, "")
+    new = text.changed(splice)
+    if new is None or not can_parse(new):
+        return None
+    variant = "bracket_closed_before" if twice else "bracket_too_early"
+    return text.slip("signs", variant, text.source.line(text.number), splice, fixed=new)
 
 
 def _unmatched(code: str) -> int | None:

@@ -15,6 +15,7 @@ BRACKET = re.compile(r"[()\[\]{}]")
 HEAD = re.compile(rf"[ \t]*(?:{BLOCK})\b.*:[ \t]*$")
 NEVER = re.compile(r"'(?P<sign>[(\[{])' was never closed")
 OTHER = re.compile(r"closing parenthesis '[)\]}]' does not match opening parenthesis '[(\[{]'")
+OF_SUPER = re.compile(r"\bsuper[ \t]*\([ \t]*\w+[ \t]*,[ \t]*(?P<object>self)\.__init__[ \t]*\(")
 KEY = re.compile(r"['\"]_*['\"][ \t]*:")
 MOST_AT_ONCE = 3
 
@@ -130,6 +131,14 @@ def _ways(text: Broken, found: Open) -> Iterator[tuple[str, int, str, bytes | No
         yield "bracket_kind", line, _with(text, line, splice), text.changed(splice)
     last = _last_line(text, found)
     opener = text.code.line(found.line)
+    if found.wrong is None and (own := OF_SUPER.search(opener)) is not None:
+        at = text.code.start_of(found.line) + own.end("object")
+        yield (
+            "bracket_end",
+            found.line,
+            _with(text, found.line, Splice(at, at, ")")),
+            text.changed(Splice(at, at, ")")),
+        )
     indent = indent_of(text.source.line(found.line))
     at = found.wrong if found.wrong is not None else len(text.code.text)
     if opener.rstrip().endswith(found.signs[-1]):

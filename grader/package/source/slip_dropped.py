@@ -76,7 +76,10 @@ def _of_method(text: Broken) -> Slip | None:
     found = []
     for match in list(re.finditer(r"(?<=\w)\)", text.line))[:MOST_TRIES]:
         name = re.search(r"\w+$", text.line[: match.start()])
-        if name and re.search(rf"\bdef[ \t]+{name[0]}[ \t]*\(", text.code.text):
+        is_def = name and re.search(rf"\bdef[ \t]+{name[0]}[ \t]*\(", text.code.text)
+        of_value = name and re.search(rf"@property\s+def[ \t]+{name[0]}\b", text.code.text)
+        outside = re.search(r"\)[ \t]*,[^()]*\Z", text.line[: match.start()])
+        if is_def and not of_value and not outside:
             found.append(_changed(text, "bracket_first", match.start(), match.start(), "("))
     return found[0] if len(found) == 1 else None
 

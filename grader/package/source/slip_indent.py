@@ -144,9 +144,30 @@ def _without_def(text: Broken, above: Above) -> Slip | None:
     head = f"def {name}(self):"
     indent = indent_of(text.source.line(above.line))
     new = text.changed(text.source.before(text.number, indent + head)) if name else None
+    if new is None and _is_like_earlier(text, above.line):
+        return _line_between(text, above)
     shown = text.source.line(text.number).strip()
     variant = "def_gone" if new is not None else "def_gone_unknown"
     return Slip("signs", variant, text.number, shown, head, new, other=above.line)
+
+
+def _line_between(text: Broken, above: Above) -> Slip:
+    """Return the first of the lines above that are indented less than the lines around them."""
+    old = indent_of(text.source.line(above.line))
+    wanted = indent_of(text.source.line(text.number))
+    first = above.line
+    for number in range(above.line - 1, 0, -1):
+        if text.code.line(number).strip() and indent_of(text.source.line(number)) != old:
+            break
+        first = number if text.code.line(number).strip() else first
+    lines = [n for n in range(first, text.number) if text.code.line(n).strip()]
+    starts = [text.source.start_of(n) for n in lines]
+    new = text.source.spliced([Splice(at, at + len(old), wanted) for at in starts])
+    own = all(re.search(r"\bself\.", text.code.line(n)) for n in lines)
+    row = text.source.line(first).strip()
+    if own and new is not None and can_parse(new):
+        return Slip("signs", "line_above", first, row, "", new, other=text.number)
+    return Slip("signs", "line_between", first, row, "", other=text.number)
 
 
 def _missing_method(text: Broken) -> str:

@@ -220,7 +220,8 @@ def _between(text: Broken) -> Slip | None:
         new = text.changed(*splices)
         if new is not None:
             at = splices[0].start - text.code.start_of(text.number)
-            if variant == "comma_missing" and _are_names(text.line, at):
+            own = re.match(r"[ \t]+self\.", text.line[at:]) is not None and inside
+            if variant == "comma_missing" and not own and _are_names(text.line, at):
                 return text.slip("signs", "comma_or_name", text.source.line(text.number), *splices)
             return text.slip("signs", variant, text.source.line(text.number), *splices, fixed=new)
     return None
@@ -253,11 +254,20 @@ def _ways(text: Broken) -> Iterator[tuple[list[Splice], str]]:
         is_text = any((TEXTS.search(code[: match.end()]), CONVERTED.match(code, match.end())))
         shown = is_text or _ends_path(text, at) or ASSIGNS.match(code)
         number = code[match.end()].isdigit()
-        if quoted and shown and not number and match["blank"].strip("\r\n"):
+        converted = CONVERTED.match(code, match.end()) is not None
+        joins = quoted or (converted and not _ends_word(code[: match.start("blank")]))
+        if joins and shown and not number and match["blank"].strip("\r\n"):
             plus = Splice(at, at + len(match["blank"]), " + ")
-            values = [] if _ends_path(text, at) else [*_as_text(code, match, start)]
+            plain = _ends_path(text, at) or not quoted
+            values = [] if plain else [*_as_text(code, match, start)]
             yield [plus, *values], "plus_missing"
         yield [Splice(at, at, ",")], "comma_missing"
+
+
+def _ends_word(before: str) -> bool:
+    """Whether code ends with a word of Python, behind which a value stands: `return`, `and`."""
+    last = re.search(r"(?<![\w.])[a-z]+\Z", before)
+    return last is not None and keyword.iskeyword(last[0])
 
 
 def _as_text(code: str, match: re.Match[str], start: int) -> Iterator[Splice]:

@@ -42,6 +42,9 @@ RULES = (
     _typed("arrow_behind_colon",
            r"^(?P<start>[ \t]*(?:async[ \t]+)?def[ \t]+\w+[ \t]*\([^()]*\))[ \t]*:[ \t]*->[ \t]*(?P<type>[\w.\[\], |]+?)[ \t]*:?[ \t]*$",
            r"\g<start> -> \g<type>:"),
+    _typed("arrow_half",
+           r"^(?P<start>[ \t]*(?:async[ \t]+)?def[ \t]+\w+[ \t]*\([^()]*\))[ \t]*(?:-+|=>|>|-[ \t]+>|=+)[ \t]*(?P<type>[A-Za-z_][\w.\[\], |]*?)[ \t]*(?=:)",
+           r"\g<start> -> \g<type>"),
     _typed("editor_behind", r"[ \t]*:(?:wqa?|w|qa?|x)!?[ \t]*$", ""),
     _typed("backslash_end", r"\\[ \t]+$", "\\"),
 )  # fmt: skip

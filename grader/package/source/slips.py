@@ -435,6 +435,10 @@ def _apostrophe(text: Broken) -> Slip | None:
     return None
 
 
+JOINED = re.compile(r"(?P<text>[^'\"+]*[^'\"+ ])(?P<blank> *)\+ *str\([^'\"]*")
+"""A text without its last quote, to which str(…) is joined."""
+
+
 def _quotes(text: Broken) -> Slip | None:
     """Return a text whose first or last quote is missing."""
     written = text.source.line(text.number)
@@ -451,7 +455,15 @@ def _quotes(text: Broken) -> Slip | None:
     if opened < 0:
         return None
     quote, rest = written[opened], written[opened + 1 :]
+    if (joined := JOINED.fullmatch(rest)) is not None:
+        place = opened + 1 + len(joined["text"]) + max(len(joined["blank"]) - 1, 0)
+        place += joined["blank"] == " "
+        splice = text.within(place, place, quote)
+        if (new := text.changed(splice)) is not None:
+            return text.slip("signs", "quote", written, splice, fixed=new)
     ends = len(rest.rstrip(" \t,])}"))
+    blank = re.match(r"[ \t]+(?=[,)\]}])", rest[ends:])
+    ends += len(blank[0]) if blank and ends else 0  # (a blank at the end of the text)
     fits = [text.within(opened + 1 + ends, opened + 1 + ends, quote)] if rest[:ends] else []
     if not fits:  # the text ends here, and its first quote is missing
         begins = {m.end() for m in re.finditer(r"^[ \t]*|=[ \t]*", written[:opened])}
