@@ -38,7 +38,7 @@ def _kept(source: NodeSource) -> tuple[Function, ast.expr, str] | None:
 def _methods_read(source: NodeSource, part: Function) -> Iterator[Function]:
     """Yield the methods of other classes of the files that a log call reads by their name."""
     read = {last_part(dotted(n)) for call in source.logs(part) for n in ast.walk(call)}
-    for module in (*source.modules, *source.imported):
+    for module in (*source.modules, *source.beside):
         for own in module.classes:
             methods = [s for s in own.body if isinstance(s, Function) and s.name in read]
             yield from (m for m in methods if own not in source.family)

@@ -563,11 +563,6 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "head": "def __init__(self, **kwargs):",
     },
     "node.waits_for_spin": {"name": "pause()", "written": "rclpy.spin(node)"},
-    "node.self_of_static": {
-        "name": "staticmethod",
-        "line": "17",
-        "written": "def label(self):",
-    },
     "node.any_change": {"name": "self.n = 1 - self.n", "written": "self.n += 1"},
     "node.environment": {"name": "os.environ['PERIOD']", "variable": "PERIOD"},
     "node.dot_for_sign": {"name": "period. self.tick", "written": "period, self.tick"},

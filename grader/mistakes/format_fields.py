@@ -94,7 +94,7 @@ def text_of(raised: Raised, named: ast.expr | None) -> ast.expr | None:
 def _text_elsewhere(raised: Raised, named: ast.expr) -> ast.expr | None:
     """Return the only value of an attribute, or of a variable of an imported module."""
     plain, name = isinstance(named, ast.Name), last_part(dotted(named))
-    known = raised.source.imported if plain else (*raised.source.modules, *raised.source.imported)
+    known = raised.source.beside if plain else (*raised.source.modules, *raised.source.beside)
     values = [
         n.value
         for module in known

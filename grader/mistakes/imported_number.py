@@ -47,7 +47,7 @@ def _names(suspect: Suspect) -> Iterator[tuple[ast.stmt, OwnImport, Module, ast.
             for imported in imports_of(node, module.path) if isinstance(node, ast.stmt) else ():
                 if not imported.name or imported.bound not in read:
                     continue
-                for other in (*source.modules, *source.imported):
+                for other in (*source.modules, *source.beside):
                     change = _change(other, imported.name)
                     if other.path in imported.paths and isinstance(node, ast.stmt) and change:
                         yield node, imported, other, change

@@ -130,8 +130,6 @@ def _has_other_parts(given: ast.expr, tail: str) -> bool:
 
 
 def _near(suspect: Suspect, wanted: str) -> Iterator[ast.Constant]:
-    others = [node for module in suspect.source.imported for node in module.nodes]
-    for node in (*suspect.source.own_nodes, *others):
     beside = (node for module in suspect.source.beside for node in module.nodes)
     for node in (*suspect.source.own_nodes, *beside):
         if not isinstance(node, ast.Constant) or not isinstance(node.value, str):

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Sequence
 
 from grader.base.i18n.message import Message, joined, say
 from grader.base.shown import shown
-from grader.package.source.counter import parts_of_callback, targets_of
-from grader.package.source.module import Function, Module
+from grader.package.source.counter import parts_of_callback
+from grader.package.source.module import Module
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
-from grader.package.source.own_imports import own_imports
 from grader.package.source.place import block_of, function_at, statement_at
 from grader.package.source.traced import traced
 from grader.report.model import Where
@@ -33,9 +31,6 @@ def lines_that_make(
     text, and without a method that changes one, are left out.
     """
     statements = statements_that_make(source, where)
-    call = _call_at(source, where)
-    read = [*statements, *([call] if call is not None else [])]
-    found = [(source.module_of(n), n) for n in statements] + list(_imported(source, read))
     if only_texts:
         statements = [n for n in statements if any(map(_makes_text, ast.walk(n)))]
     places = list(dict.fromkeys((source.module_of(n), n.lineno) for n in statements))
@@ -43,12 +38,6 @@ def lines_that_make(
         return None
     here = where.file if where is not None else source.module.path
     several = {module.path for module, _ in places} != {here}
-        found = [(module, n) for module, n in found if _makes_text(n)]
-    places = list(dict.fromkeys((module, n.lineno) for module, n in found))
-    if not 0 < len(places) <= MOST_LINES:
-        return None
-    here = {source.module_of(call).path} if call is not None else set()
-    several = len({module.path for module, _ in places} | here) > 1
     texts = []
     for module, line in places:
         code = shown(module.line(line))
@@ -70,42 +59,12 @@ def lines_that_make(
 
 def statements_that_make(source: NodeSource, where: Where | None) -> list[ast.stmt]:
     """Return the statements that make or change what is logged at a place, or by the callback."""
-    call = _call_at(source, where)
-    return traced(source, call) if call is not None else []
-
-
-def _call_at(source: NodeSource, where: Where | None) -> ast.Call | None:
-    """Return the log call at a place, or the first one of the callback; None if there is none."""
     calls = [call for part in parts_of_callback(source) for call in source.logs(part)]
     if where is not None and where.line:
         module = source.module_at(where.file)
         there = [call for call in source.logs(module.tree) if call.lineno == where.line]
         calls = there or calls
-    return calls[0] if calls else None
-
-
-def _imported(source: NodeSource, read: Sequence[ast.AST]) -> Iterator[tuple[Module, ast.stmt]]:
-    """Yield what gives an imported name that is read its value, in a file beside the node's."""
-    for part in read:
-        bound = list(own_imports(source.module_of(part)))
-        for name in sorted({dotted(n) for n in ast.walk(part)} - {""}):
-            first, *rest = name.split(".")
-            for one in (i for i in bound if i.bound == first):
-                path = [one.name, *rest] if one.name else rest
-                modules = [m for m in source.beside if m.path in one.paths]
-                for module in modules if path else ():
-                    yield from ((module, n) for n in _given(module.tree.body, path))
-
-
-def _given(body: Sequence[ast.stmt], path: Sequence[str]) -> Iterator[ast.stmt]:
-    """Yield the statements that set a name of a file or a class, or that a function returns with."""
-    for statement in body:
-        if path[0] in targets_of(statement):
-            yield statement
-        elif isinstance(statement, ast.ClassDef) and statement.name == path[0] and path[1:]:
-            yield from _given(statement.body, path[1:])
-        elif isinstance(statement, Function) and statement.name == path[0]:
-            yield from (n for n in ast.walk(statement) if isinstance(n, ast.Return) and n.value)
+    return traced(source, calls[0]) if calls else []
 
 
 def _uncalled(source: NodeSource, module: Module, line: int) -> str:
@@ -152,13 +111,4 @@ def _makes_text(node: ast.AST) -> bool:
     """Whether a part is a text, or a call of a method that makes another text of one."""
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
         return node.func.attr in TEXT_METHODS
-def _makes_text(statement: ast.stmt) -> bool:
-    """Whether a statement has a piece of text, or gives back a value that a call makes."""
-    if isinstance(statement, Function):
-        return any(map(_is_text, ast.walk(statement.args)))
-    made = isinstance(statement, ast.Return) and isinstance(statement.value, ast.Call | ast.BinOp)
-    return made or any(map(_is_text, ast.walk(statement)))
-
-
-def _is_text(node: ast.AST) -> bool:
     return isinstance(node, ast.Constant) and isinstance(node.value, str)

@@ -575,6 +575,10 @@ KINDS = (
                     "  <depend>rclpy</depend>",
                     "  <dependencies>\n    <depend>rclpy</depend>\n  </dependencies>",
                 ),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
                 "depend_in_an_attribute",
                 Replace(MANIFEST, "<depend>rclpy</depend>", '<depend include="rclpy"/>'),
                 fails="package.manifest",

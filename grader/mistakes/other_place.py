@@ -18,6 +18,7 @@ from grader.mistakes.recognised import (
     OWN_ATTRIBUTE,
     Raised,
     RecognisedMistake,
+    Suspect,
     of_self,
     on_line,
 )

@@ -74,7 +74,6 @@ def _own_class(raised: Raised, function: Function) -> RecognisedMistake | None:
 
 
 def _own_property(raised: Raised, function: Function) -> RecognisedMistake | None:
-    """A property reads or sets itself."""
     """A property reads itself, or its setter sets it."""
     if any(dotted(d) == f"{function.name}.setter" for d in function.decorator_list):
         return _own_setter(raised, function)
@@ -94,6 +93,9 @@ def _own_property(raised: Raised, function: Function) -> RecognisedMistake | Non
 
 def _own_setter(raised: Raised, function: Function) -> RecognisedMistake | None:
     """The setter of a property sets the property."""
+    other = _sets_property(raised, function)
+    if other is not None:
+        return other
     around = raised.module.parents.get(function)
     code = f"self.{function.name}"
     parts = [
@@ -109,6 +111,9 @@ def _own_setter(raised: Raised, function: Function) -> RecognisedMistake | None:
     found = raised.finding("property_of_itself", at=_statement(raised, parts[-1]), params=params)
     rows = ", ".join(map(str, sorted({n.lineno for n in parts})))
     return replace(found, words={**found.words, "lines": rows}, variant="setter")
+
+
+def _sets_property(raised: Raised, function: Function) -> RecognisedMistake | None:
     """A setter sets the property, and not the attribute that the property returns."""
     code = f"self.{function.name}"
     sets = [
@@ -128,7 +133,7 @@ def _own_setter(raised: Raised, function: Function) -> RecognisedMistake | None:
         return None
     params = {"name": f"{code} =", "written": f"{kept} =", "method": function.name}
     found = raised.finding("property_of_itself", at=sets[0], params=params)
-    return replace(found, variant="setter")
+    return replace(found, variant="setter_only")
 
 
 def _itself(raised: Raised, function: Function) -> RecognisedMistake | None:
@@ -193,10 +198,13 @@ KINDS = (
         msg("{name} is this property: each time it is read, the property runs and reads it again."),
         msg("Write {written} instead of {name} on this line."),
         whys={
-            "setter": msg(
+            "setter_only": msg(
                 "This is the setter of the property {method}. Each time the property is set, the setter "
                 "runs, and here it sets the property again."
-            )
+            ),
+            "setter": msg(
+                "{name} is this property: each time it is set, the setter runs and sets it again."
+            ),
         },
         fixes={
             "new": msg(
@@ -207,11 +215,6 @@ KINDS = (
                 "Give the value another name than the property: write {written} instead of {name} in the "
                 "lines of the property (line {lines}). All other lines keep {name}."
             ),
-        },
-        whys={
-            "setter": msg(
-                "{name} is this property: each time it is set, the setter runs and sets it again."
-            )
         },
         fixed_by=(lines.written,),
         examples=(

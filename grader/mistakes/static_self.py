@@ -31,7 +31,7 @@ def _self_in_static(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
         return None
     found = _decorator(method)
     if found is None:
-        return None
+        return _without_parameter(raised, method)
     given = [a.arg for a in method.args.args]
     kept = given[1:] if dotted(found) == "classmethod" else given
     params = {"name": dotted(found), "written": ", ".join(["self", *kept])}
@@ -41,6 +41,16 @@ def _self_in_static(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
     if uses:
         words["lines"] = ", ".join(map(str, sorted({n.lineno for n in uses})))
     return replace(mistake, words=words, variant="class" if uses else "")
+
+
+def _without_parameter(raised: Raised, method: Function) -> RecognisedMistake | None:
+    """The def has empty brackets, and is called by the name of the class."""
+    row, empty = raised.module.line(method.lineno).strip(), f"def {method.name}()"
+    if method.decorator_list or empty not in row:
+        return None
+    written = row.replace(empty, f"def {method.name}(self)", 1)
+    found = raised.finding("static_self", at=method, name=method.name, written=written)
+    return replace(found, variant="called")
 
 
 def _decorator(method: Function) -> ast.expr | None:
@@ -102,11 +112,21 @@ KINDS = (
             "without this decorator, the first parameter gets the object."
         ),
         msg("Delete the line @{name}, and write def {method}({written}):"),
+        whys={
+            "called": msg(
+                "self is the first parameter of a method. This def has no parameter, so self is "
+                "unknown in it."
+            )
+        },
         fixes={
+            "called": msg(
+                "Write: {written} Then call it with the node and a dot before its name: self.… in a "
+                "method of the class."
+            ),
             "class": msg(
                 "Delete the line @{name}, and write def {method}({written}): Then write "
                 "self.{method} instead of {type}.{method} (line {lines})."
-            )
+            ),
         },
         raised={NAME_ERROR: _self_in_static},
         fixed_by=(_with_self,),

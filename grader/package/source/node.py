@@ -29,7 +29,8 @@ Read = Callable[[str], "bytes | None"]
 class NodeSource:
     """The facts of a node: `entry` is the entry point's file, `module` the one with the class.
 
-    Both are the same file in most packages. `beside` are the other files that these import. `main` is the entry function, None if it is missing.
+    Both are the same file in most packages. `beside` are the other files that these import. `main` is
+    the entry function, None if it is missing.
     """
 
     def __init__(self, modules: Sequence[Module], function: str) -> None:
@@ -43,7 +44,6 @@ class NodeSource:
             self.module = found[0]
         own = (self.module, self.entry, *([found[0]] if found else []))
         self.modules = tuple(dict.fromkeys(own))
-        self.imported = tuple(module for module in modules if module not in self.modules)
         self.beside = tuple(m for m in modules if m not in self.modules)
 
     @property
@@ -53,13 +53,11 @@ class NodeSource:
 
     def module_of(self, node: ast.AST) -> Module:
         """Return the file that a piece of syntax is in."""
-        known = (*self.modules, *self.imported)
-        return next((m for m in known if m.has(node)), self.module)
         return next((m for m in (*self.modules, *self.beside) if m.has(node)), self.module)
 
     def module_at(self, path: str) -> Module:
         """Return the file at a path; that of the class if the node does not have it."""
-        known = (*self.modules, *self.imported)
+        known = (*self.modules, *self.beside)
         return next((m for m in known if m.path == path), self.module)
 
     @cached_property

@@ -34,7 +34,7 @@ def traced(source: NodeSource, call: ast.Call) -> list[ast.stmt]:
             break
     statements = (n for n in trace.found if not isinstance(n, Function))
     own = {n for n in statements if any(part is call for part in ast.walk(n))}
-    order = {module: at for at, module in enumerate((*source.modules, *source.imported))}
+    order = {module: at for at, module in enumerate((*source.modules, *source.beside))}
     found = trace.found - own
     return sorted(found, key=lambda n: (order[source.module_of(n)], n.lineno, n.col_offset))
 
@@ -49,7 +49,7 @@ class _Trace:
         self.found: set[ast.stmt] = set()
         self.entered: set[Function] = set()
         self.functions: dict[str, list[Function]] = {}
-        nodes = [n for module in (*source.modules, *source.imported) for n in module.nodes]
+        nodes = [n for module in (*source.modules, *source.beside) for n in module.nodes]
         for node in nodes:
             if isinstance(node, Function):
                 self.functions.setdefault(node.name, []).append(node)
