@@ -579,7 +579,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "line": "17",
         "written": "rclpy.spin(node)",
     },
-    "node.never_added": {"name": "other", "written": "node", "executor": "executor.add_node"},
+    "node.never_added": {"name": "other", "written": "node"},
     "node.global_lost": {"name": "node", "function": "main", "line": "20", "word": "global"},
     "node.set_under_guard": {"name": "PERIOD", "line": "30"},
     "node.self_second": {"method": "text", "parameter": "n", "head": "def text(self, n):"},

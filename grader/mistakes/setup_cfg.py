@@ -110,6 +110,11 @@ KINDS = (
                 "Write [develop] on a line of its own above script_dir, and [install] above "
                 "install_scripts. Then build again."
             ),
+            "bare_headings": msg(
+                "The name of a section is in square brackets. Write the lines [develop] and [install] "
+                "with brackets, without : and without spaces before them. Delete the spaces before the "
+                "lines below them too. Then build again."
+            ),
             "twice": msg("Delete the second one: each name appears only once."),
             "encoding": msg(
                 "Save the file again with the encoding UTF-8, without a BOM. Windows PowerShell "
@@ -148,6 +153,18 @@ KINDS = (
                 "setup_cfg_without_headings",
                 Replace(CFG, "[develop]\n", ""),
                 Replace(CFG, "[install]\n", ""),
+                fails="package.setup_cfg",
+                blocks=UNBUILT,
+            ),
+            example(
+                "setup_cfg_as_yaml",
+                Write(
+                    CFG,
+                    (
+                        "develop:\n  script_dir: $base/lib/my_robot_controller\n"
+                        "install:\n  install_scripts: $base/lib/my_robot_controller\n"
+                    ),
+                ),
                 fails="package.setup_cfg",
                 blocks=UNBUILT,
             ),

@@ -9,12 +9,9 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, SILENT, example
 from grader.mistakes.fixes import lines
-from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.mistakes.spin_not_reached import UNWRAP
-from grader.package.edit.files import Files
-from grader.package.edit.text import indent_of
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
@@ -92,7 +89,7 @@ def _counting(source: NodeSource) -> set[str]:
 
 
 def _never_added(suspect: Suspect) -> RecognisedMistake | None:
-    """The only executor gets other nodes, and never the one that counts."""
+    """The only executor gets another node twice, and never the one that counts."""
     source = suspect.source
     added = [c for c in source.calls_of("add_node") if len(c.args) == 1 and dotted(c.args[0])]
     owners = {dotted(c.func) for c in added}
@@ -103,15 +100,14 @@ def _never_added(suspect: Suspect) -> RecognisedMistake | None:
     if missing in given or _is_handed_on(source, missing):
         return None
     again = next((k for k, name in enumerate(given) if name in given[:k]), None)
-    call = added[-1 if again is None else again]
+    if again is None:
+        return None
+    call = added[again]
     statement = source.module_of(call).parents.get(call)
     made = [n.lineno for n in source.own_nodes if missing in targets_of(n) and hasattr(n, "lineno")]
     if not isinstance(statement, ast.Expr) or not made or max(made) > call.lineno:
         return None
-    params = {"written": missing, "executor": next(iter(owners))}
-    if again is not None:
-        return suspect.finding("never_added", call, **params, name=given[again])
-    return replace(suspect.finding("never_added", call, **params), variant="only")
+    return suspect.finding("never_added", call, name=given[again], written=missing)
 
 
 def _is_handed_on(source: NodeSource, name: str) -> bool:
@@ -189,18 +185,6 @@ def _made_in_loop(
 def _logs_with_timer(source: NodeSource, found: ast.ClassDef) -> bool:
     names = {last_part(name) for _, name in calls_in(found)}
     return "create_timer" in names and bool(source.logs(found))
-
-
-def _added(case: Case) -> Files | None:
-    """Give the node that counts to the executor: in place of another, or on a line below."""
-    module, line = case.module, case.finding.line
-    new = f"{case.finding.params.get('executor', '')}({case.finding.params.get('written', '')})"
-    if module is None or line is None:
-        return None
-    if "name" in case.finding.params:
-        return lines.written(case)
-    row = f"{indent_of(module.text.line(line))}{new}"
-    return case.changed(module, module.text.before(line + 1, row))
 
 
 OTHER = """\
@@ -285,15 +269,8 @@ KINDS = (
             "{name} is given to it twice, and {written} never."
         ),
         msg("Write {written} instead of {name} in this line."),
-        whys={
-            "only": msg(
-                "An executor calls the callbacks of the nodes that add_node gave to it, and of no "
-                "others. {written}, which has the timer, is not among them."
-            )
-        },
-        fixes={"only": msg("Write {executor}({written}) on a line of its own below this line.")},
         behind={"run.no_lines": _never_added, "run.never_spins": _never_added},
-        fixed_by=(_added,),
+        fixed_by=(lines.written,),
         examples=(
             example(
                 "same_node_given_to_the_executor_twice",
@@ -303,24 +280,6 @@ KINDS = (
                     "        rclpy.spin(node)\n",
                     EXECUTOR.replace("MyFirst", "Other").replace(
                         "add_node(node)", "add_node(other)"
-                    ),
-                ),
-                Replace(
-                    NODE,
-                    "from rclpy.node",
-                    "from rclpy.executors import SingleThreadedExecutor\nfrom rclpy.node",
-                ),
-                fails="run.output",
-                blocks=SILENT,
-            ),
-            example(
-                "counting_node_not_given_to_the_executor",
-                Replace(NODE, "def main(", OTHER),
-                Replace(
-                    NODE,
-                    "        rclpy.spin(node)\n",
-                    EXECUTOR.replace("MyFirst", "Other").replace(
-                        "        executor.add_node(node)\n", ""
                     ),
                 ),
                 Replace(

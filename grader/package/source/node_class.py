@@ -33,7 +33,9 @@ def class_of_node(module: Module, made: set[str]) -> ast.ClassDef | None:
     """
     for fits in (derives_from_node, acts_as_node):
         found = [c for c in module.classes if fits(c)]
-        called = [c for c in found if c.name in made] or found[:1]
+        known = {c for each in found for c in family_of(each, module)}
+        below = [c for c in module.classes if c in known and c.name in made]
+        called = [c for c in found if c.name in made] or below or found[:1]
         if found:
             return next((c for c in called if _counts(c)), called[0])
     return module.classes[0] if module.classes else None

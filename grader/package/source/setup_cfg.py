@@ -130,7 +130,8 @@ def _without_section(text: str, line: int) -> SetupCfgFault:
     if sign:
         return SetupCfgFault(reason, line, "comment", sign)
     if "[" not in text and all(key in text for key in KEYS.values()):
-        return SetupCfgFault(reason, line, "headings")
+        bare = re.search(r"^(?:develop|install)[ \t]*:?[ \t]*$", text, re.MULTILINE)
+        return SetupCfgFault(reason, line, "bare_headings" if bare else "headings")
     row = rows[line - 1] if line <= len(rows) else ""
     key = re.split(r"[=:\s]", row.strip(), maxsplit=1)[0].replace("-", "_")
     section = next((name for name, known in KEYS.items() if known == key), "")
