@@ -104,6 +104,23 @@ KINDS = (
                 fails="run.output",
             ),
             example(
+                "generator_method_made_anew",
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def numbers(self):\n        n = 0\n        while True:\n"
+                    "            yield n\n            n += 1\n\n    def timer_callback",
+                ),
+                Replace(
+                    NODE,
+                    LOG,
+                    "numbers = self.numbers()\n"
+                    "        self.get_logger().info('Hello time: ' + str(next(numbers)))",
+                ),
+                Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
+            ),
+            example(
                 "generator_made_anew",
                 Replace(
                     NODE,

@@ -189,6 +189,17 @@ KINDS = (
                 blocks=DEAD,
             ),
             example(
+                "method_with_this_adds_to_bare_name",
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def add(this):\n        counter_ += 1\n\n    def timer_callback",
+                ),
+                Replace(NODE, "        self.counter_ += 1", "        self.add()"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+            example(
                 "static_method_adds_to_bare_name",
                 Replace(
                     NODE,

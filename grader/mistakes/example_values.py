@@ -410,6 +410,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "written": "self.numbers()",
         "line": 14,
     },
+    "node.pop_from_the_end": {"name": "self.numbers.pop()", "written": "self.numbers.pop(0)"},
+    "node.starts_as_truth_value": {"name": "False", "written": "0"},
     "node.mutable_default": {
         "name": "values: list = []",
         "written": "values: list = field(default_factory=list)",

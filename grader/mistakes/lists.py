@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from dataclasses import replace
 
@@ -14,7 +15,7 @@ from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.worked_out import INSTEAD
 from grader.package.edit.tree import Replace
 from grader.package.source.names import dotted
-from grader.package.source.other_values import other_value
+from grader.package.source.other_values import OtherValue, other_value
 
 
 def _len_of_number(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -57,13 +58,39 @@ def _other_value(suspect: Suspect) -> RecognisedMistake | None:
             "counter_other_value", found.element, name=name, written=f"int({name})"
         )
         return replace(mistake, words={**mistake.words, **words}, variant="element")
+    item = _item(suspect, found)
+    if item:
+        mistake = suspect.finding(
+            "counter_other_value", suspect.place, name=found.name, written=item
+        )
+        return replace(mistake, words={**mistake.words, **words}, variant="item")
     written = f"{found.name} = {start}"
-    mistake = suspect.finding(
-        "counter_other_value", found.start, name=code(found.start), written=written
-    )
+    if found.others:  # (more than one line has to change: no line to write for the other)
+        mistake = suspect.finding("counter_other_value", found.start, name=code(found.start))
+        words["written"] = written
+    else:
+        mistake = suspect.finding(
+            "counter_other_value", found.start, name=code(found.start), written=written
+        )
     words["others"] = ", ".join(str(node.lineno) for node in found.others)
     variant = "changes" if found.others else ""
     return replace(mistake, words={**mistake.words, **words}, variant=variant)
+
+
+def _item(suspect: Suspect, found: OtherValue) -> str:
+    """Return the code of the item that the only other line adds to, for the line that is logged."""
+    change = found.others[0] if len(found.others) == 1 else None
+    target = change.target if isinstance(change, ast.AugAssign) else None
+    line = suspect.place.line if suspect.place is not None else None
+    if change is None or line is None or not isinstance(target, ast.Subscript):
+        return ""
+    code = found.module.text.code(target)
+    row = suspect.source.module_at(suspect.place.file if suspect.place else "").line(line)
+    if dotted(target.value) != found.name or row.count(found.name) != 1:
+        return ""
+    if re.search(r"\bf'", row):
+        code = code.replace("'", '"')
+    return code if not re.search(r'\bf"', row) or '"' not in code else ""
 
 
 WHAT = {
@@ -144,10 +171,11 @@ KINDS = (
             )
         },
         fixes={
+            "item": msg("Write {written} instead of {name} in this line: only the item is logged."),
             "changes": msg(
                 "Write {written} instead of {name}, and {attribute} += {step} instead of what "
                 "changes it (line {others})."
-            )
+            ),
         },
         behind={"run.wrong_text": _other_value},
         fixed_by=(node_lists.plain_start, lines.written),
@@ -157,6 +185,12 @@ KINDS = (
                 Replace(NODE, "import rclpy\nfrom", "import numpy as np\nimport rclpy\nfrom"),
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = np.zeros(1)"),
                 Replace(NODE, "self.counter_ += 1", "self.counter_ = self.counter_ + 1"),
+                fails="run.output",
+            ),
+            example(
+                "whole_dict_in_text",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = {'count': 0}"),
+                Replace(NODE, "self.counter_ += 1", "self.counter_['count'] += 1"),
                 fails="run.output",
             ),
             example(

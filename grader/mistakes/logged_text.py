@@ -53,15 +53,14 @@ def _is_right(suspect: Suspect, value: str, wanted: str) -> bool:
 
 
 def _appended(suspect: Suspect) -> RecognisedMistake | None:
-    """Look for the only string that is all of what stands behind the required line."""
+    """Look for the only string on another line that is all of what follows the required text."""
     head, tail = map(re.escape, suspect.output.text.split("{n}"))
     match = re.fullmatch(rf"{head}-?\d+{tail}(?P<more>.*\D)", suspect.text)
     if match is None or not match["more"].strip():
         return None
-    logs = suspect.source.own_logs
     found = {
         part
-        for n in (*statements_that_make(suspect.source, suspect.place), *logs)
+        for n in statements_that_make(suspect.source, suspect.place)
         for part in ast.walk(n)
         if isinstance(part, ast.Constant) and part.value == match["more"]
     }

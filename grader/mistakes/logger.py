@@ -116,9 +116,23 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _logs_further(source: NodeSource, part: ast.AST) -> bool:
-    """Whether a part of the source calls something of the files that logs or prints."""
-    functions = [n for n in source.own_nodes if isinstance(n, Function)]
+    """Whether a part of the source calls something that logs or prints, or that may do so.
+
+    Of a logger that is a value, as in getattr(self.get_logger(), level), and of a function that is
+    kept in an attribute, it is not known what they do.
+    """
+    modules = (*source.modules, *source.imported)
+    functions = [n for module in modules for n in module.nodes if isinstance(n, Function)]
     names = {called_name(call) for call, _ in calls_in(part)}
+    kept = {own_name(call.func) for call, _ in calls_in(part)} & source.attributes
+    parents = source.module_of(part).parents
+    given = [
+        call
+        for call, name in calls_in(part)
+        if last_part(name) == "get_logger" and not isinstance(parents.get(call), ast.Expr)
+    ]
+    if kept - set(source.methods) or given or "getattr" in names:
+        return True
     named = [f for f in functions if f.name in names and f is not part]
     return any(source.logs(f) or source.prints(f) for f in named)
 

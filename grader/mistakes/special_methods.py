@@ -12,9 +12,10 @@ from grader.mistakes import links
 from grader.mistakes.example import DEAD, LOG, NODE, STEP_LINE, example
 from grader.mistakes.fixes import lines, node_words
 from grader.mistakes.kind import Family
+from grader.mistakes.made_by import statements_that_make
 from grader.mistakes.recognised import OWN_ATTRIBUTE, Raised, RecognisedMistake, Suspect, on_line
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import targets_of
+from grader.package.source.counter import parts_of_callback, targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, last_part
 from grader.package.source.place import statement_at
@@ -155,6 +156,45 @@ def _object_added(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
         return replace(found, words=words, variant="enum")
     found = raised.finding("object_added", name=members[0], written=f"{members[0]}.value")
     return replace(found, words={**found.words, "type": own.name}, variant="member")
+
+
+def _from_the_end(suspect: Suspect) -> RecognisedMistake | None:
+    """The numbers go down, and the only pop() of the callback has nothing in its ()."""
+    numbers = [int(n[0]) for line in suspect.lines if (n := re.search(r"-?\d+", line)) is not None]
+    down = [before - after for before, after in zip(numbers, numbers[1:])]
+    calls = [
+        n
+        for part in parts_of_callback(suspect.source)
+        for n in ast.walk(part)
+        if isinstance(n, ast.Call) and isinstance(n.func, ast.Attribute) and n.func.attr == "pop"
+    ]
+    if len(calls) != 1 or calls[0].args or not down or set(down) != {suspect.output.step}:
+        return None
+    code = suspect.source.module_of(calls[0]).text.code(calls[0])
+    if not code.endswith("pop()") or "\n" in code:
+        return None
+    return suspect.finding("pop_from_the_end", calls[0], name=code, written=f"{code[:-1]}0)")
+
+
+def _truth_value(suspect: Suspect) -> RecognisedMistake | None:
+    """The line shows True or False, which is the first value of what is added to."""
+    head, tail = map(re.escape, suspect.output.text.split("{n}"))
+    if not re.fullmatch(rf"{head}(?:True|False){tail}", suspect.text):
+        return None
+    made = statements_that_make(suspect.source, suspect.place)
+    starts = [
+        n
+        for n in made
+        if isinstance(n, ast.Assign | ast.AnnAssign)
+        and isinstance(n.value, ast.Constant)
+        and isinstance(n.value.value, bool)
+    ]
+    if len(starts) != 1 or not any(isinstance(n, ast.AugAssign) for n in made):
+        return None
+    value = suspect.source.module_of(starts[0]).text.code(starts[0])
+    name = "True" if value.endswith("True") else "False"
+    params = {"name": name, "written": str(suspect.output.start)}
+    return suspect.finding("starts_as_truth_value", starts[0], **params)
 
 
 def _sum_lost(suspect: Suspect) -> RecognisedMistake | None:
@@ -334,6 +374,17 @@ KINDS = (
         fixed_by=(lines.written,),
         examples=(
             example(
+                "object_of_a_class_and_a_number",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class Ticks:\n    def __str__(self):\n        return '0'\n\n\nclass MyFirstNode",
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = Ticks()"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+            example(
                 "member_of_an_enum_added",
                 Replace(NODE, "import rclpy\n", "from enum import Enum\n\nimport rclpy\n"),
                 Replace(
@@ -371,6 +422,46 @@ KINDS = (
                     "@dataclass\nclass State:\n    values: list = []\n\n\nclass MyFirstNode",
                 ),
                 fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "pop_from_the_end",
+        "counter",
+        msg("pop() takes the last item"),
+        msg(
+            "pop() without an index takes the last item of a list, so the numbers come from its end."
+        ),
+        msg("Write {written} instead of {name}: it takes the first item."),
+        links.PYTHON_ERRORS,
+        behind=dict.fromkeys(("run.wrong_start", "run.wrong_step"), _from_the_end),
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "numbers_from_the_end_of_a_list",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = list(range(1000))"),
+                Replace(NODE, "str(self.counter_)", "str(self.counter_.pop())"),
+                Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "starts_as_truth_value",
+        "counter",
+        msg("The counter starts as True or False"),
+        msg(
+            "A text shows {name} as this word. With += it becomes a number only after the first line."
+        ),
+        msg("Write {written} instead of {name} on this line."),
+        links.PYTHON_ERRORS,
+        behind={"run.wrong_text": _truth_value},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "counter_starts_as_false",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = False"),
+                fails="run.output",
             ),
         ),
     ),

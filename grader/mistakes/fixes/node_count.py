@@ -177,7 +177,10 @@ def self_dot(case: Case) -> Files | None:
     for method in node.own_methods:
         for part in ast.walk(method):
             if isinstance(part, ast.Name) and part.id in own and part.id not in bound:
+                has_self = [a.arg for a in method.args.args[:1]] == ["self"]
                 if method.name == "__init__" or node.module.text.code(part) != part.id:
+                    return None
+                if not has_self:
                     return None
                 at = node.module.text.span(part)[0]
                 splices.append(Splice(at, at, "self."))

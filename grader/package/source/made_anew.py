@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from grader.package.source.counter import declares, starts_of, targets_of, texts_of
+from grader.package.source.generators import is_plain_generator
 from grader.package.source.module import Function, Module
 from grader.package.source.names import called_name, dotted
 from grader.package.source.node import NodeSource
@@ -55,6 +56,7 @@ def made_anew(source: NodeSource) -> MadeAnew | None:
 def _alone(source: NodeSource, callback: Function, name: str) -> bool:
     """Whether the callback reads nothing else that could be meant to count."""
     lasting = {name, "self.get_logger", "self.get_clock", *source.loggers}
+    lasting |= {f"self.{own}" for own in _own_generators(source)}
     starts = starts_of(source)
     for node in ast.walk(callback):
         read = dotted(node) if isinstance(node, ast.Name | ast.Attribute) else ""
@@ -69,7 +71,18 @@ def _makers(source: NodeSource, module: Module) -> set[str]:
     classes = {c.name for m in source.modules for c in m.classes} - source.class_names
     generators = {name for name, function in module.functions.items() if _yields(function)}
     imported = {i.bound for i in own_imports(module) if i.name[:1].isupper()}
-    return {*classes, *generators, *COUNTING, *(imported - source.class_names)}
+    own = {f"self.{name}" for name in _own_generators(source)}
+    names = {name.removeprefix("self.") for name in own}
+    return {*classes, *generators, *own, *names, *COUNTING, *(imported - source.class_names)}
+
+
+def _own_generators(source: NodeSource) -> list[str]:
+    """Return the methods of the node that are generators, and use only their own variables."""
+    return [
+        name
+        for name, method in source.methods.items()
+        if _yields(method) and is_plain_generator(method)
+    ]
 
 
 def _yields(function: Function) -> bool:
@@ -83,7 +96,7 @@ def _begins_again(value: ast.expr, makers: set[str]) -> bool:
     if not isinstance(value, ast.Call) or called_name(value) not in makers:
         return False
     if isinstance(value.func, ast.Attribute) and dotted(value.func.value) == "self":
-        return False
+        return dotted(value.func) in makers
     return not any(_reads_self(v) for v in (*value.args, *(k.value for k in value.keywords)))
 
 
