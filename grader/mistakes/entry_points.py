@@ -581,6 +581,7 @@ KINDS = (
         },
         fixed_by=(
             entries.keyword,
+            entries.header,
             entries.uncommented,
             entries.added,
         ),

@@ -32,6 +32,7 @@ NOT_FIXED = {
         "maintainer_in_a_comment_with_words",
         "entry_points_without_console_scripts",
     ),
+    *("second_entry_without_its_name", "setup_cfg_as_yaml"),
     *("manifest_in_utf_16", "manifest_as_json", "maintainer_with_tags_inside"),
 }
 NOTHING_TO_MARK = {

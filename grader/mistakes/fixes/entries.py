@@ -103,6 +103,16 @@ def keyword(case: Case) -> Files | None:
     return case.with_data(FILE, setup.source.spliced([splice]))
 
 
+def header(case: Case) -> Files | None:
+    """Write the line [console_scripts] above the entry, in the text of entry_points."""
+    text, line = _source(case, FILE), case.finding.line
+    code = text.line(line) if text is not None and line else ""
+    if text is None or not line or "".join(code.split()) != "".join(case.entry.split()):
+        return None
+    row = f"{code[: len(code) - len(code.lstrip())]}[{GROUP}]"
+    return case.with_data(FILE, text.spliced([text.before(line, row)]))
+
+
 def uncommented(case: Case) -> Files | None:
     """Remove the # before the entry."""
     text = _source(case, FILE)
