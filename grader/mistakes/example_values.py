@@ -709,6 +709,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "written": "executor.add_node(MyNode())",
         "type": "MyNode",
     },
+    "node.list_to_executor": {
+        "name": "executor.add_node(nodes)",
+        "owner": "executor.add_node",
+        "list": "nodes",
+    },
     "node.executor_with_node": {
         "name": "MultiThreadedExecutor(node)",
         "written": "MultiThreadedExecutor()",

@@ -223,6 +223,21 @@ def test_the_base_class_is_created(made: str, told: bool) -> None:
     assert found is None or not told or fix_of(found) == "Write MyFirstNode() instead of Base()."
 
 
+def test_a_bare_except_that_continues() -> None:
+    spin = "        rclpy.spin(node)\n    except KeyboardInterrupt:\n        pass\n"
+    loop = (
+        "        while True:\n            try:\n                rclpy.spin(node)\n"
+        "            except:\n                continue\n    except KeyboardInterrupt:\n        pass\n"
+    )
+    text = changed((spin, loop))
+    found = look("run.ignores_interrupt", text)
+    assert found is not None
+    last = line_of(text, "continue")
+    assert fix_of(found).startswith(
+        f"Write except KeyboardInterrupt: here, and break instead of continue on line {last}:"
+    )
+
+
 def test_super_is_the_first_base_class() -> None:
     mixin = "class Counting:\n    def __init__(self):\n        self.counter_ = 0\n\n\n"
     text = changed((CLASS, f"{mixin}class MyFirstNode(Counting, Node):"))
