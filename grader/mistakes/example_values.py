@@ -696,6 +696,12 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "called": "Counting.__init__(self)",
         "type": "Counting",
     },
+    "node.makes_callback": {
+        "name": "self.make_handler",
+        "written": "self.make_handler()",
+        "method": "make_handler",
+        "inner": "handler",
+    },
     "node.never_awaited": {"name": "say_hello"},
     "node.static_self": {
         "name": "staticmethod",
