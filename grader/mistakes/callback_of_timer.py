@@ -69,13 +69,9 @@ def _given(call: ast.Call) -> list[ast.expr]:
 
 
 def _is_own(source: NodeSource, named: ast.expr) -> bool:
-    """Whether a name is of a method of the class, or of a function in the student's files."""
-    name = last_part(dotted(named))
-    functions = {f for module in source.modules for f in module.functions}
-    methods = {
-        s.name for m in source.modules for c in m.classes for s in c.body if isinstance(s, Function)
-    }
-    return name in methods or dotted(named) in functions or isinstance(named, ast.Lambda)
+    """Whether a name is of a function or a method in the student's files."""
+    functions = {n.name for m in source.modules for n in m.nodes if isinstance(n, Function)}
+    return last_part(dotted(named)) in functions or isinstance(named, ast.Lambda)
 
 
 def _called_with(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:

@@ -756,6 +756,12 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "called": "Counting.__init__(self)",
         "type": "Counting",
     },
+    "node.makes_callback": {
+        "name": "self.make_handler",
+        "written": "self.make_handler()",
+        "method": "make_handler",
+        "inner": "handler",
+    },
     "node.never_awaited": {"name": "say_hello"},
     "node.static_self": {
         "name": "staticmethod",
@@ -768,6 +774,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "name": "executor.add_node(MyNode)",
         "written": "executor.add_node(MyNode())",
         "type": "MyNode",
+    },
+    "node.list_to_executor": {
+        "name": "executor.add_node(nodes)",
+        "owner": "executor.add_node",
+        "list": "nodes",
     },
     "node.executor_with_node": {
         "name": "MultiThreadedExecutor(node)",

@@ -24,9 +24,10 @@ def _class_added(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
     """An executor gets the class of the node, and no object of it."""
     del match
     source = raised.source
+    classes = {c.name for module in source.modules for c in module.classes}
     for call in source.calls_of("add_node"):
         given = call.args[0] if len(call.args) == 1 and not call.keywords else None
-        if given is None or isinstance(given, ast.Call) or not source.is_node_class(given):
+        if given is None or isinstance(given, ast.Call) or dotted(given) not in classes:
             continue
         code = source.module_of(call).text.code
         variables = [*_made(raised, given), f"{code(given)}()"]
@@ -48,6 +49,20 @@ def _made(raised: Raised, of_class: ast.expr) -> list[str]:
         and dotted(n.value.func) == dotted(of_class)
     ]
     return names if len(names) == 1 and names[0].isidentifier() else []
+
+
+def _list_added(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """An executor gets a list of nodes in one call of add_node."""
+    del match
+    source = raised.source
+    for call in source.calls_of("add_node"):
+        if raised.line not in lines_of(call) or len(call.args) != 1 or call.keywords:
+            continue
+        code = source.module_of(call).text.code
+        found = raised.finding("list_to_executor", at=call, name=code(call))
+        words = {"owner": code(call.func), "list": code(call.args[0])}
+        return replace(found, words={**found.words, **words})
+    return None
 
 
 def _node_for_number(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -99,6 +114,31 @@ KINDS = (
                     "rclpy.spin(node)",
                     "executor = rclpy.executors.SingleThreadedExecutor()\n"
                     "        executor.add_node(MyFirstNode)\n"
+                    "        executor.spin()",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "list_to_executor",
+        "spin",
+        msg("The executor gets a list of nodes in one call"),
+        msg("add_node takes one node, and no list or tuple of nodes."),
+        msg(
+            "Write two lines instead of {name}: for each_node in {list}: and, indented below it, "
+            "{owner}(each_node)"
+        ),
+        raised={r"TypeError: unhashable type: 'list'|weak reference to 'tuple'": _list_added},
+        examples=(
+            example(
+                "list_added_to_executor",
+                Replace(NODE, "import rclpy\n", "import rclpy\nimport rclpy.executors\n"),
+                Replace(
+                    NODE,
+                    "rclpy.spin(node)",
+                    "executor = rclpy.executors.SingleThreadedExecutor()\n"
+                    "        executor.add_node([node])\n"
                     "        executor.spin()",
                 ),
                 fails="run.starts",

@@ -272,9 +272,10 @@ def _swallowed(suspect: Suspect) -> RecognisedMistake | None:
             place = suspect.place_at(handler)
             found = suspect.finding("interrupt_swallowed", place, line=loops[0].lineno)
             last = handler.body[-1]
-            if isinstance(last, ast.Continue) and handler.type is not None:
+            if isinstance(last, ast.Continue):
                 words = {**found.words, "last": last.lineno}
-                return replace(found, words=words, variant="continue")
+                variant = "bare_continue" if handler.type is None else "continue"
+                return replace(found, words=words, variant=variant)
             return replace(found, variant="" if handler.type is None else "named")
     return None
 
@@ -284,6 +285,9 @@ def _catches_interrupt(handler: ast.ExceptHandler) -> bool:
     return any(n is None or dotted(n) in ("KeyboardInterrupt", "BaseException") for n in named)
 
 
+CONTINUES = msg(
+    "Ctrl+C raises KeyboardInterrupt. This except catches it, and continue begins the loop again."
+)
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -299,16 +303,15 @@ KINDS = (
             "the loop that begins on line {line}."
         ),
         links.EXECUTORS,
-        whys={
-            "continue": msg(
-                "Ctrl+C raises KeyboardInterrupt. This except catches it, and continue begins the "
-                "loop again."
-            )
-        },
+        whys={"continue": CONTINUES, "bare_continue": CONTINUES},
         fixes={
             "continue": msg(
                 "Write break instead of continue on line {last}: break ends the loop that begins on "
                 "line {line}."
+            ),
+            "bare_continue": msg(
+                "Write except KeyboardInterrupt: here, and break instead of continue on line {last}: "
+                "break ends the loop that begins on line {line}."
             ),
             "named": msg(
                 "Write break as the last line in this except: break ends the loop that begins on "

@@ -9,10 +9,10 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.base.shown import shown
 from grader.mistakes import links
-from grader.mistakes.example import DEAD, NODE, example
+from grader.mistakes.example import DEAD, LOG_LINE, NODE, SILENT, STEP_LINE, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.text import SourceText
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
@@ -105,8 +105,51 @@ def _head(text: SourceText, inner: Function) -> str:
     return match[1] if match is not None else ""
 
 
+def _makes_another(suspect: Suspect) -> RecognisedMistake | None:
+    """The timer gets a function that only makes the callback and returns it."""
+    source = suspect.source
+    for timer in source.timers:
+        made, given = source.methods.get(timer.method), timer.callback
+        last = made.body[-1] if made is not None else None
+        if made is None or given is None or isinstance(given, ast.Call | ast.Lambda):
+            continue
+        inner = [s for s in made.body if isinstance(s, Function) and source.logs(s)]
+        if len(inner) != 1 or len(made.args.args) != 1 or not isinstance(last, ast.Return):
+            continue
+        if not isinstance(last.value, ast.Name) or last.value.id != inner[0].name:
+            continue
+        code = source.module_of(given).text.code(given)
+        found = suspect.finding("makes_callback", given, name=code, written=f"{code}()")
+        return replace(found, words={**found.words, "method": made.name, "inner": inner[0].name})
+    return None
+
+
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
+    _node(
+        "makes_callback",
+        "callback",
+        msg("The timer calls a function that only makes the callback"),
+        msg(
+            "{method} returns the function {inner} and does not call it. The timer calls {method} in "
+            "each period, and does nothing with what it returns."
+        ),
+        msg("Write {written} instead of {name}: create_timer gets what {method} returns then."),
+        behind={"run.no_lines": _makes_another},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "callback_is_made_in_each_period",
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    f"        def handler():\n    {LOG_LINE}    {STEP_LINE}\n        return handler\n",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
     _node(
         "inner_callback_parameter",
         "callback",

@@ -11,10 +11,12 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, STEP_LINE, example
 from grader.mistakes.fixes import lines
+from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
-from grader.package.source.module import Function
+from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted
 from grader.package.source.place import block_of, function_at, place_of
 
@@ -74,7 +76,7 @@ def _own_class(raised: Raised, function: Function) -> RecognisedMistake | None:
 
 
 def _own_property(raised: Raised, function: Function) -> RecognisedMistake | None:
-    """A property reads itself, or its setter sets it."""
+    """A property reads or sets itself."""
     if any(dotted(d) == f"{function.name}.setter" for d in function.decorator_list):
         return _own_setter(raised, function)
     if not any(dotted(d) in PROPERTY for d in function.decorator_list):
@@ -91,20 +93,38 @@ def _own_property(raised: Raised, function: Function) -> RecognisedMistake | Non
     return None
 
 
+def _uses_of_itself(module: Module, function: Function) -> list[ast.Attribute]:
+    """Return where the getter and the setter of a property use this property."""
+    around = module.parents.get(function)
+    return [
+        n
+        for method in (around.body if isinstance(around, ast.ClassDef) else ())
+        if isinstance(method, Function) and method.name == function.name
+        for n in ast.walk(method)
+        if isinstance(n, ast.Attribute) and dotted(n) == f"self.{function.name}"
+    ]
+
+
+def _other_name(case: Case) -> Files | None:
+    """Write the other name in all lines of a property that sets itself; else on the line."""
+    module = case.module
+    function = function_at(module, case.finding.line) if module is not None else None
+    if module is None or function is None:
+        return None
+    if not any(dotted(d) == f"{function.name}.setter" for d in function.decorator_list):
+        return lines.written(case)
+    new = str(case.finding.params.get("written", ""))
+    uses = _uses_of_itself(module, function)
+    return case.changed(module, *(module.text.swap(use, new) for use in uses)) if new else None
+
+
 def _own_setter(raised: Raised, function: Function) -> RecognisedMistake | None:
     """The setter of a property sets the property."""
     other = _sets_property(raised, function)
     if other is not None:
         return other
-    around = raised.module.parents.get(function)
     code = f"self.{function.name}"
-    parts = [
-        n
-        for method in (around.body if isinstance(around, ast.ClassDef) else ())
-        if isinstance(method, Function) and method.name == function.name
-        for n in ast.walk(method)
-        if isinstance(n, ast.Attribute) and dotted(n) == code
-    ]
+    parts = _uses_of_itself(raised.module, function)
     if not any(n in list(ast.walk(function)) and isinstance(n.ctx, ast.Store) for n in parts):
         return None
     params = {"name": code, "written": f"self._{function.name}"}
@@ -197,15 +217,6 @@ KINDS = (
         msg("A property reads or sets itself"),
         msg("{name} is this property: each time it is read, the property runs and reads it again."),
         msg("Write {written} instead of {name} on this line."),
-        whys={
-            "setter_only": msg(
-                "This is the setter of the property {method}. Each time the property is set, the setter "
-                "runs, and here it sets the property again."
-            ),
-            "setter": msg(
-                "{name} is this property: each time it is set, the setter runs and sets it again."
-            ),
-        },
         fixes={
             "new": msg(
                 "Give the value another name than the property: write {written} instead of {name} on "
@@ -216,7 +227,16 @@ KINDS = (
                 "lines of the property (line {lines}). All other lines keep {name}."
             ),
         },
-        fixed_by=(lines.written,),
+        whys={
+            "setter_only": msg(
+                "This is the setter of the property {method}. Each time the property is set, the setter "
+                "runs, and here it sets the property again."
+            ),
+            "setter": msg(
+                "{name} is this property: each time it is set, the setter runs and sets it again."
+            )
+        },
+        fixed_by=(_other_name, lines.written),
         examples=(
             example(
                 "property_reads_itself",

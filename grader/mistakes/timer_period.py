@@ -11,8 +11,10 @@ from grader.mistakes import links
 from grader.mistakes.constructor import lines_of
 from grader.mistakes.example import DEAD, NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_timer
+from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, always
+from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
@@ -191,6 +193,12 @@ def _used_elsewhere(raised: Raised, timer: Timer) -> RecognisedMistake | None:
     written = f"{code(timer.call.func)}({code(timer.period)}, {code(given[0])})"
     found = raised.finding("timer_argument_missing", at=call, name=name, written=written)
     return replace(found, variant="written")
+
+
+def _without_chain(case: Case) -> Files | None:
+    """Write the call with its callback instead of a chain of calls that begins with create_timer."""
+    name = str(case.finding.params.get("name", ""))
+    return lines.written(case) if re.search(r"create_timer\([^()]*\)\.\w", name) else None
 
 
 def _milliseconds(suspect: Suspect) -> RecognisedMistake | None:
@@ -393,7 +401,7 @@ KINDS = (
         whys={"decorator": NO_DECORATOR, "decorator_in_class": NO_DECORATOR},
         seen=r"create_timer\(\) missing \d{1,3} required positional argument",
         raised={r"create_timer\(\) missing": _argument_missing},
-        fixed_by=(lines.written, node_timer.arguments),
+        fixed_by=(_without_chain, node_timer.arguments),
         examples=(
             example(
                 "callback_given_to_then",

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from grader.mistakes.recognised import RecognisedMistake
 from tests.mistakes.test_from_source import line_of, look, raised
-from tests.mistakes.test_named_exactly import changed, fix_of, why_of
+from tests.mistakes.test_named_exactly import changed, fix_of, patched, why_of
 
 CALLBACK = "    def timer_callback(self)"
 LOG = "        self.get_logger().info('Hello time: ' + str(self.counter_))\n"
@@ -223,6 +225,21 @@ def test_the_base_class_is_created(made: str, told: bool) -> None:
     assert found is None or not told or fix_of(found) == "Write MyFirstNode() instead of Base()."
 
 
+def test_a_bare_except_that_continues() -> None:
+    spin = "        rclpy.spin(node)\n    except KeyboardInterrupt:\n        pass\n"
+    loop = (
+        "        while True:\n            try:\n                rclpy.spin(node)\n"
+        "            except:\n                continue\n    except KeyboardInterrupt:\n        pass\n"
+    )
+    text = changed((spin, loop))
+    found = look("run.ignores_interrupt", text)
+    assert found is not None
+    last = line_of(text, "continue")
+    assert fix_of(found).startswith(
+        f"Write except KeyboardInterrupt: here, and break instead of continue on line {last}:"
+    )
+
+
 def test_super_is_the_first_base_class() -> None:
     mixin = "class Counting:\n    def __init__(self):\n        self.counter_ = 0\n\n\n"
     text = changed((CLASS, f"{mixin}class MyFirstNode(Counting, Node):"))
@@ -232,3 +249,25 @@ def test_super_is_the_first_base_class() -> None:
         "Write Node.__init__(self, 'my_first_node') instead of super().__init__('my_first_node'), and "
         "Counting.__init__(self) on a line of its own below it."
     )
+
+
+def test_a_function_that_only_makes_the_callback() -> None:
+    rows = f"        def handler():\n    {LOG}    {STEP}        return handler\n"
+    text = changed((LOG + STEP, rows))
+    found = look("run.no_lines", text)
+    assert found is not None
+    assert found.kind == "node.makes_callback"
+    assert fix_of(found).startswith(
+        "Write self.timer_callback() instead of self.timer_callback: create_timer gets what"
+    )
+
+
+def test_all_lines_of_a_property_that_sets_itself_are_changed(tmp_path: Path) -> None:
+    methods = (
+        "    @property\n    def counter_(self):\n        return self.counter_\n\n"
+        "    @counter_.setter\n    def counter_(self, value):\n        self.counter_ = value\n\n"
+    )
+    text = changed((CALLBACK, methods + CALLBACK))
+    found = found_at("RecursionError: maximum recursion depth", text, "self.counter_ = value")
+    after = methods.replace("self.counter_", "self._counter_")
+    assert patched(found, text, tmp_path) == changed((CALLBACK, after + CALLBACK))
