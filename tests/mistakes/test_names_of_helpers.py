@@ -66,7 +66,8 @@ LACKS = "AttributeError: '{0}' object has no attribute '{1}'"
          "helper_never_sets", "others", 7),
         (HELPER.format("self.vale += 1", "pass"), LACKS.format("Count", "vale"), 7,
          "helper_never_sets", "near", 7),
-        ("@dataclass\nclass Count:\n    ticks: int\n    def step(self):\n        self.number += 1\n",
+        ("@dataclass\nclass Count:\n    ticks: int\n    def step(self):\n        self.number += 1\n"
+         "class N(Node):\n    pass\n",
          LACKS.format("Count", "number"), 7, "helper_never_sets", "fields", 7),
         (HELPER.format("self.get_logger()", "pass"), LACKS.format("Count", "get_logger"), 7,
          "attribute_not_set", "no_node", 7),
