@@ -71,7 +71,7 @@ def _not_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
     code = raised.module.text.code(part)
     method = raised.source.methods.get(own_name(part))
     function = raised.module.functions.get(code) if isinstance(part, ast.Name) else method
-    if function is not None and not _gives_value(function):
+    if function is not None and isinstance(part, ast.Name) and not _gives_value(function):
         return None
     arguments = _arguments(raised, code, function)
     shown = raised.finding("not_called", at=part, name=code, written=f"{code}({arguments})")

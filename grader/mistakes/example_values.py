@@ -376,6 +376,21 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "lines": "12, 13",
         "value": "0",
     },
+    "node.static_with_self": {"name": "staticmethod", "method": "step"},
+    "node.helper_no_self": {"name": "step()", "written": "step(self)", "type": "Counter"},
+    "node.helper_never_sets": {"name": "self.value", "type": "Counter"},
+    "node.self_given": {"name": "self.step(self, 1)", "written": "self.step(1)"},
+    "node.self_left_out": {
+        "name": "Base.__init__('my_node')",
+        "written": "Base.__init__(self, 'my_node')",
+        "type": "Base",
+    },
+    "node.init_inside_super": {
+        "name": "super(MyNode, self.__init__('my_node'))",
+        "written": "super().__init__('my_node')",
+    },
+    "node.attribute_hides_method": {"name": "step", "type": "Counter", "line": "12"},
+    "node.name_reused": {"name": "time", "line": "3", "row": "14", "written": "import time"},
     "node.init_returns": {"name": "return self"},
     "node.status_of_main": {"name": "return 'end'", "written": "print('end')"},
     "node.inner_callback_parameter": {

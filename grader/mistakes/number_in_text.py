@@ -758,6 +758,25 @@ KINDS = (
         fixed_by=tuple(map(node_log.right_text, (node_log.f_prefix, lines.written))),
         examples=(
             example(
+                "f_lost_in_a_helper",
+                Replace(
+                    NODE,
+                    "class MyFirstNode(",
+                    "class Texts:\n    def __init__(self, start):\n        self.start = start\n\n"
+                    "    def line(self, number):\n        return '{self.start}{number}'\n\n\n"
+                    "class MyFirstNode(",
+                ),
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "self.counter_ = 0\n        self.texts = Texts('Hello time: ')",
+                ),
+                Replace(
+                    NODE, "'Hello time: ' + str(self.counter_)", "self.texts.line(self.counter_)"
+                ),
+                fails="run.output",
+            ),
+            example(
                 "f_prefix_missing",
                 Replace(
                     NODE, "'Hello time: ' + str(self.counter_)", "'Hello time: {self.counter_}'"

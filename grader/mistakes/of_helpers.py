@@ -22,10 +22,11 @@ from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
 from grader.package.source.place import function_at
-from grader.package.source.scopes import class_of
+from grader.package.source.scopes import class_of, has_self
 
 TAKES_NONE = r"TypeError: (?P<type>\w{1,120})\.(?P<name>\w{1,120})\(\) takes 0 positional arguments but 1 was "
 LACKS = r"TypeError: (?P<type>\w{1,120})\.(?P<name>\w{1,120})\(\) missing 1 required positional argument"
+LACK = r"TypeError: (?P<type>\w{1,120})\.(?P<name>\w{1,120})\(\) missing \d{1,2} required positional argument"
 TAKES = (
     r"TypeError: (?P<type>\w{1,120})\.(?P<name>\w{1,120})\(\) takes (?P<taken>\d{1,2}) positional "
     r"arguments? but (?P<given>\d{1,2}) were given"
@@ -121,6 +122,24 @@ def _self_given(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
         params = {"name": code, "written": written, "method": call.func.attr}
         return raised.finding("self_given", at=call, params=params)
     return None
+
+
+def _self_left_out(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A method of the base is called on the class, and self is not among its arguments."""
+    here = class_of(raised.module, function_at(raised.module, raised.line))
+    bases = [dotted(base) for base in here[0].bases] if here is not None else []
+    if here is None or match["type"] not in bases or not has_self(here[1]):
+        return None
+    wanted = f"{match['type']}.{match['name']}"
+    calls = [call for call in _calls_here(raised) if dotted(call.func) == wanted]
+    text = raised.module.text
+    code = text.code(calls[0]) if len(calls) == 1 else ""
+    if not code or "\n" in code or any(dotted(a) == "self" for a in calls[0].args):
+        return None
+    given = [*map(text.code, calls[0].args), *(text.code(k) for k in calls[0].keywords)]
+    written = f"{wanted}({', '.join(['self', *given])})"
+    params = {"name": code, "written": written, "type": match["type"]}
+    return raised.finding("self_left_out", at=calls[0], params=params)
 
 
 def _inside_super(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -309,6 +328,33 @@ KINDS = (
                 ),
                 fails="run.output",
                 blocks=("run.interrupt",),
+            ),
+        ),
+    ),
+    _node(
+        "self_left_out",
+        "class",
+        msg("A method is called on the class, without self"),
+        msg(
+            "Behind the name of the class {type}, Python passes no object: the first value of the call "
+            "goes to self."
+        ),
+        msg("Write {written} instead of {name}."),
+        raised={LACK: on_line(_self_left_out)},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "init_of_own_base_without_self",
+                Replace(
+                    NODE,
+                    "class MyFirstNode(Node):",
+                    "class Base(Node):\n    def __init__(self, name):\n        super().__init__(name)\n\n\n"
+                    "class MyFirstNode(Base):",
+                ),
+                Replace(
+                    NODE, "super().__init__('my_first_node')", "Base.__init__('my_first_node')"
+                ),
+                fails="run.starts",
             ),
         ),
     ),

@@ -101,7 +101,7 @@ def _missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """The call gives no value to several parameters, or to one of a helper."""
     names = re.findall(r"'(\w{1,120})'", match["names"])
     found = _called(raised, match["function"])
-    if found is None or "self" in names:
+    if found is None or "self" in names or _is_of_class(found, match["function"]):
         return None
     alone = len(names) == 1 and "positional" in match[0]
     owner, method = match["function"].rpartition(".")[::2]
@@ -110,6 +110,14 @@ def _missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if alone and own and node is not None and owner == node.name:
         return None  # (the value is looked for elsewhere)
     return _told(raised, found, "several" if len(names) > 1 else "", name=", ".join(names))
+
+
+def _is_of_class(found: _Called, function: str) -> bool:
+    """Whether a method is called on its class, without self: what is missing is that."""
+    made = found.made.args.args[:1] if isinstance(found.made, Function) else []
+    given = [dotted(value) for value in found.call.args[:1]]
+    of_class = bool(made) and made[0].arg == "self" and "." in function
+    return of_class and dotted(found.call.func) == function and given != ["self"]
 
 
 def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:

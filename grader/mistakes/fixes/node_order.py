@@ -69,14 +69,7 @@ def moved_up(case: Case) -> Files | None:
 def attribute_first(case: Case) -> Files | None:
     """Move the line that sets an attribute to before the statement of __init__ that needs it."""
     node, module, line = case.node, case.module, case.finding.line
-    found = [
-        n
-        for n in (module.nodes if module is not None else ())
-        if isinstance(n, Function)
-        and n.name == "__init__"
-        and any(s.lineno == line for s in n.body)
-    ]
-    init = found[0] if node is not None and len(found) == 1 else None
+    init = node.method("__init__") if node is not None else None
     name = str(case.finding.params.get("name", ""))
     late = str(case.finding.params.get("line", ""))
     if module is None or init is None or not module.has(init):
