@@ -121,7 +121,7 @@ def _logs_further(source: NodeSource, part: ast.AST) -> bool:
     Of a logger that is a value, as in getattr(self.get_logger(), level), and of a function that is
     kept in an attribute, it is not known what they do.
     """
-    modules = (*source.modules, *source.imported)
+    modules = (*source.modules, *source.beside)
     functions = [n for module in modules for n in module.nodes if isinstance(n, Function)]
     names = {called_name(call) for call, _ in calls_in(part)}
     kept = {own_name(call.func) for call, _ in calls_in(part)} & source.attributes

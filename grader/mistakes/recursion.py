@@ -114,6 +114,8 @@ def _other_name(case: Case) -> Files | None:
     if not any(dotted(d) == f"{function.name}.setter" for d in function.decorator_list):
         return lines.written(case)
     new = str(case.finding.params.get("written", ""))
+    if new.endswith("="):  # (the setter alone is wrong)
+        return lines.written(case)
     uses = _uses_of_itself(module, function)
     return case.changed(module, *(module.text.swap(use, new) for use in uses)) if new else None
 
@@ -234,9 +236,9 @@ KINDS = (
             ),
             "setter": msg(
                 "{name} is this property: each time it is set, the setter runs and sets it again."
-            )
+            ),
         },
-        fixed_by=(_other_name, lines.written),
+        fixed_by=(_other_name,),
         examples=(
             example(
                 "property_reads_itself",

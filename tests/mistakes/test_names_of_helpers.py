@@ -59,7 +59,7 @@ LACKS = "AttributeError: '{0}' object has no attribute '{1}'"
         ("class Formatter:\n    pass\ndef main():\n    a = Forma\n",
          "NameError: name 'Forma' is not defined", 6, "name_unknown", "cut", 6),
         (PROPERTY, "RecursionError: maximum recursion depth exceeded", 9, "property_of_itself",
-         "setter", 9),
+         "setter_only", 9),
         (BASE, LACKS.format("N", "period"), 9, "attribute_set_late", "", 6),
         ("class N(Node):\n    @property\n    def n(self):\n        return self._n\n"
          "    def tick(self):\n        self.n += 1\n",
