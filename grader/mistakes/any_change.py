@@ -13,7 +13,7 @@ from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.mistakes.worked_out import change_of
 from grader.package.edit.tree import Replace
 
-SYMPTOMS = ("run.wrong_step", "run.constant_counter", "run.wrong_start", "run.wrong_text")
+SYMPTOMS = ("run.wrong_step", "run.constant_counter", "run.wrong_start")
 
 
 def _changed(suspect: Suspect) -> RecognisedMistake | None:

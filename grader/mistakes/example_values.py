@@ -573,7 +573,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.replaced_nothing": {"name": "'{count}'", "written": "'{n}'"},
     "node.text_kept": {"line": "24"},
-    "setup.entry_at_margin": {"code": "test_node = my_robot_controller.my_first_node:main"},
+    "setup.entry_at_margin": {"code": "talker = my_package.talker:main"},
     "node.stars_lost": {
         "name": "kwargs",
         "written": "**kwargs",

@@ -239,7 +239,7 @@ def _elsewhere(suspect: Suspect) -> RecognisedMistake | None:
         around = source.function_around(node)
         if node in inside:
             return None
-        if around is None or around.name == "__init__":
+        if around is None or around.name in ("__init__", callback.name):
             continue
         if around is suspect.function or not _calls(source.calls, around):
             found = suspect.finding("counts_elsewhere", node, name=logged[1])

@@ -20,7 +20,7 @@ from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
-from grader.package.source.names import dotted, last_part
+from grader.package.source.names import called_name, dotted, last_part
 from grader.package.source.place import function_at
 from grader.package.source.scopes import class_of, has_self
 
@@ -110,6 +110,9 @@ def _self_given(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
             continue
         owner, text = call.func.value, raised.module.text
         of_class = dotted(owner) in {*raised.source.known_classes, "Node"}
+        around = raised.module.parents.get(call)
+        if isinstance(around, ast.Call) and called_name(around) == "create_timer":
+            continue  # (node.callback_called)
         if of_class or isinstance(owner, ast.Call) or not call.args:
             continue
         if dotted(call.args[0]) != "self" or len(call.args) != int(match["given"]) - 1:
@@ -130,6 +133,8 @@ def _self_left_out(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
     bases = [dotted(base) for base in here[0].bases] if here is not None else []
     if here is None or match["type"] not in bases or not has_self(here[1]):
         return None
+    if match["type"] == "Node":
+        return None  # (node.super_without_name)
     wanted = f"{match['type']}.{match['name']}"
     calls = [call for call in _calls_here(raised) if dotted(call.func) == wanted]
     text = raised.module.text

@@ -14,7 +14,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.imported import imports
 from grader.package.source.names import dotted, last_part
 
-WAITS = ("pause", "input", "wait", "run_forever", "sleep")
+WAITS = ("pause", "wait", "run_forever", "sleep")
 
 
 def _waits(suspect: Suspect) -> RecognisedMistake | None:

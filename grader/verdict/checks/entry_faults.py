@@ -230,7 +230,7 @@ def _no_entry(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed
         return _misplaced(evidence, entry)
     elif not points.groups and (row := _without_header(setup, wanted)):
         line, variant = row, "header"
-        actual = say("the text in entry_points has no line [console_scripts]")
+        actual = say("the text in entry_points does not name its group")
     elif not points.groups and setup.argument("entry_points") is not None:
         variant, actual = "empty", say("entry_points is empty")
     elif not points.groups:
