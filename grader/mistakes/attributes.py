@@ -325,10 +325,21 @@ def _is_object(raised: Raised, name: str) -> bool:
     return any(isinstance(parents.get(use), ast.Attribute) for use in uses)
 
 
+def _self_in_capitals(raised: Raised, name: str) -> RecognisedMistake | None:
+    """The line has Self, of another module, before the dot."""
+    statement = statement_at(raised.module, raised.line)
+    for node in ast.walk(statement) if statement is not None else ():
+        owner = dotted(node.value) if isinstance(node, ast.Attribute) and node.attr == name else ""
+        if owner != "self" and owner.lower() == "self":
+            params = {"name": f"{owner}.{name}", "written": f"self.{name}"}
+            return replace(raised.finding("attribute_unknown", params=params), variant="self")
+    return None
+
+
 def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if raised.inside and match["name"] not in raised.module.line(raised.line):
         return None  # (no name of the student's)
-    known = _of_rclpy(raised, match)
+    known = _of_rclpy(raised, match) or _self_in_capitals(raised, match["name"])
     if known is not None:
         return known
     if (match["type"], match["name"]) == ("rclpy", "get_logger"):
@@ -829,6 +840,10 @@ KINDS = (
                 "A value on that line is None: nothing was assigned to it, or a function returned "
                 "nothing."
             ),
+            "self": msg(
+                "Small and capital letters are different names in Python: in a method, self is the "
+                "object, and the name before the dot here is another one."
+            ),
             "class_kept": msg(
                 "Without (), {type} is the class itself. Only an object of it has what its __init__ sets."
             ),
@@ -846,7 +861,7 @@ KINDS = (
             ),
         },
         fixes={
-            "written": msg("Write {written} instead of {name}."),
+            **dict.fromkeys(("written", "self"), msg("Write {written} instead of {name}.")),
             "of_node": msg("Write {written} instead of {name}."),
             "class_kept": msg("Write {written} instead of {name}."),
             "similar": msg(

@@ -16,6 +16,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Copy, Replace, Write
 from grader.package.source.guard import guarded_code
+from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.sleeps import SLEEPS
 from grader.report.model import Where
@@ -89,9 +90,28 @@ def _main_wants(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
     if main is None or wanted in (["args"], ["self"]):
         return found
     if ast.unparse(main.args) != wanted[0]:
-        return replace(found, variant="several")
+        head = _with_defaults(main)
+        words = {**found.words, "written": head}
+        return replace(found, variant="other" if head else "several", words=words)
     words = {**found.words, "written": f"def {main.name}({wanted[0]}=None):"}
     return replace(found, variant="other", words=words)
+
+
+def _with_defaults(main: Function) -> str:
+    """Return the def with None as the default of its parameters, if only rclpy.init reads them.
+
+    "" if another line of the function reads one: None may be no value for it.
+    """
+    given = main.args.args
+    if ast.unparse(main.args) != ", ".join(arg.arg for arg in given):
+        return ""
+    names = {arg.arg for arg in given}
+    read = [n for n in ast.walk(main) if isinstance(n, ast.Name) and n.id in names]
+    inits = [c for c, name in calls_in(main) if name.rpartition(".")[2] == "init"]
+    of_init = {n for call in inits for n in ast.walk(call)}
+    if any(n not in of_init for n in read):
+        return ""
+    return f"def {main.name}({', '.join(f'{arg.arg}=None' for arg in given)}):"
 
 
 def _main_takes_none(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:

@@ -63,6 +63,7 @@ REFUSED = msg(
 WRITE = msg("Write '{wanted}', then build again.")
 OTHERS = {
     "other": msg("Fix or delete this entry: '{entry}'"),
+    "two_texts": msg("Write one text, '{wanted}', in place of the two. Then build again."),
     "unnamed": msg(
         "This entry has no name. Write a name for its executable, and =, before it, such as: '{whole}', "
         "then build again."
@@ -204,6 +205,12 @@ KINDS = (
         "no_equals",
         msg("the '=' between the name and the module is missing"),
         examples=(
+            example(
+                "entry_in_two_texts",
+                Replace(SETUP, "'test_node = my_robot", "'test_node', 'my_robot"),
+                fails="entry_point.mapping",
+                blocks=UNBUILT,
+            ),
             example(
                 "second_entry_without_its_name",
                 Write("my_robot_controller/second.py", "def main():\n    pass\n"),

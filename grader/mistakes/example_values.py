@@ -579,6 +579,16 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "written": "**kwargs",
         "head": "def __init__(self, **kwargs):",
     },
+    "node.init_tested": {
+        "name": "not rclpy.init(args=args)",
+        "written": "rclpy.init(args=args)",
+        "line": "20",
+        "last": "22",
+    },
+    "node.partial_called": {
+        "name": "partial(self.tick('a'))",
+        "written": "partial(self.tick, 'a')",
+    },
     "node.waits_for_spin": {"name": "pause()", "written": "rclpy.spin(node)"},
     "node.any_change": {"name": "self.n = 1 - self.n", "written": "self.n += 1"},
     "node.environment": {"name": "os.environ['PERIOD']", "variable": "PERIOD"},

@@ -236,7 +236,8 @@ def _lost_sum(suspect: Suspect) -> RecognisedMistake | None:
     step = suspect.output.step
     mistake = suspect.finding("sum_not_kept", found[0], name=found[1], step=step)
     if isinstance(found[0], ast.Expr) and isinstance(found[0].value, ast.Compare):
-        return replace(mistake, variant="compared")
+        equal = isinstance(found[0].value.ops[0], ast.Eq)
+        return replace(mistake, variant="compared" if equal else "compared_sizes")
     return replace(mistake, variant="return" if isinstance(found[0], ast.Return) else "")
 
 
@@ -397,6 +398,10 @@ KINDS = (
             "return": msg(
                 "return gives the sum to what calls {callback}. The timer calls it, and does not "
                 "keep what it gets: {name} stays as it is."
+            ),
+            "compared_sizes": msg(
+                "Python reads this line as a comparison, and keeps no result: {name} stays as it is. "
+                "One = assigns a value."
             ),
             "compared": msg(
                 "== only compares, and this line keeps no result: {name} stays as it is. One = "

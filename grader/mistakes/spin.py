@@ -193,6 +193,12 @@ def _under_guard(suspect: Suspect) -> RecognisedMistake | None:
     if len(returns) != 1 or returns[0].value is None:
         return replace(found, variant="guard")
     words = {**found.words, "line": str(returns[0].lineno)}
+    if isinstance(returns[0].value, ast.Call):
+        code = source.module_of(returns[0]).text.code(returns[0].value)
+        name = dotted(spins[0].args[0]) if spins[0].args else ""
+        name = name if name.isidentifier() else "node"
+        words |= {"name": name, "wanted": f"{name} = {code}"}
+        return replace(found, variant="guard_makes", words=words)
     return replace(found, variant="guard_returns", words=words)
 
 
@@ -409,6 +415,10 @@ BESIDE_SPIN = msg(
 IN_EACH_ROUND = msg(
     "spin_once handles one callback and returns. The other lines of the {loop} loop around it run in "
     "each round, and not when a timer is due: no timer calls them."
+)
+GUARD = msg(
+    "ros2 run calls only {function}. Lines outside of it, such as those below if __name__ == "
+    "'__main__':, run only if you start the file itself."
 )
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
@@ -662,14 +672,9 @@ KINDS = (
                 "This loop does not end until Ctrl+C, so that line {line}, which spins the node, is "
                 "not reached before. The loop itself calls no callbacks."
             ),
-            "guard": msg(
-                "ros2 run calls only {function}. Lines outside of it, such as those below if "
-                "__name__ == '__main__':, run only if you start the file itself."
-            ),
-            "guard_returns": msg(
-                "ros2 run calls only {function}. Lines outside of it, such as those below if "
-                "__name__ == '__main__':, run only if you start the file itself."
-            ),
+            "guard": GUARD,
+            "guard_makes": GUARD,
+            "guard_returns": GUARD,
             "executor": msg(
                 "add_node only gives the node to the executor. {name}.spin() waits and calls the "
                 "callbacks when they are due."
@@ -677,6 +682,10 @@ KINDS = (
         },
         fixes={
             "guard": msg("Move the call of rclpy.spin into {function}, after creating the node."),
+            "guard_makes": msg(
+                "Write {wanted} instead of the return in line {line}. Move the lines that use {name}, "
+                "from try: to the clean-up, below it, indented like it. Leave only {function}() outside."
+            ),
             "guard_returns": msg(
                 "Write in {function}, instead of the return in line {line}, the lines that use the "
                 "node: try:, rclpy.spin and the clean-up, with the variable of {function} for the "

@@ -36,14 +36,17 @@ def _spins_object(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     if found is None or any(dotted(base) != "object" for base in found.bases):
         return None
     attribute = node_of_class(found)
+    of_own_class = "" if attribute else node_of_class(found, raised.source.class_names)
+    attribute = attribute or of_own_class
     name, code = dotted(spun), raised.module.text.code(spun)
     given = name or code
     if not attribute:
         mistake = raised.finding("spin_of_object", at=spun, name=given, type=match["type"])
         return replace(mistake, variant="without")
-    return raised.finding(
+    mistake = raised.finding(
         "spin_of_object", at=spun, name=given, type=match["type"], attribute=attribute
     )
+    return replace(mistake, variant="own_class") if of_own_class else mistake
 
 
 _node = Family("node", links.EXECUTORS)
@@ -70,10 +73,11 @@ KINDS = (
             )
         },
         fixes={
+            "own_class": msg("Write {name}.{attribute} instead of {name} in this call."),
             "without": msg(
                 "Give rclpy.spin the node. Or make the class a node: class {type}(Node): with "
                 "super().__init__('{node_name}') in its __init__."
-            )
+            ),
         },
         raised={OWN_ATTRIBUTE: _spins_object},
         fixed_by=(node_life.node_of_object,),
@@ -97,6 +101,19 @@ KINDS = (
                     "        executor.spin()",
                 ),
                 Replace(NODE, "import rclpy\n", "import rclpy\nimport rclpy.executors\n"),
+                Replace(NODE, "node.destroy_node()", "app.node.destroy_node()"),
+                fails="run.starts",
+            ),
+            example(
+                "object_that_holds_the_node_spins_itself",
+                Replace(NODE, "node = MyFirstNode()", "app = App()"),
+                Replace(
+                    NODE,
+                    "def main(",
+                    "class App:\n\n    def __init__(self):\n        self.node = MyFirstNode()\n\n"
+                    "    def run(self):\n        rclpy.spin(self)\n\n\ndef main(",
+                ),
+                Replace(NODE, "rclpy.spin(node)", "app.run()"),
                 Replace(NODE, "node.destroy_node()", "app.node.destroy_node()"),
                 fails="run.starts",
             ),

@@ -57,6 +57,7 @@ def _check(name: str, check: str, tmp_path: Path) -> tuple[CheckResult, str]:
         ("setup_guard_misspelt_below_its_function", "build.colcon", "'main'", "'__main__' instead"),
         ("text_of_entry_points_without_its_header", "entry_point.mapping", "test_node =", "[console_scripts] above"),
         ("second_entry_without_its_name", "entry_point.mapping", "r.second:main", "'second = my_robot"),
+        ("entry_in_two_texts", "entry_point.mapping", "'test_node', 'my_robot", "in place of the two"),
         ("modules_of_two_entries_exchanged", "entry_point.mapping", "'test_node", "and in line 26: 'second ="),
         ("dependencies_in_a_tag_of_their_own", "package.manifest", "<dependencies>", "keep what is between"),
         ("entry_points_as_a_set", "build.colcon", "entry_points={", "'console_scripts': ['test_node"),

@@ -52,6 +52,8 @@ def replaced(case: Case) -> Files | None:
     text = _source(case, entry.file)
     if text is None:
         return None
+    if (joined := _in_two_texts(case, text)) is not None:
+        return case.with_data(entry.file, text.spliced([joined]))
     for line in range(entry.line, min(entry.line + ROUNDS, len(text.lines) + 1)):
         code = text.line(line)
         if code.count(entry.text) == 1:
@@ -60,6 +62,17 @@ def replaced(case: Case) -> Files | None:
                 entry.file, text.spliced([Splice(at, at + len(entry.text), case.entry)])
             )
     return None
+
+
+def _in_two_texts(case: Case, text: SourceText) -> Splice | None:
+    """Return the splice that joins the name and the module, which are two texts."""
+    name, target = re.escape(case.assignment.executable), re.escape(case.assignment.target)
+    two = re.compile(rf"(?P<q>['\"]){name}(?P=q)\s*,\s*(?P<other>['\"]){target}(?P=other)")
+    found = list(two.finditer(text.text))
+    if len(found) != 1:
+        return None
+    quote = found[0]["q"]
+    return Splice(*found[0].span(), f"{quote}{case.entry}{quote}")
 
 
 def _is_meant(case: Case, entry: Entry) -> bool:

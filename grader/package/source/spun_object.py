@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Collection
 
 from grader.package.source.names import called_name, dotted, last_part, own_name
 
@@ -33,6 +34,9 @@ def _is_made_by(given: ast.expr, made_by: str, tree: ast.AST) -> bool:
         return last_part(dotted(given.func)) == made_by
     if not isinstance(given, ast.Name):
         return False
+    if given.id == "self":
+        owners = [n for n in ast.walk(tree) if isinstance(n, ast.ClassDef) and n.name == made_by]
+        return any(given in ast.walk(owner) for owner in owners)
     made = [
         n.value
         for n in ast.walk(tree)
@@ -43,12 +47,15 @@ def _is_made_by(given: ast.expr, made_by: str, tree: ast.AST) -> bool:
     )
 
 
-def node_of_class(found: ast.ClassDef) -> str:
-    """Return the only attribute of self that gets a new node; "" if there is none, or several."""
+def node_of_class(found: ast.ClassDef, classes: Collection[str] = ()) -> str:
+    """Return the only attribute of self that gets a new node; "" if there is none, or several.
+
+    `classes` are the student's own classes of nodes.
+    """
     names: set[str] = set()
     for node in ast.walk(found):
         value = node.value if isinstance(node, ast.Assign | ast.AnnAssign) else None
-        if not isinstance(value, ast.Call) or called_name(value) not in MAKE_A_NODE:
+        if not isinstance(value, ast.Call) or called_name(value) not in (*MAKE_A_NODE, *classes):
             continue
         targets = node.targets if isinstance(node, ast.Assign) else [getattr(node, "target", None)]
         names |= {own_name(target) for target in targets}

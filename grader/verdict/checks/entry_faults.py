@@ -68,10 +68,10 @@ def _failed(
     )
 
 
-def broken(evidence: Evidence, entry: Entry, *, is_other: bool) -> Failed:
+def broken(evidence: Evidence, entry: Entry, entries: list[Entry], *, is_other: bool) -> Failed:
     """Return the fault of an entry that setuptools cannot read; any such entry stops the build.
 
-    With `is_other` the required entry is there too.
+    With `is_other` the required entry is there too. `entries` are all of console_scripts.
     """
     pieces = [piece for piece, _ in entry.pieces]
     if len(pieces) > 1 and sum("=" in piece or ":" in piece for piece in pieces) > 1:
@@ -88,6 +88,10 @@ def broken(evidence: Evidence, entry: Entry, *, is_other: bool) -> Failed:
     variant = "" if is_wanted else "other"
     if mistake == "setup.bad_entry" and NAME_IN_BRACES.search(entry.text):
         variant = "no_f"
+    parts = {other.text.strip() for other in entries}
+    if entry.text.strip() == executable and evidence.assignment.target in parts:
+        because = say("the name and the module are two texts, with a comma between them")
+        return _failed(evidence, entry, mistake, because, variant="two_texts")
     target = re.fullmatch(r"[\w.]+\.(\w+):\w+", entry.text.strip())
     if mistake == "setup.no_equals" and not is_wanted and target is not None:
         whole = f"{target[1]} = {entry.text.strip()}"

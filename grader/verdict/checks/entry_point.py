@@ -56,7 +56,7 @@ def mapping_from_source(evidence: Evidence) -> Passed | None:
     for entry in entries:
         if not entry.valid:
             right = any(other.valid and other.name == assignment.executable for other in entries)
-            raise entry_faults.broken(evidence, entry, is_other=right)
+            raise entry_faults.broken(evidence, entry, entries, is_other=right)
     named = [entry for entry in entries if entry.name == assignment.executable]
     if len(named) > 1:
         raise entry_faults.duplicate(evidence, named)

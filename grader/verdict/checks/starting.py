@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 OWN_ERROR = re.compile(r"^(?:Name|UnboundLocal|Attribute|Type)Error\b", re.MULTILINE)
+OF_SPIN = re.compile(r", line \d+, in _?spin")
 SIGNALLED = 240  # ros2 run exits with minus the signal that ended the node, modulo 256
 
 
@@ -46,7 +47,7 @@ SIGNALLED = 240  # ros2 run exits with minus the signal that ended the node, mod
 def starts(evidence: Evidence) -> Passed:
     """ros2 run starts the node, and the node keeps running."""
     run = evidence.run
-    if run.started:
+    if run.started and not _died_first(evidence):
         _others_start(evidence)
         seconds = f"{run.node_seconds or 0:.1f}"
         said = say("the node was on the ROS graph after {seconds} s", seconds=seconds)
@@ -74,6 +75,19 @@ def _refused_arguments(evidence: Evidence) -> list[str]:
             "argparse, write parse_known_args()[0] instead of parse_args()."
         )
     ]
+
+
+def _died_first(evidence: Evidence) -> bool:
+    """Whether an error ended the program before anything was spun.
+
+    Whether its node is seen before that is chance, so it does not count as one that has started.
+    """
+    run = evidence.run
+    answered = run.watch.settled or any(node.answers for node in run.nodes)
+    if not run.ended_by_itself or answered or len(run.watch.counted) > 1:
+        return False
+    error, _ = traceback_of(evidence, run)
+    return bool(error) and OF_SPIN.search(run.transcript) is None
 
 
 def _ended(evidence: Evidence) -> Outcome:
