@@ -275,7 +275,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.waits_first": {"name": "input()", "written": "rclpy.spin(node)"},
     "node.callback_called": {"written": "self.callback", "name": "partial(self.callback())"},
     "node.logs_before_timer": {"function": "__init__"},
-    "node.init_underscores": {"name": "_init_"},
+    "node.init_underscores": {"name": "_init_", "attribute": "counter", "type": "Counter"},
     "node.method_misspelt": {"name": "creat_timer"},
     "node.class_twice": {"name": "MyNode", "line": "12"},
     "node.method_twice": {"name": "__init__", "line": "12"},
