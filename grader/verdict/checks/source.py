@@ -20,6 +20,7 @@ from grader.package.source.newer_python import SINCE, first_difference, with_old
 from grader.package.source.numbers_above import numbers_above
 from grader.package.source.pasted import WHOLE_LINES, Pasted, pasted_in
 from grader.package.source.python import SHEBANG, PythonFault, has_no_code, parse_python
+from grader.package.source.setup_scripts import scripts_line
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
 from grader.verdict.checks.actual_node import (
@@ -34,7 +35,7 @@ from grader.verdict.checks.actual_node import (
 from grader.verdict.checks.declare import INTAKE, check
 from grader.verdict.checks.inner_package import node_in_inner_package
 from grader.verdict.checks.not_python import failed_document, not_python
-from grader.verdict.checks.parsed import file_of, names_in, node_path, printable_reason
+from grader.verdict.checks.parsed import data_of, file_of, names_in, node_path, printable_reason
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -304,6 +305,7 @@ def _misplaced(evidence: Evidence, place: str, *, is_inside: bool) -> Failed:
     path, inner = node_path(evidence), evidence.assignment.folder
     actual, place = say("it is in {path}", path=shown(place)), shown(place)
     movable = is_inside and evidence.submission.file(inner) is not None
+    scripts = scripts_line(data_of(evidence, "setup.py") or b"", place) if is_inside else None
     if not is_inside:
         actual = say("it is in {path}, outside of the package", path=place)
     return Failed(
@@ -313,7 +315,7 @@ def _misplaced(evidence: Evidence, place: str, *, is_inside: bool) -> Failed:
         where=Where(file=place) if is_inside else None,
         variant="folder"
         if _is_inner(evidence, place)
-        else _way(evidence, place)
+        else ("scripts" if scripts else _way(evidence, place))
         if movable
         else "",
         params={"path": place},
@@ -324,13 +326,16 @@ def _misplaced(evidence: Evidence, place: str, *, is_inside: bool) -> Failed:
             "there": shlex.quote(place),
             "module": module_name(path),
             "module_there": module_name(place),
+            "line": str(scripts[0]) if scripts else "",
+            "code": shown(scripts[1]) if scripts else "",
         },
     )
 
 
 def _way(evidence: Evidence, place: str) -> str:
     """Return the variant of a file that can be moved: Python finds it if the entry leads to it."""
-    return "entry" if of_entry(evidence) == place else "inside"
+    is_named = place == f"{node_path(evidence).removesuffix('.py')}/__init__.py"
+    return "entry" if of_entry(evidence) == place and not is_named else "inside"
 
 
 def _several(path: str, paths: list[str], expected: str) -> Failed:
