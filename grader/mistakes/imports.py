@@ -343,6 +343,14 @@ KINDS = (
                 "After this import, the file knows the module only by its whole name, {short}. A "
                 "line uses it as {close}."
             ),
+            "dots": msg(
+                "One dot in front means the folder of this file, and each other dot the folder above. "
+                "Above this folder there is no package. {path} is in the same folder as this file."
+            ),
+            "of_python": msg(
+                "Python has a module {short} of its own, and this import finds that one. Your file is "
+                "{path}, and is known by its name in the package."
+            ),
             "called": msg(
                 "{path} is a file, and it defines {short}. With this import, the name {short} means "
                 "the file, which cannot be called."
@@ -387,6 +395,18 @@ KINDS = (
                 "own_function_from_package",
                 Write(f"{INNER}/helpers.py", TEXT_OF),
                 Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}\nfrom {INNER} import text_of\n"),
+                fails="run.starts",
+            ),
+            example(
+                "two_dots_for_the_same_folder",
+                Write(f"{INNER}/helpers.py", TEXT_OF),
+                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}from ..helpers import text_of\n"),
+                fails="run.starts",
+            ),
+            example(
+                "own_file_called_like_one_of_python",
+                Write(f"{INNER}/string.py", TEXT_OF),
+                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}from string import text_of\n"),
                 fails="run.starts",
             ),
             example(

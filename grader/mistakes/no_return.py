@@ -37,7 +37,7 @@ def _logged_none(suspect: Suspect) -> RecognisedMistake | None:
     if found is None:
         return None
     mistake = suspect.finding("nothing_returned", found.at, name=found.name, written=found.written)
-    return _in_words(mistake, found)
+    return _in_words(mistake, found, suspect.source)
 
 
 def _printed_for_logger(suspect: Suspect) -> RecognisedMistake | None:
@@ -48,7 +48,7 @@ def _printed_for_logger(suspect: Suspect) -> RecognisedMistake | None:
     if not any(found.used in ast.walk(call) for call in suspect.source.own_logs):
         return None
     mistake = suspect.finding("nothing_returned", found.at, name=found.name, written=found.written)
-    return _in_words(mistake, found)
+    return _in_words(mistake, found, suspect.source)
 
 
 def _none_at_error(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -60,7 +60,7 @@ def _none_at_error(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
     mistake = raised.finding(
         "nothing_returned", at=found.at, name=found.name, written=found.written
     )
-    return _in_words(mistake, found)
+    return _in_words(mistake, found, raised.source)
 
 
 def _found(source: NodeSource) -> NoReturn | None:
@@ -68,11 +68,13 @@ def _found(source: NodeSource) -> NoReturn | None:
     return found if found is None or len(found.name + found.written) <= 2 * MOST_CODE else None
 
 
-def _in_words(mistake: RecognisedMistake, found: NoReturn) -> RecognisedMistake:
+def _in_words(mistake: RecognisedMistake, found: NoReturn, source: NodeSource) -> RecognisedMistake:
+    other = source.module_of(found.used)
+    place = "" if other is found.module else f" ({other.path})"
     words = {
         **mistake.words,
         "function": found.function,
-        "line": str(found.used.lineno),
+        "line": f"{found.used.lineno}{place}",
         "at": str(found.at.lineno),
     }
     printed = found.printed and found.sort == "instead"

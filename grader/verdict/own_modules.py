@@ -48,6 +48,8 @@ def own_module(error: str, where: Where | None, evidence: Evidence) -> Recognise
     return (
         _of_other_file(error, where, evidence)
         or _called_module(error, where, evidence)
+        or _too_many_dots(error, where, evidence)
+        or _name_of_python(error, where, evidence)
         or _part_of_file(error, where, evidence)
         or _without_package(error, where, evidence)
         or _of_package(error, where, evidence)
@@ -402,6 +404,47 @@ def _with_signs(
             "wanted": new,
         },
         variant="signs" if new == name else "signs_named",
+        where=where,
+    )
+
+
+def _too_many_dots(error: str, where: Where, evidence: Evidence) -> RecognisedMistake | None:
+    """Return that an import has more dots in front than there are folders of the package above."""
+    raising = read_module(partial(data_of, evidence), where.file)
+    found = statement_at(raising, where.line) if raising is not None else None
+    if "beyond top-level package" not in error or not isinstance(found, ast.ImportFrom):
+        return None
+    folder = where.file.rpartition("/")[0]
+    path = f"{folder}/{(found.module or '').replace('.', '/')}.py"
+    module = read_module(partial(data_of, evidence), path) if found.module else None
+    if raising is None or module is None or not {n.name for n in found.names} <= module.names:
+        return None
+    code = raising.text.code(found)
+    new = f"from .{found.module} import {', '.join(map(ast.unparse, found.names))}"
+    return RecognisedMistake(
+        kind="node.own_module_alone",
+        params={"name": code, "written": new},
+        words={"path": path},
+        variant="dots",
+        where=where,
+    )
+
+
+def _name_of_python(error: str, where: Where, evidence: Evidence) -> RecognisedMistake | None:
+    """Return that an import finds a module of Python with the name of a file of the package."""
+    match, written = NO_NAME.search(error), _import_at(where, evidence)
+    if match is None or written is None or match["module"] not in sys.stdlib_module_names:
+        return None
+    path = f"{where.file.rpartition('/')[0]}/{match['module']}.py"
+    here = written.module == match["module"] and path != where.file
+    if not here or not _defines(path, written, evidence):
+        return None
+    new = written.of(module_name(path))
+    return RecognisedMistake(
+        kind="node.own_module_alone",
+        params={"name": written.code, "written": new},
+        words={"path": path, "short": match["module"]},
+        variant="of_python",
         where=where,
     )
 
