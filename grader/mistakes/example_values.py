@@ -685,7 +685,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "wanted": "packages=[package_name]",
         "statement": "from setuptools import find_packages",
     },
-    "build.setup_error": {"wanted": "packages=find_packages()", "close": "package_name"},
+    "build.setup_error": {
+        "wanted": "packages=find_packages()",
+        "close": "package_name",
+        "path": "my_package/config.py",
+    },
     "build.failed": {
         "name": "launch/my_node.launch.py",
         "wanted": "('share', ['package.xml'])",

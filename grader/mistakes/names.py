@@ -22,7 +22,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.order import spun_names
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
 from grader.mistakes.scope import CALLBACK, NODE_METHODS, OUTSIDE
-from grader.package.edit.tree import Replace
+from grader.package.edit.tree import Replace, Write
 from grader.package.source.counter import targets_of
 from grader.package.source.imported import imports
 from grader.package.source.module import Function, Module
@@ -672,6 +672,24 @@ KINDS = (
                     NODE,
                     "self.create_timer(1.0, self.timer_callback)",
                     "self.create_timer(1.0, timer_callback)",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "method_called_on_its_class",
+                Write(
+                    "my_robot_controller/speaker.py",
+                    "class Speaker:\n    def words(self, number):\n"
+                    "        return 'Hello time: ' + str(number)\n",
+                ),
+                Replace(
+                    NODE,
+                    "import rclpy\n",
+                    "import rclpy\n\nfrom my_robot_controller.speaker import Speaker\n",
+                ),
+                Replace(
+                    NODE, "'Hello time: ' + str(self.counter_)", "Speaker.words(self.counter_)"
                 ),
                 fails="run.output",
                 blocks=DEAD,

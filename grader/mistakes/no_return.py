@@ -16,7 +16,7 @@ from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, on_li
 from grader.mistakes.worked_out import INSTEAD
 from grader.package.edit.files import Files
 from grader.package.edit.text import indent_of
-from grader.package.edit.tree import Replace
+from grader.package.edit.tree import Replace, Write
 from grader.package.source.counter import parts_of_callback
 from grader.package.source.no_return import NoReturn, no_return
 from grader.package.source.node import NodeSource
@@ -141,6 +141,20 @@ KINDS = (
         },
         fixed_by=(_returned, lines.written),
         examples=(
+            example(
+                "no_return_in_another_file",
+                Write(
+                    "my_robot_controller/speaker.py",
+                    "def words(number):\n    text = 'Hello time: ' + str(number)\n",
+                ),
+                Replace(
+                    NODE,
+                    "import rclpy\n",
+                    "import rclpy\n\nfrom my_robot_controller.speaker import words\n",
+                ),
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "words(self.counter_)"),
+                fails="run.output",
+            ),
             example(
                 "helper_without_return",
                 Replace(
