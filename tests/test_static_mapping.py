@@ -334,3 +334,12 @@ def test_the_students_text_is_shown_escaped(bench: Bench) -> None:
         "setup.py", "package_name = 'my_robot_controller'", "package_name = '\\x07\\udcff'"
     )
     assert "\\x07" in bench.fails(package.manifest).actual
+
+
+def test_an_expression_that_makes_a_wrong_entry_is_replaced_by_the_entry(bench: Bench) -> None:
+    bench.change(
+        "setup.py", ENTRY, "'%s = %s.%s:main' % ('test_node', 'my_first_node', package_name),"
+    )
+    assert mistake(bench.misses()) == "setup.misspelt_module"
+    plan = fix_files(take_in(bench.root, package=NAME, node_file="my_first_node.py"), ASSIGNMENT)
+    assert ENTRY.encode() in (plan.new.data("setup.py") or b"")

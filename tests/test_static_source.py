@@ -236,6 +236,21 @@ def test_an_entry_of_another_node_does_not_tell_it(bench: Bench) -> None:
         source.exec_bit.function(bench.evidence())
 
 
+def test_a_node_in_a_folder_of_its_name_is_moved_and_setup_py_is_not_to_change(
+    bench: Bench,
+) -> None:
+    (bench.root / NODE).unlink()
+    (bench.root / NODE.removesuffix(".py")).mkdir()
+    bench.write(
+        f"{NODE.removesuffix('.py')}/__init__.py",
+        "from rclpy.node import Node\n\n\nclass Hello(Node):\n    def __init__(self):\n"
+        "        super().__init__('my_first_node')\n\n\ndef main():\n    Hello()\n",
+    )
+    failed = bench.fails(source.node_file)
+    assert mistake(failed) == "source.misplaced_node_file"
+    assert "setup.py" not in failed.fix
+
+
 def test_a_node_outside_the_package_is_found(tmp_path: Path) -> None:
     bench = Bench(tmp_path / "ws/src" / NAME)
     (bench.root / NODE).rename(tmp_path / "ws/src/my_first_node.py")

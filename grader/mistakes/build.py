@@ -197,6 +197,14 @@ KINDS = (
                 "the end of the line above. Compare both lines with those that ros2 pkg create "
                 "writes, then build again."
             ),
+            "own_close": msg(
+                "{path} does not define {name}, but {close}. Write {close} instead of {name} everywhere "
+                "in setup.py, then build again."
+            ),
+            "own": msg(
+                "{path} does not define {name}. Write the value itself into setup.py instead of "
+                "importing it, or define {name} in {path}. Then build again."
+            ),
             "no_import": msg("Add at the top of setup.py, then build again: {statement}"),
             "outside": msg(
                 "Move this entry up, above the ] in line {line}: entries are between the [ and the "
@@ -343,6 +351,16 @@ KINDS = (
             setup_py.fault,
         ),
         examples=(
+            example(
+                "setup_imports_a_misspelt_name",
+                Write("my_robot_controller/config.py", "NAME = 'my_robot_controller'\n"),
+                Replace(
+                    SETUP,
+                    "\nsetup(\n",
+                    "\nfrom my_robot_controller.config import NAMES\n\nsetup(\n",
+                ),
+                fails="build.colcon",
+            ),
             example(
                 "comma_between_tuples_missing",
                 Replace(SETUP, "['resource/' + package_name]),", "['resource/' + package_name])"),
@@ -1034,6 +1052,11 @@ KINDS = (
                 "Correct what this message names, in setup.py or in the files of the package, then "
                 "build again. The build log below has the lines around it."
             ),
+            "folder_of_files": msg(
+                "{name} is a folder, and the second value of a line of data_files is a list of files. "
+                "A glob such as glob('folder/*') finds folders too. Let this line name only files, "
+                "and write a line of its own for the files of {name}. Then build again."
+            ),
             "no_copy_close": msg(
                 "Write {wanted} instead of {name} in data_files, then build again."
             ),
@@ -1067,6 +1090,17 @@ KINDS = (
                     "install_scripts=$base/lib/my_robot_controller\n",
                     "install_scripts=$base/lib/my_robot_controller\n"
                     "'test_node = my_robot_controller.my_first_node:main',\n",
+                ),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_copies_a_folder",
+                Write("config/extra/speed.yaml", "speed: 1\n"),
+                Replace(
+                    SETUP,
+                    "('share/' + package_name, ['package.xml']),",
+                    "('share/' + package_name, ['package.xml']),\n"
+                    "        ('share/' + package_name + '/config', ['config/extra']),",
                 ),
                 fails="build.colcon",
             ),

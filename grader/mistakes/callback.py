@@ -13,7 +13,7 @@ from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import node_timer
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
-from grader.package.edit.tree import Replace
+from grader.package.edit.tree import Replace, Write
 from grader.package.source.endless import goes_on
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
@@ -34,9 +34,23 @@ def _no_self(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     called = last_part(function) if function else ""
     method = raised.source.methods.get(called) if called else callback
     method = callback if callback is not None and callback.name == called else method
+    method = method or (_of_object(raised, function) if function else None)
     if method is None or method.args.args:
         return None
     return _with_line(raised.finding("callback_no_self", at=method), raised, method)
+
+
+def _of_object(raised: Raised, function: str) -> Function | None:
+    """Return the only method of a name such as `Counter.next` in the classes of all files."""
+    owner, _, name = function.rpartition(".")
+    methods = [
+        method
+        for module in (*raised.source.modules, *raised.source.beside)
+        for own in module.classes
+        for method in own.body
+        if own.name == owner and isinstance(method, Function) and method.name == name
+    ]
+    return methods[0] if len(methods) == 1 and name != "__init__" else None
 
 
 def _with_line(found: RecognisedMistake, raised: Raised, method: Function) -> RecognisedMistake:
@@ -140,6 +154,24 @@ KINDS = (
             example(
                 "callback_without_self",
                 Replace(NODE, "def timer_callback(self)", "def timer_callback()"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "method_of_an_object_without_self",
+                Write(
+                    "my_robot_controller/clicker.py",
+                    "class Clicker:\n    clicks = -1\n\n"
+                    "    def click():\n        self.clicks += 1\n        return self.clicks\n",
+                ),
+                Replace(
+                    NODE,
+                    "import rclpy\n",
+                    "import rclpy\n\nfrom my_robot_controller.clicker import Clicker\n",
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.clicker = Clicker()"),
+                Replace(NODE, "str(self.counter_)", "str(self.clicker.click())"),
+                Replace(NODE, "        self.counter_ += 1\n", ""),
                 fails="run.output",
                 blocks=DEAD,
             ),

@@ -10,7 +10,7 @@ from grader.base.i18n.message import msg, say
 from grader.base.nearest import nearest
 from grader.base.shown import shown
 from grader.mistakes import links
-from grader.mistakes.example import BODY_OF_MAIN, NODE, example
+from grader.mistakes.example import BODY_OF_MAIN, DEAD, NODE, example
 from grader.mistakes.fixes import lines, node_life, node_scope, node_words
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
@@ -25,7 +25,7 @@ from grader.mistakes.recognised import (
 )
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
-from grader.package.edit.tree import Replace
+from grader.package.edit.tree import Replace, Write
 from grader.package.source.counter import targets_of
 from grader.package.source.imported import full_name
 from grader.package.source.names import calls_in, dotted, last_part
@@ -139,6 +139,24 @@ def _misspelt_init(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
         near = "" if "__init__" in methods else nearest("__init__", methods, cutoff=0.8)
         if near and _calls_super(methods[near]):
             return raised.finding("init_underscores", at=methods[near], name=near)
+    return None
+
+
+def _init_not_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The class of an object has no __init__; a method with nearly this name sets the attribute."""
+    name = match["name"]
+    for own in (c for c in raised.module.classes if c.name == match["type"] and not c.bases):
+        methods = {m.name: m for m in own.body if isinstance(m, ast.FunctionDef)}
+        near = "" if "__init__" in methods else nearest("__init__", methods, cutoff=0.8)
+        sets = [
+            n
+            for n in (ast.walk(methods[near]) if near else ())
+            if isinstance(n, ast.Attribute) and isinstance(n.ctx, ast.Store)
+        ]
+        if f"self.{name}" in {dotted(n) for n in sets}:
+            found = raised.finding("init_underscores", at=methods[near], name=near)
+            words = {**found.words, "attribute": name, "type": own.name}
+            return replace(found, variant="of_object", words=words)
     return None
 
 
@@ -414,8 +432,18 @@ KINDS = (
             "created. A method with another name is not called, so Node gets no name."
         ),
         msg("Rename {name} to __init__: two underscores before and after."),
-        raised={r"TypeError: ": _misspelt_init, NO_NODE_NAME: _underscores},
-        fixed_by=(node_life.constructor,),
+        whys={
+            "of_object": msg(
+                "Python calls __init__, with two underscores on both sides, when an object of {type} is "
+                "created. A method with another name is not called, so nothing sets {attribute}."
+            )
+        },
+        raised={
+            r"TypeError: ": _misspelt_init,
+            NO_NODE_NAME: _underscores,
+            OWN_ATTRIBUTE: _init_not_called,
+        },
+        fixed_by=(node_life.constructor, node_life.constructor_of_object),
         examples=(
             example(
                 "init_single_underscores",
@@ -432,6 +460,24 @@ KINDS = (
                 ),
                 Replace(NODE, "    def __init__(self):", "    def __int__(self):"),
                 fails="run.starts",
+            ),
+            example(
+                "init_of_an_object_in_another_file",
+                Write(
+                    "my_robot_controller/clicker.py",
+                    "class Clicker:\n    def _init_(self):\n        self.clicks = -1\n\n"
+                    "    def click(self):\n        self.clicks += 1\n        return self.clicks\n",
+                ),
+                Replace(
+                    NODE,
+                    "import rclpy\n",
+                    "import rclpy\n\nfrom my_robot_controller.clicker import Clicker\n",
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.clicker = Clicker()"),
+                Replace(NODE, "str(self.counter_)", "str(self.clicker.click())"),
+                Replace(NODE, "        self.counter_ += 1\n", ""),
+                fails="run.output",
+                blocks=DEAD,
             ),
         ),
     ),

@@ -96,6 +96,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "folder": "My_Package",
         "inner": "my_package",
         "module": "my_package.my_node",
+        "line": "21",
+        "code": "scripts=['scripts/my_node.py'],",
         "module_there": "my_package.nodes.my_node",
     },
     "node.import_inside": {
@@ -207,7 +209,12 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.in_namespace": {"name": "namespace='robot'"},
     "node.name_invalid": {"name": "'my-node'", "written": "'my_node'", "sign": "-"},
-    "node.main_in_class": {"name": "MyNode.main", "written": "main", "line": "30"},
+    "node.main_in_class": {
+        "name": "MyNode.main",
+        "written": "main",
+        "line": "30",
+        "lines": "12, 13",
+    },
     "node.text_elsewhere": {"name": "'Hello:'", "written": "'Hello: '"},
     "node.self_misspelt": {"name": "slef", "method": "callback"},
     "node.dot_for_comma": {"name": "1.0. self", "written": "1.0, self"},
@@ -275,7 +282,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.waits_first": {"name": "input()", "written": "rclpy.spin(node)"},
     "node.callback_called": {"written": "self.callback", "name": "partial(self.callback())"},
     "node.logs_before_timer": {"function": "__init__"},
-    "node.init_underscores": {"name": "_init_"},
+    "node.init_underscores": {"name": "_init_", "attribute": "counter", "type": "Counter"},
     "node.method_misspelt": {"name": "creat_timer"},
     "node.class_twice": {"name": "MyNode", "line": "12"},
     "node.method_twice": {"name": "__init__", "line": "12"},
@@ -688,7 +695,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "wanted": "packages=[package_name]",
         "statement": "from setuptools import find_packages",
     },
-    "build.setup_error": {"wanted": "packages=find_packages()", "close": "package_name"},
+    "build.setup_error": {
+        "wanted": "packages=find_packages()",
+        "close": "package_name",
+        "path": "my_package/config.py",
+    },
     "build.failed": {
         "name": "launch/my_node.launch.py",
         "wanted": "('share', ['package.xml'])",
@@ -722,6 +733,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "called": "Node.__init__(…)",
     },
     "node.own_module_missing": {
+        "wanted": "helpers",
+        "short": "text-helpers.py",
         "path": "my_package/helpers.py",
         "there": "helpers.py",
         "name": "helper",
@@ -745,6 +758,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.logger_of_node": {"name": "self.info", "written": "self.get_logger().info"},
     "node.own_module_alone": {
         "path": "my_package/helpers.py",
+        "short": "helpers",
         "there": "helpers.py",
         "name": "import helpers",
         "written": "from my_package import helpers",

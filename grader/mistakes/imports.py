@@ -343,6 +343,18 @@ KINDS = (
                 "After this import, the file knows the module only by its whole name, {short}. A "
                 "line uses it as {close}."
             ),
+            "dots": msg(
+                "One dot in front means the folder of this file, and each other dot the folder above. "
+                "Above this folder there is no package. {path} is in the same folder as this file."
+            ),
+            "of_python": msg(
+                "Python has a module {short} of its own, and this import finds that one. Your file is "
+                "{path}, and is known by its name in the package."
+            ),
+            "called": msg(
+                "{path} is a file, and it defines {short}. With this import, the name {short} means "
+                "the file, which cannot be called."
+            ),
             "part": msg(
                 "Only folders and files can stand before and after the dots of such an import. "
                 "{path} is a file, and {short} is a name that it defines, not a file in it."
@@ -386,6 +398,26 @@ KINDS = (
                 fails="run.starts",
             ),
             example(
+                "two_dots_for_the_same_folder",
+                Write(f"{INNER}/helpers.py", TEXT_OF),
+                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}from ..helpers import text_of\n"),
+                fails="run.starts",
+            ),
+            example(
+                "own_file_called_like_one_of_python",
+                Write(f"{INNER}/string.py", TEXT_OF),
+                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}from string import text_of\n"),
+                fails="run.starts",
+            ),
+            example(
+                "file_called_like_its_function",
+                Write(f"{INNER}/text_of.py", TEXT_OF),
+                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}from {INNER} import text_of\n"),
+                Replace(NODE, "str(self.counter_)", "text_of(self.counter_)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
                 "function_imported_like_a_file",
                 Write(f"{INNER}/helpers.py", TEXT_OF),
                 Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}import {INNER}.helpers.text_of\n"),
@@ -421,8 +453,22 @@ KINDS = (
         ),
         links.PACKAGE,
         close=CLOSE,
+        whys={
+            **dict.fromkeys(
+                ("signs", "signs_named"),
+                msg(
+                    "An import cannot name the file {short}: a module's name has only letters, digits "
+                    "and _, and each . in an import leads into a folder."
+                ),
+            )
+        },
         fixes={
             "elsewhere": msg("Move {there} to {path}: Python looks for it there."),
+            "signs": msg("Rename the file. In the package's folder, run: mv {there} {path}"),
+            "signs_named": msg(
+                "Rename the file, and write {wanted} instead of its old name in the import. In the "
+                "package's folder, run: mv {there} {path}"
+            ),
             "init": msg(
                 "Delete this line. {file} runs before every other file of its folder, and it can be "
                 "empty. Or put {path} into the package, if you need it."
@@ -446,6 +492,26 @@ KINDS = (
                     NODE,
                     "from rclpy.node import Node\n",
                     "from rclpy.node import Node\n\nfrom my_robot_controller.util import text_of\n",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "helper_with_a_dash",
+                Write(f"{INNER}/text-utils.py", "def text_of(number):\n    return str(number)\n"),
+                Replace(
+                    NODE,
+                    "from rclpy.node import Node\n",
+                    "from rclpy.node import Node\n\nfrom my_robot_controller.text_utils import text_of\n",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "helper_with_a_point",
+                Write(f"{INNER}/utils.h.py", "def text_of(number):\n    return str(number)\n"),
+                Replace(
+                    NODE,
+                    "from rclpy.node import Node\n",
+                    "from rclpy.node import Node\n\nfrom my_robot_controller.utils.h import text_of\n",
                 ),
                 fails="run.starts",
             ),

@@ -22,7 +22,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.order import spun_names
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
 from grader.mistakes.scope import CALLBACK, NODE_METHODS, OUTSIDE
-from grader.package.edit.tree import Replace
+from grader.package.edit.tree import Replace, Write
 from grader.package.source.counter import targets_of
 from grader.package.source.imported import imports
 from grader.package.source.module import Function, Module
@@ -266,11 +266,27 @@ def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         words = {"name": function, "written": f"self.{function}", "function": function}
         found = raised.finding("argument_missing", at=outside[0].call)
         return replace(found, variant="outside", words={**found.words, **words})
-    if match["name"] == "self" and "." in match["function"]:
+    if "." in match["function"] and (match["name"] == "self" or _on_class(raised, match)):
         return replace(found, variant="class")
     if function in own and not foreign:
         return _of_own_method(raised, match) or replace(found, variant="own")
     return found
+
+
+def _on_class(raised: Raised, match: re.Match[str]) -> bool:
+    """Whether the line calls a method with self on its class, so that a value goes to self."""
+    owner, _, name = match["function"].rpartition(".")
+    made = [
+        s
+        for module in raised.source.known_modules
+        for c in module.classes
+        for s in c.body
+        if c.name == owner and isinstance(s, Function) and s.name == name
+    ]
+    calls = [c for c, called in raised.source.calls if called == match["function"]]
+    here = [c for c in calls if raised.line in lines_of(c) and c.args]
+    plain = len(made) == 1 and has_self(made[0]) and not made[0].decorator_list
+    return plain and len(here) == 1 and dotted(here[0].args[0]) != "self"
 
 
 def _in_method(raised: Raised) -> bool:
@@ -656,6 +672,24 @@ KINDS = (
                     NODE,
                     "self.create_timer(1.0, self.timer_callback)",
                     "self.create_timer(1.0, timer_callback)",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "method_called_on_its_class",
+                Write(
+                    "my_robot_controller/speaker.py",
+                    "class Speaker:\n    def words(self, number):\n"
+                    "        return 'Hello time: ' + str(number)\n",
+                ),
+                Replace(
+                    NODE,
+                    "import rclpy\n",
+                    "import rclpy\n\nfrom my_robot_controller.speaker import Speaker\n",
+                ),
+                Replace(
+                    NODE, "'Hello time: ' + str(self.counter_)", "Speaker.words(self.counter_)"
                 ),
                 fails="run.output",
                 blocks=DEAD,

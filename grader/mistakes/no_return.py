@@ -16,7 +16,7 @@ from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, on_li
 from grader.mistakes.worked_out import INSTEAD
 from grader.package.edit.files import Files
 from grader.package.edit.text import indent_of
-from grader.package.edit.tree import Replace
+from grader.package.edit.tree import Replace, Write
 from grader.package.source.counter import parts_of_callback
 from grader.package.source.no_return import NoReturn, no_return
 from grader.package.source.node import NodeSource
@@ -37,7 +37,7 @@ def _logged_none(suspect: Suspect) -> RecognisedMistake | None:
     if found is None:
         return None
     mistake = suspect.finding("nothing_returned", found.at, name=found.name, written=found.written)
-    return _in_words(mistake, found)
+    return _in_words(mistake, found, suspect.source)
 
 
 def _printed_for_logger(suspect: Suspect) -> RecognisedMistake | None:
@@ -48,7 +48,7 @@ def _printed_for_logger(suspect: Suspect) -> RecognisedMistake | None:
     if not any(found.used in ast.walk(call) for call in suspect.source.own_logs):
         return None
     mistake = suspect.finding("nothing_returned", found.at, name=found.name, written=found.written)
-    return _in_words(mistake, found)
+    return _in_words(mistake, found, suspect.source)
 
 
 def _none_at_error(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -60,7 +60,7 @@ def _none_at_error(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
     mistake = raised.finding(
         "nothing_returned", at=found.at, name=found.name, written=found.written
     )
-    return _in_words(mistake, found)
+    return _in_words(mistake, found, raised.source)
 
 
 def _found(source: NodeSource) -> NoReturn | None:
@@ -68,11 +68,13 @@ def _found(source: NodeSource) -> NoReturn | None:
     return found if found is None or len(found.name + found.written) <= 2 * MOST_CODE else None
 
 
-def _in_words(mistake: RecognisedMistake, found: NoReturn) -> RecognisedMistake:
+def _in_words(mistake: RecognisedMistake, found: NoReturn, source: NodeSource) -> RecognisedMistake:
+    other = source.module_of(found.used)
+    place = "" if other is found.module else f" ({other.path})"
     words = {
         **mistake.words,
         "function": found.function,
-        "line": str(found.used.lineno),
+        "line": f"{found.used.lineno}{place}",
         "at": str(found.at.lineno),
     }
     printed = found.printed and found.sort == "instead"
@@ -139,6 +141,20 @@ KINDS = (
         },
         fixed_by=(_returned, lines.written),
         examples=(
+            example(
+                "no_return_in_another_file",
+                Write(
+                    "my_robot_controller/speaker.py",
+                    "def words(number):\n    text = 'Hello time: ' + str(number)\n",
+                ),
+                Replace(
+                    NODE,
+                    "import rclpy\n",
+                    "import rclpy\n\nfrom my_robot_controller.speaker import words\n",
+                ),
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "words(self.counter_)"),
+                fails="run.output",
+            ),
             example(
                 "helper_without_return",
                 Replace(

@@ -116,6 +116,10 @@ KINDS = (
                 "Move the code from {init} into {wanted}, and leave __init__.py empty."
             ),
             "inside": MOVE,
+            "scripts": msg(
+                "Move it into the inner folder, and delete {code} from line {line} of setup.py: there is "
+                "no such file then. Then build again. In the package's folder, run: mv {there} {wanted}"
+            ),
             "entry": msg(
                 "Move it into the inner folder, and let setup.py name it: write {module} instead of "
                 "{module_there} there. Then build again. In the package's folder, run: mv {there} "
@@ -135,6 +139,17 @@ KINDS = (
             layout.out_of_init,
         ),
         examples=(
+            example(
+                "node_among_the_scripts",
+                Move(NODE, "scripts/my_first_node.py"),
+                Replace(
+                    SETUP,
+                    "    entry_points={",
+                    "    scripts=['scripts/my_first_node.py'],\n    entry_points={",
+                ),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
             example(
                 "node_in_init",
                 Delete(INIT),

@@ -64,7 +64,7 @@ KINDS = (
     Kind(
         id="source.not_utf8",
         stage="file",
-        title=msg("The node's file is not UTF-8 text"),
+        title=msg("A file of the node is not UTF-8 text"),
         why=NOT_UTF8,
         fix=ENCODINGS["other_encoding"],
         fixes={kind: fix for kind, fix in ENCODINGS.items() if kind != "other_encoding"},
@@ -100,7 +100,7 @@ KINDS = (
     Kind(
         id="source.pasted",
         stage="file",
-        title=msg("The node's file contains characters or lines that are not Python code"),
+        title=msg("A file of the node contains characters or lines that are not Python code"),
         why=WEB,
         whys=PASTED_WHYS,
         fix=msg("Remove what does not belong to the code, or type that line again."),
@@ -241,7 +241,7 @@ KINDS = (
     Kind(
         id="source.other_language",
         stage="file",
-        title=msg("A line of the node's file is written as in another language"),
+        title=msg("A line of the node's code is written as in another language"),
         why=OTHER_LANGUAGE,
         fix=msg("Write that line in Python."),
         fixes=LANGUAGE,
@@ -314,7 +314,7 @@ KINDS = (
     Kind(
         id="source.syntax_error",
         stage="file",
-        title=msg("Python cannot read the node's file"),
+        title=msg("Python cannot read a file of the node"),
         why=msg(
             "Python reads the whole file before it runs any of it. If it cannot read a line, "
             "nothing runs."
@@ -418,6 +418,20 @@ KINDS = (
                 Replace(NODE, "__init__('my_first_node')", "__init__('my_first_node'):"),
                 fails="source.node_file",
                 blocks=UNSTARTED,
+            ),
+            example(
+                "missing_colon_in_another_file",
+                Write(
+                    "my_robot_controller/words.py",
+                    "def hello(number)\n    return 'Hello time: ' + str(number)\n",
+                ),
+                Replace(
+                    NODE,
+                    "import rclpy\n",
+                    "import rclpy\n\nfrom my_robot_controller.words import hello\n",
+                ),
+                Replace(NODE, "'Hello time: ' + str(self.counter_)", "hello(self.counter_)"),
+                fails="run.starts",
             ),
             example(
                 "one_equals_sign",

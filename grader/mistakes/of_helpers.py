@@ -58,7 +58,9 @@ WITH_HELPER = (
 
 def _methods(raised: Raised, owner: str, name: str) -> list[Function]:
     """Return the methods of a name in the student's classes of another name."""
-    classes = (c for module in raised.source.modules for c in module.classes if c.name == owner)
+    classes = (
+        c for module in raised.source.known_modules for c in module.classes if c.name == owner
+    )
     return [s for c in classes for s in c.body if isinstance(s, Function) and s.name == name]
 
 

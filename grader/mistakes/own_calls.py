@@ -53,7 +53,7 @@ def _definitions(raised: Raised, function: str) -> list[Function]:
     owner, _, name = function.rpartition(".")
     bodies = [
         c.body
-        for module in raised.source.modules
+        for module in raised.source.known_modules
         for c in (module.classes if owner else [])
         if c.name == last_part(owner)
     ] or [raised.module.tree.body if not owner else []]

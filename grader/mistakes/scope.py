@@ -163,6 +163,14 @@ def _main_in_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
     if match["function"] != function or found is None:
         return None
     uses = node_scope.uses_of_class(raised.source, function)
+    above = [d.lineno for d in found.decorator_list]
+    around = raised.source.entry.parents.get(found)
+    if isinstance(around, ast.ClassDef) and around.body == [found]:
+        above = [*(d.lineno for d in around.decorator_list), around.lineno, *above]
+    if above:
+        mistake = raised.finding("main_in_class", at=found)
+        rows = ", ".join(map(str, above))
+        return replace(mistake, variant="head", words={**mistake.words, "lines": rows})
     if not uses:
         return raised.finding("main_in_class", at=found)
     code = raised.source.entry.text.code(uses[0])
@@ -357,15 +365,29 @@ KINDS = (
             )
         },
         fixes={
+            "head": msg(
+                "Make a function of its own of it: delete what stands above this def only for a method "
+                "(the lines {lines}), and move def {function}(…) and all of its lines to the left, so "
+                "that def begins at the margin. Leave self or cls out of its brackets, if one is there. "
+                "Where a line calls it through the class, write only {function}()."
+            ),
             "used": msg(
                 "Move def {function}(…) and all of its lines to the left by the same number of "
                 "spaces, so that def begins at the margin. Write {written} instead of {name} in line "
                 "{line}."
-            )
+            ),
         },
         fixed_by=(node_scope.at_margin,),
         examples=(
             example("main_in_class", Replace(NODE, MAIN, IN_CLASS), fails="run.starts"),
+            example(
+                "main_in_a_class_of_its_own",
+                Replace(
+                    NODE, MAIN, f"class Program:\n    @staticmethod\n{IN_CLASS.lstrip(chr(10))}"
+                ),
+                Replace(NODE, "\n    main()\n", "\n    Program.main()\n"),
+                fails="run.starts",
+            ),
             example(
                 "main_called_by_class",
                 Replace(NODE, MAIN, IN_CLASS),

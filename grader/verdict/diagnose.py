@@ -17,13 +17,15 @@ from grader.mistakes.catalogue import CATALOGUE, RANK
 from grader.mistakes.recognise import SYMPTOMS, behind_error, behind_symptom
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.whole_block import rest_of_block
+from grader.package.edit.text import read_source
 from grader.package.source.module import Module
 from grader.package.source.names import calls_in, last_part
 from grader.package.source.place import place_of, statement_at
 from grader.package.source.setup_packages import packages_of
 from grader.report.model import Mistake, Where
 from grader.verdict.checks.faults import calls_to, ended_program, raised_in, raised_inside
-from grader.verdict.checks.parsed import file_of, has_subpackages, names_in
+from grader.verdict.checks.not_python import unreadable_module
+from grader.verdict.checks.parsed import data_of, file_of, has_subpackages, names_in
 from grader.verdict.circular import circular_import
 from grader.verdict.follows import followed
 from grader.verdict.node_files import source_around, source_of_node
@@ -38,6 +40,7 @@ if TYPE_CHECKING:
 
 RAISES = ("run.died_at_start", "run.ended_early", "run.error_at_stop")
 SPINS = ("spin", "spin_once", "spin_until_future_complete")
+NOT_PARSED = re.compile(r"(?:Syntax|Indentation|Tab)Error\b")
 SHORTEST = 3  # characters of a source line that is worth showing
 
 
@@ -137,6 +140,7 @@ def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedM
                 or own_module(error, where, evidence)
                 or circular_import(error, where, evidence)
                 or main_in_copy(error, evidence)
+                or _cannot_be_read(error, where, evidence)
                 or _raised(error, where, evidence)
             )
     source = source_of_node(evidence)
@@ -154,6 +158,16 @@ def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedM
     stuck = evidence.run.watch.still_answers is False
     suspect = Suspect(source, evidence.assignment, text, diagnosis.where, lines, said, stuck)
     return behind_symptom(symptom, suspect)
+
+
+def _cannot_be_read(
+    error: str, where: Where | None, evidence: Evidence
+) -> RecognisedMistake | None:
+    """Return why Python cannot read a module of the package, which the node's file imports."""
+    if where is None or not NOT_PARSED.match(error):
+        return None
+    found = data_of(evidence, where.file)
+    return unreadable_module(where.file, found) if found is not None else None
 
 
 def _raised(error: str, where: Where | None, evidence: Evidence) -> RecognisedMistake | None:
@@ -265,9 +279,13 @@ def _show_line(diagnosis: Diagnosis, evidence: Evidence) -> None:
     """Add the source line to the `actual` text."""
     where = diagnosis.where
     source = source_around(evidence, where) if where is not None and where.line else None
-    if where is None or source is None:
+    if where is None or not where.line:
         return
-    code = source.module_at(where.file).line(where.line)
+    if source is not None:
+        code = source.module_at(where.file).line(where.line)
+    else:
+        text = read_source(data_of(evidence, where.file))
+        code = text.line(where.line).strip() if text is not None else ""
     if len(code) >= SHORTEST:
         line = say("line {line}: {code}", line=where.line or 0, code=shown(code))
         diagnosis.actual = joined(diagnosis.actual, line, by="\n")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+import shlex
 import sys
 from dataclasses import dataclass
 from functools import partial
@@ -18,7 +19,7 @@ from grader.package.source.counter import targets_of
 from grader.package.source.module import Function, Module
 from grader.package.source.names import module_name
 from grader.package.source.node import read_module
-from grader.package.source.own_imports import own_imports
+from grader.package.source.own_imports import imports_of, own_imports
 from grader.package.source.place import statement_at
 from grader.package.source.scopes import bindings
 from grader.report.model import Where
@@ -46,6 +47,9 @@ def own_module(error: str, where: Where | None, evidence: Evidence) -> Recognise
         return None
     return (
         _of_other_file(error, where, evidence)
+        or _called_module(error, where, evidence)
+        or _too_many_dots(error, where, evidence)
+        or _name_of_python(error, where, evidence)
         or _part_of_file(error, where, evidence)
         or _without_package(error, where, evidence)
         or _of_package(error, where, evidence)
@@ -363,7 +367,10 @@ def _not_handed_in(error: str, where: Where, evidence: Evidence) -> RecognisedMi
         return None  # (what is above it is a file, and no folder)
     folder, _, name = path.rpartition("/")
     modules = [n.removesuffix(".py") for n in names_in(evidence, folder) if n.endswith(".py")]
-    close = nearest(name, modules, cutoff=0.75)
+    signs = _with_signs(name, folder, modules, where)
+    if signs is not None:
+        return signs
+    close = nearest(name, [m for m in modules if m.isidentifier()], cutoff=0.75)
     elsewhere = [f.path for f in submission.files if f.path.rpartition("/")[2] == f"{name}.py"]
     there = shown(elsewhere[0]) if elsewhere else ""
     init = "init" if _is_init(where) else ""
@@ -374,6 +381,103 @@ def _not_handed_in(error: str, where: Where, evidence: Evidence) -> RecognisedMi
         variant="close" if close else "elsewhere" if there else init,
         where=where,
     )
+
+
+def _with_signs(
+    name: str, folder: str, modules: list[str], where: Where
+) -> RecognisedMistake | None:
+    """Return that the file that is meant has a sign in its name with which it cannot be imported."""
+    unfit = {m: re.sub(r"\W", "_", m) for m in modules if not m.isidentifier()}
+    same = [m for m, new in unfit.items() if new == name or m.partition(".")[0] == name]
+    near = same[0] if len(same) == 1 else nearest(name, unfit, cutoff=0.75)
+    new = unfit.get(near, "")
+    if not near or not new.isidentifier() or new in modules:
+        return None
+    there, path = f"{folder}/{near}.py", f"{folder}/{new}.py"
+    return RecognisedMistake(
+        kind="node.own_module_missing",
+        params={"name": name},
+        words={
+            "there": shlex.quote(shown(there)),
+            "path": path,
+            "short": shown(f"{near}.py"),
+            "wanted": new,
+        },
+        variant="signs" if new == name else "signs_named",
+        where=where,
+    )
+
+
+def _too_many_dots(error: str, where: Where, evidence: Evidence) -> RecognisedMistake | None:
+    """Return that an import has more dots in front than there are folders of the package above."""
+    raising = read_module(partial(data_of, evidence), where.file)
+    found = statement_at(raising, where.line) if raising is not None else None
+    if "beyond top-level package" not in error or not isinstance(found, ast.ImportFrom):
+        return None
+    folder = where.file.rpartition("/")[0]
+    path = f"{folder}/{(found.module or '').replace('.', '/')}.py"
+    module = read_module(partial(data_of, evidence), path) if found.module else None
+    if raising is None or module is None or not {n.name for n in found.names} <= module.names:
+        return None
+    code = raising.text.code(found)
+    new = f"from .{found.module} import {', '.join(map(ast.unparse, found.names))}"
+    return RecognisedMistake(
+        kind="node.own_module_alone",
+        params={"name": code, "written": new},
+        words={"path": path},
+        variant="dots",
+        where=where,
+    )
+
+
+def _name_of_python(error: str, where: Where, evidence: Evidence) -> RecognisedMistake | None:
+    """Return that an import finds a module of Python with the name of a file of the package."""
+    match, written = NO_NAME.search(error), _import_at(where, evidence)
+    if match is None or written is None or match["module"] not in sys.stdlib_module_names:
+        return None
+    path = f"{where.file.rpartition('/')[0]}/{match['module']}.py"
+    here = written.module == match["module"] and path != where.file
+    if not here or not _defines(path, written, evidence):
+        return None
+    new = written.of(module_name(path))
+    return RecognisedMistake(
+        kind="node.own_module_alone",
+        params={"name": written.code, "written": new},
+        words={"path": path, "short": match["module"]},
+        variant="of_python",
+        where=where,
+    )
+
+
+def _called_module(error: str, where: Where, evidence: Evidence) -> RecognisedMistake | None:
+    """Return that the code calls a module by the name of a class or function that is in it."""
+    raising = read_module(partial(data_of, evidence), where.file)
+    statement = statement_at(raising, where.line) if raising is not None else None
+    if "'module' object is not callable" not in error or raising is None or statement is None:
+        return None
+    calls = [n.func for n in ast.walk(statement) if isinstance(n, ast.Call)]
+    called = {function.id for function in calls if isinstance(function, ast.Name)}
+    for node in raising.tree.body:
+        if not isinstance(node, ast.ImportFrom) or len(node.names) != 1:
+            continue
+        name = node.names[0].name
+        modules = [i for i in imports_of(node, where.file) if not i.name and i.bound in called]
+        for found in modules:
+            module = read_module(partial(data_of, evidence), found.paths[0])
+            if module is not None and name in _defined_in(module):
+                code, dots = raising.text.code(node), "." * node.level
+                above = f"{dots}{node.module or ''}"
+                inner = f"{above}{name}" if above == dots else f"{above}.{name}"
+                new = f"from {inner} import {ast.unparse(node.names[0])}"
+                words = {"name": code, "written": new, "path": module.path, "short": name}
+                return RecognisedMistake(
+                    kind="node.own_module_alone",
+                    params={"name": code, "written": new},
+                    words=words,
+                    variant="called",
+                    where=Where(file=where.file, line=node.lineno),
+                )
+    return None
 
 
 def _is_init(where: Where) -> bool:

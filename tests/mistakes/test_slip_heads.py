@@ -43,6 +43,7 @@ LINES = [
     ("a = (\n    'b': 1,\n    'c': 2,\n}\n", "bracket_opener", 1, "a = {", True),
     ("f(\n    a=1.0),\n    b=2,\n)\n", "closed_early", 2, "a=1.0,", True),
     ("class A:\n    x = 0    def f(self):\n        pass\n", "two_statements", 2, "def f(self):", True),
+    ("a <- function(b) c('d', b)\n", None, 0, "", False),
     # several classes behind except
     ("try:\n    a()\nexcept (B | c.D e):\n    pass\n", "handler_several", 3, "except (B, c.D) as e:", True),
     ("try:\n    a()\nexcept (B, C) e:\n    pass\n", "handler_several", 3, "except (B, C) as e:", True),

@@ -61,7 +61,25 @@ def replaced(case: Case) -> Files | None:
             return case.with_data(
                 entry.file, text.spliced([Splice(at, at + len(entry.text), case.entry)])
             )
-    return None
+    return _written_out(case, entry)
+
+
+def _written_out(case: Case, entry: Entry) -> Files | None:
+    """Write the required entry in place of the only expression that makes the wrong one."""
+    setup = read_setup_call(case) if entry.file == FILE else None
+    if setup is None:
+        return None
+    holders = [n for n in ast.walk(setup.tree) if isinstance(n, ast.Assign | ast.List | ast.Tuple)]
+    values = [v for h in holders for v in ([h.value] if isinstance(h, ast.Assign) else h.elts)]
+    made = [
+        v
+        for v in values
+        if v.lineno == entry.line and isinstance(v, ast.BinOp | ast.JoinedStr | ast.Call)
+    ]
+    if len(made) != 1:
+        return None
+    new = f"{setup.source.quote}{case.entry}{setup.source.quote}"
+    return case.with_data(FILE, setup.source.spliced([setup.source.swap(made[0], new)]))
 
 
 def _in_two_texts(case: Case, text: SourceText) -> Splice | None:

@@ -10,6 +10,7 @@ from grader.package.edit.files import EXECUTABLE, Files
 from grader.package.source.documents import script_of
 from grader.package.source.names import module_name
 from grader.package.source.python import has_no_code
+from grader.package.source.setup_scripts import scripts_line
 
 
 def marker(case: Case) -> Files | None:
@@ -64,6 +65,11 @@ def _with_entry(files: Files, old: str, new: str) -> Files:
     """Let setup.py name the module of a moved file, if it names it exactly once."""
     before, after = (module_name(path) for path in (old, new))
     setup = files.data("setup.py")
+    scripts = scripts_line(setup, old) if setup is not None else None
+    if setup is not None and scripts is not None:
+        rows = setup.split(b"\n")
+        setup = b"\n".join(rows[: scripts[0] - 1] + rows[scripts[0] :])
+        files = files.with_data("setup.py", setup)
     named = re.compile(rf"(?<![\w.]){re.escape(before)}(?![\w.])".encode())
     if setup is None or len(named.findall(setup)) != 1:
         return files

@@ -139,11 +139,29 @@ def constructor(case: Case) -> Files | None:
     found = [m for m in node.own_methods if node.calls_of("__init__", within=m)]
     if len(found) != 1:
         return None
-    text = node.module.text
-    at = text.at(found[0].lineno, found[0].col_offset) + len("def ")
-    if text.text[at : at + len(found[0].name)] != found[0].name:
+    return _as_init(case, node.module, found[0])
+
+
+def constructor_of_object(case: Case) -> Files | None:
+    """Rename the method of another class to __init__."""
+    node, place = case.node, case.finding.file
+    known = (*node.modules, *node.beside) if node is not None else ()
+    found = [
+        (module, n)
+        for module in known
+        for n in module.nodes
+        if isinstance(n, ast.FunctionDef)
+        and (module.path, n.lineno) == (place, case.finding.line)
+        and n.name == case.finding.params.get("name")
+    ]
+    return _as_init(case, *found[0]) if len(found) == 1 else None
+
+
+def _as_init(case: Case, module: Module, method: ast.FunctionDef) -> Files | None:
+    at = module.text.at(method.lineno, method.col_offset) + len("def ")
+    if module.text.text[at : at + len(method.name)] != method.name:
         return None
-    return case.changed(node.module, Splice(at, at + len(found[0].name), "__init__"))
+    return case.changed(module, Splice(at, at + len(method.name), "__init__"))
 
 
 def name(case: Case) -> Files | None:

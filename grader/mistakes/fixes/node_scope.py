@@ -87,7 +87,7 @@ def at_margin(case: Case) -> Files | None:
     """Move the entry function out of the class, if it is the last thing in it."""
     node = case.node
     found = inner_function(node, case.assignment.function) if node is not None else None
-    if node is None or found is None or "self" in {a.arg for a in found.args.args}:
+    if node is None or found is None or {"self", "cls"} & {a.arg for a in found.args.args}:
         return None
     module = node.entry
     if block_of(module, found)[-1] is not found:

@@ -250,14 +250,19 @@ def callback_self(case: Case) -> Files | None:
     node = case.node
     if node is None:
         return None
-    at = [m for m in node.own_methods if m.lineno == case.finding.line]
-    method = at[0] if len(at) == 1 else _timer_method(node)
+    module = node.module_at(case.finding.file)
+    functions = node.own_methods
+    if module is not node.module:
+        functions = [n for n in module.nodes if isinstance(n, ast.FunctionDef)]
+    at = [m for m in functions if m.lineno == case.finding.line]
+    own = _timer_method(node) if module is node.module else None
+    method = at[0] if len(at) == 1 else own
     if method is None or method.decorator_list:
         return None
     if uses_of(method, {argument.arg for argument in needed_besides_self(method)}):
         return None
-    change = only_self(node.module.text, method)
-    return case.changed(node.module, change) if change is not None else None
+    change = only_self(module.text, method)
+    return case.changed(module, change) if change is not None else None
 
 
 def period(case: Case) -> Files | None:

@@ -16,8 +16,10 @@ TRIES = 10
 
 
 def node(case: Case) -> Files | None:
-    """Fix the node's file."""
-    return _fixed(case, case.node_path)
+    """Fix the node's file, or a module of it that is the finding's place."""
+    place = case.finding.file
+    there = place.endswith(".py") and case.files.file(place) is not None
+    return _fixed(case, place if there else case.node_path)
 
 
 def setup_py(case: Case) -> Files | None:

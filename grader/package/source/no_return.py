@@ -53,7 +53,7 @@ def _called(source: NodeSource, call: ast.Call) -> Iterator[Function | ast.Assig
     if method is not None:
         yield method
     yield from _of_helper(source, call)
-    for module in source.modules:
+    for module in source.known_modules:
         if isinstance(call.func, ast.Name) and call.func.id in module.functions:
             yield module.functions[call.func.id]
         for node in module.nodes:
@@ -74,7 +74,7 @@ def _of_helper(source: NodeSource, call: ast.Call) -> Iterator[Function]:
     ]
     value = made[0] if len(made) == 1 else None
     kind = last_part(dotted(value.func)) if isinstance(value, ast.Call) else ""
-    for own in (c for module in source.modules for c in module.classes if c.name == kind):
+    for own in (c for module in source.known_modules for c in module.classes if c.name == kind):
         if own not in source.family:
             yield from (s for s in own.body if isinstance(s, Function) and s.name == method)
 

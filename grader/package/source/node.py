@@ -51,6 +51,11 @@ class NodeSource:
         """The files of the node, by their path in the package."""
         return [module.path for module in self.modules]
 
+    @property
+    def known_modules(self) -> tuple[Module, ...]:
+        """All files that are read: those of the node, and what they import from the package."""
+        return *self.modules, *self.beside
+
     def module_of(self, node: ast.AST) -> Module:
         """Return the file that a piece of syntax is in."""
         return next((m for m in (*self.modules, *self.beside) if m.has(node)), self.module)

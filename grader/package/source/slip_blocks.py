@@ -399,8 +399,13 @@ ENDS_NAME = re.compile(r"[A-Za-z_]\w*\Z")
 OPENS_CALL = re.compile(r"[A-Za-z_]\w*[ \t]*\(")
 
 
+OTHER_WORDS = re.compile(r"<-|\bfunction\b")
+
+
 def two_statements(text: Broken) -> Slip | None:
-    """Return two statements on one line."""
+    """Return two statements on one line, if neither is of another language."""
+    if OTHER_WORDS.search(text.line):
+        return None
     indent = indent_of(text.line)
     for match in list(
         re.finditer(r"(?<=[)\w'\"])[ \t]+(?=[A-Za-z_][\w.]*[ \t]*[(=+-])", text.line)

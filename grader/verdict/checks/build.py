@@ -287,14 +287,24 @@ def _broken(evidence: Evidence) -> Failed:
     if copy is not None and fault is not None:
         return _refused(expected, copy[0], fault)
     last = last_error(build.log)
+    folder_copied = _folder_copied(evidence, last)
     return Failed(
         "build.failed",
         expected=expected,
         actual=last or summary_of(build.log) or ended,
         where=_named_in(_setup_py(evidence), last),
-        variant="last" if last else "",
+        variant="folder_of_files" if folder_copied else "last" if last else "",
         params={"status": -1 if build.status is None else build.status},
+        words={"name": shown(folder_copied)} if folder_copied else {},
     )
+
+
+def _folder_copied(evidence: Evidence, error: str) -> str:
+    """Return the folder of the package that data_files lists like a file; "" if it is none."""
+    match = NO_COPY_OF.search(error)
+    path = match["path"] if match is not None else ""
+    there = any(file.path.startswith(f"{path}/") for file in evidence.submission.files)
+    return path if there else ""
 
 
 def _line_of_cfg(evidence: Evidence, error: str) -> Where | None:
@@ -507,6 +517,12 @@ def _unquoted(found: bytes, error: str) -> ast.Name | None:
     return None
 
 
+OWN_NAME = re.compile(
+    r"cannot import name '(?P<name>\w{1,120})' from '(?P<module>\w{1,120}(?:\.\w{1,120}){0,9})'"
+)
+NO_COPY_OF = re.compile(r"can't copy '[^']{0,300}/build/[^'/]{1,100}/(?P<path>[^']{1,200})'")
+
+
 def _raised(evidence: Evidence, expected: str, error: str, where: Where) -> Failed:
     """Return the error with which setup.py stopped, or the missing comma that it comes from."""
     submission, code = evidence.submission, _setup_py(evidence)
@@ -524,6 +540,14 @@ def _raised(evidence: Evidence, expected: str, error: str, where: Where) -> Fail
     if key is not None:
         place = Where(file="setup.py", line=key.lineno)
         return _stopped_with(expected, error, place, "key", params={"name": key.id})
+    name = OWN_NAME.search(error)
+    path = f"{name['module'].replace('.', '/')}.py" if name is not None else ""
+    own = submission.file(path) or submission.file(f"{path.removesuffix('.py')}/__init__.py")
+    if name is not None and own is not None and own.kind == "file":
+        module = parsed_setup(own.data)
+        close = nearest(name["name"], module.names, cutoff=0.75) if module is not None else ""
+        words = {"name": name["name"], "close": close, "path": own.path}
+        return _stopped_with(expected, error, where, "own_close" if close else "own", words=words)
     imports = missing_imports(code, error)
     if imports:
         words = {"statement": " / ".join(imports)}

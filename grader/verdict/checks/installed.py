@@ -10,7 +10,7 @@ import re
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
-from grader.base.nearest import with_difference
+from grader.base.nearest import nearest, with_difference
 from grader.base.shown import shown
 from grader.package.source.names import dotted
 from grader.package.source.setup_packages import parsed_setup, setup_call
@@ -22,7 +22,7 @@ from grader.verdict.checks.entry_faults import wanted_entry
 from grader.verdict.checks.entry_point import mapping_from_source
 from grader.verdict.checks.parsed import file_of
 from grader.verdict.outcome import Blocked, Failed, Passed
-from grader.verdict.own_names import scripts
+from grader.verdict.own_names import GROUP, SCRIPTS, scripts
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
@@ -43,18 +43,38 @@ def mapping(evidence: Evidence) -> Passed:
     assignment = evidence.assignment
     if not evidence.build.is_installed(assignment.package):
         raise Blocked(by="build.colcon")
-    for line in evidence.build.entry_points.splitlines():
-        name, equals, target = (part.strip() for part in line.partition("="))
-        if equals and name == assignment.executable:
-            if target.replace(" ", "") == assignment.target:
+    for name, target in scripts(evidence.build.entry_points):
+        if name == assignment.executable:
+            if target == assignment.target:
                 entry = f"{name} = {target}"
                 return Passed(actual=say("{entry} (as setup.py computes it)", entry=entry))
             found = f"{name} = {target}"
             raise _computed(evidence, with_difference(found, found, wanted_entry(evidence)))
     if evidence.build.status != 0 and setup_error(evidence.build.log)[0]:
         raise Blocked(by="build.colcon")
-    none = _other_names(evidence)
-    raise _computed(evidence, none)
+    raise _in_other_group(evidence) or _computed(evidence, _other_names(evidence))
+
+
+def _in_other_group(evidence: Evidence) -> Failed | None:
+    """Return that the build has the entry in a group with nearly the name of console_scripts."""
+    name, wanted, group = evidence.assignment.executable, wanted_entry(evidence), ""
+    for row in evidence.build.entry_points.splitlines():
+        heading = GROUP.fullmatch(row.strip())
+        group = heading[1].strip() if heading else group
+        line = _line_of_group(evidence, group)
+        meant = line is not None and nearest("console_scripts", [group], cutoff=0.75)
+        if heading or not meant or row.partition("=")[0].strip() != name:
+            continue
+        said = say("the group is called '{group}'", group=shown(group))
+        return Failed(
+            "setup.group_misspelt",
+            expected=say("'{entry}' in the group 'console_scripts'", entry=wanted),
+            actual=with_difference(said, group, SCRIPTS),
+            where=Where(file="setup.py", line=line),
+            params={"group": shown(group)},
+            words={"wanted": wanted},
+        )
+    return None
 
 
 def _other_name(evidence: Evidence) -> list[str]:
@@ -113,12 +133,12 @@ def _computed(evidence: Evidence, actual: str) -> Failed:
     )
 
 
-def _line_of_group(evidence: Evidence) -> int | None:
-    """Return the one line of setup.py that names console_scripts; None if there are others."""
+def _line_of_group(evidence: Evidence, group: str = SCRIPTS) -> int | None:
+    """Return the one line of setup.py that names a group; None if there are others."""
     file = file_of(evidence, "setup.py")
     module = parsed_setup(file.data) if file is not None else None
     texts = [n for n in module.nodes if isinstance(n, ast.Constant)] if module is not None else []
-    lines = [text.lineno for text in texts if text.value == "console_scripts"]
+    lines = [text.lineno for text in texts if text.value == group]
     return lines[0] if len(lines) == 1 else None
 
 

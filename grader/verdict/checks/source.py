@@ -11,16 +11,16 @@ from grader.base.i18n.message import joined, say
 from grader.base.nearest import nearest, with_difference
 from grader.base.shown import shown
 from grader.mistakes.hints import hints
-from grader.mistakes.slips import KINDS, description, unexplained, words_of
+from grader.mistakes.slips import description, words_of
 from grader.package.edit.text import read_source
 from grader.package.source.broken_python import Slip
 from grader.package.source.documents import code_cells, document_of
 from grader.package.source.names import module_name
 from grader.package.source.newer_python import SINCE, first_difference, with_older_quotes
 from grader.package.source.numbers_above import numbers_above
-from grader.package.source.other_encoding import declaration, kind_of_encoding
 from grader.package.source.pasted import WHOLE_LINES, Pasted, pasted_in
 from grader.package.source.python import SHEBANG, PythonFault, has_no_code, parse_python
+from grader.package.source.setup_scripts import scripts_line
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
 from grader.verdict.checks.actual_node import (
@@ -34,7 +34,8 @@ from grader.verdict.checks.actual_node import (
 )
 from grader.verdict.checks.declare import INTAKE, check
 from grader.verdict.checks.inner_package import node_in_inner_package
-from grader.verdict.checks.parsed import file_of, names_in, node_path, printable_reason
+from grader.verdict.checks.not_python import failed_document, not_python
+from grader.verdict.checks.parsed import data_of, file_of, names_in, node_path, printable_reason
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -69,11 +70,11 @@ def node_file(evidence: Evidence) -> Passed:
         raise _empty(evidence, path, file.data)
     document = document_of(file.data)
     if document is not None:
-        raise _document(path, document)
+        raise failed_document(path, document)
     try:
         parsed = parse_python(file.data)
     except PythonFault as fault:
-        raise _not_python(path, fault, file.data) from None
+        raise not_python(path, fault, file.data) from None
     if evidence.distro is not None and evidence.distro.python_version < SINCE:
         _older_python(path, parsed.text)
     folder = path.removesuffix(".py")
@@ -304,6 +305,7 @@ def _misplaced(evidence: Evidence, place: str, *, is_inside: bool) -> Failed:
     path, inner = node_path(evidence), evidence.assignment.folder
     actual, place = say("it is in {path}", path=shown(place)), shown(place)
     movable = is_inside and evidence.submission.file(inner) is not None
+    scripts = scripts_line(data_of(evidence, "setup.py") or b"", place) if is_inside else None
     if not is_inside:
         actual = say("it is in {path}, outside of the package", path=place)
     return Failed(
@@ -313,7 +315,7 @@ def _misplaced(evidence: Evidence, place: str, *, is_inside: bool) -> Failed:
         where=Where(file=place) if is_inside else None,
         variant="folder"
         if _is_inner(evidence, place)
-        else _way(evidence, place)
+        else ("scripts" if scripts else _way(evidence, place))
         if movable
         else "",
         params={"path": place},
@@ -324,13 +326,16 @@ def _misplaced(evidence: Evidence, place: str, *, is_inside: bool) -> Failed:
             "there": shlex.quote(place),
             "module": module_name(path),
             "module_there": module_name(place),
+            "line": str(scripts[0]) if scripts else "",
+            "code": shown(scripts[1]) if scripts else "",
         },
     )
 
 
 def _way(evidence: Evidence, place: str) -> str:
     """Return the variant of a file that can be moved: Python finds it if the entry leads to it."""
-    return "entry" if of_entry(evidence) == place else "inside"
+    is_named = place == f"{node_path(evidence).removesuffix('.py')}/__init__.py"
+    return "entry" if of_entry(evidence) == place and not is_named else "inside"
 
 
 def _several(path: str, paths: list[str], expected: str) -> Failed:
@@ -343,51 +348,6 @@ def _several(path: str, paths: list[str], expected: str) -> Failed:
         where=Where(file=path),
         variant="several",
         words={"path": path, "copy": "", "files": files},
-    )
-
-
-def _not_python(path: str, fault: PythonFault, found: bytes) -> Failed:
-    text = printable_reason(fault.text)
-    slip = slip_of(found)
-    if slip is not None:
-        return _slip(path, text, fault.kind, slip)
-    code = say("in: {code}", code=shown(fault.shown)) if fault.shown else ""
-    declared = declaration(found) if fault.kind == "encoding" else None
-    line, name = declared or (fault.line, "")
-    return Failed(
-        "source.not_utf8" if fault.kind == "encoding" else "source.syntax_error",
-        expected=say("a file that Python can read"),
-        actual=joined(text, code, by=", "),
-        where=Where(file=path, line=line),
-        words={"line": str(line), "found": shown(name), "part": shown(fault.part)},
-        variant=kind_of_encoding(found) if fault.kind == "encoding" else unexplained(fault),
-        params={"error": str(text), "kind": fault.kind},
-    )
-
-
-def _slip(path: str, text: str, kind: str, slip: Slip) -> Failed:
-    mistake = KINDS.get(slip.cause, "source.syntax_error")
-    params = {"error": str(text), "kind": kind}
-    return Failed(
-        mistake,
-        expected=say("a file that Python can read"),
-        actual=joined(text, description(slip), by=", "),
-        where=Where(file=path, line=slip.line),
-        variant=slip.variant,
-        params={"what": slip.variant} if slip.cause in ("pasted", "document") else params,
-        words={**words_of(slip), "file": shown(path.rpartition("/")[2])},
-    )
-
-
-def _document(path: str, document: Slip) -> Failed:
-    return Failed(
-        "source.pasted",
-        expected=say("a file that Python can read"),
-        actual=description(document),
-        where=Where(file=path, line=document.line),
-        variant=document.variant,
-        params={"what": document.variant},
-        words={**words_of(document), "file": shown(path.rpartition("/")[2])},
     )
 
 
