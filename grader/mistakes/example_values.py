@@ -424,6 +424,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "type": "range",
         "written": "self.numbers()",
         "line": 14,
+        "function": "step",
+        "names": "log, numbers",
     },
     "node.pop_from_the_end": {"name": "self.numbers.pop()", "written": "self.numbers.pop(0)"},
     "node.starts_as_truth_value": {"name": "False", "written": "0"},
@@ -947,6 +949,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "called": "MyNode()",
         "line": "8",
         "written": "start=",
+        "type": "Wording",
     },
     "node.argument_twice": {
         "name": "timer_period_sec",

@@ -25,7 +25,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, own_name
-from grader.package.source.place import statement_at
+from grader.package.source.place import block_of, statement_at
 
 OF_LISTS = ("append", "extend", "insert", "sort", "reverse", "clear", "update", "add")
 STARTERS = ("run", "Popen", "call", "check_call", "check_output", "execv", "execvp", "spawn")
@@ -63,12 +63,35 @@ def _none_attribute(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
     found = raised.finding("none_used", name=code)
     function = _gives_nothing(raised, used[0])
     if function is None:
+        below = _set_below(raised, code)
+        if below:
+            return replace(found, words={**found.words, **below}, variant="below")
         later = _set_in_uncalled(raised, code)
         return (
             replace(found, words={**found.words, **later}, variant="uncalled") if later else found
         )
     words = {**found.words, "function": function.name, "line": function.lineno}
     return replace(found, words=words, variant="function")
+
+
+def _set_below(raised: Raised, name: str) -> dict[str, str]:
+    """Return the line below this one, in the same block, that first gives a name a value."""
+    here = statement_at(raised.module, raised.line)
+    around = block_of(raised.module, here) if here is not None else []
+    sets = [n for n in raised.module.nodes if name in targets_of(n) and isinstance(n, ast.stmt)]
+    values = [s for s in sets if not _is_none(getattr(s, "value", None))]
+    below = [s for s in values if here is not None and s in around and s.lineno > here.lineno]
+    if here is None or len(below) != 1 or values != below or not isinstance(below[0], ast.Assign):
+        return {}
+    between = [s for s in around if here.lineno < s.lineno <= below[0].lineno]
+    made = set(targets_of(here)) - {name}
+    if any(dotted(n) in made for s in between for n in ast.walk(s)):
+        return {}
+    return {"line": str(below[0].lineno)}
+
+
+def _is_none(value: ast.AST | None) -> bool:
+    return isinstance(value, ast.Constant) and value.value is None
 
 
 def _set_in_uncalled(raised: Raised, name: str) -> dict[str, str]:
@@ -405,12 +428,16 @@ KINDS = (
                 "{function} changes the list itself, and gives back None. This line puts that None in "
                 "the place of the list."
             ),
+            "below": msg(
+                "{name} is None until line {line} runs, and line {line} is below this line."
+            ),
             "uncalled": msg(
                 "{name} is None until line {line} runs. That line is in {function}, which nothing calls."
             ),
         },
         fixes={
             "changes_list": msg("Write only {written} instead of {name}."),
+            "below": msg("Move this line below line {line}."),
             "uncalled": msg(
                 "Write self.{function}() in __init__, above the line that creates the timer. Or set "
                 "{name} there to the value of line {line}, instead of None."
@@ -437,6 +464,18 @@ KINDS = (
                 Replace(NODE, "self.counter_ += 1", "self.counter_ = self.counter_.append(1)"),
                 fails="run.output",
                 blocks=("run.period", "run.interrupt"),
+            ),
+            example(
+                "none_until_a_line_below",
+                Replace(
+                    NODE,
+                    "        self.create_timer(",
+                    "        self.period = None\n"
+                    "        self.get_logger().debug(str(self.period.real))\n"
+                    "        self.period = 1.0\n"
+                    "        self.create_timer(",
+                ),
+                fails="run.starts",
             ),
             example(
                 "names_are_what_append_returns",
