@@ -17,7 +17,7 @@ from grader.package.edit.files import Files
 from grader.package.edit.text import indent_of
 from grader.package.edit.tree import Replace
 from grader.package.source.module import Function
-from grader.package.source.names import dotted
+from grader.package.source.names import called_name, dotted
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of
 from grader.package.source.unreached import Unreached, exits, unreached
@@ -28,7 +28,9 @@ LONGEST = 60  # characters of a condition in a text
 
 
 def _not_reached(suspect: Suspect) -> RecognisedMistake | None:
-    found = unreached(suspect.source, suspect.source.calls_of(*SPINS))
+    source = suspect.source
+    spins = source.calls_of(*SPINS) or [c for c, _ in source.calls if called_name(c) in SPINS]
+    found = unreached(source, spins)
     if found is None:
         return None
     if isinstance(found.at, ast.ExceptHandler):

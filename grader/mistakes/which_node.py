@@ -101,8 +101,21 @@ def _executor_without_node(suspect: Suspect) -> RecognisedMistake | None:
     for call, name in suspect.source.calls:
         before, _, method = name.rpartition(".")
         if method in SPINS and before in executors(suspect) - given:
-            return suspect.finding("executor_without_node", call, name=before)
+            return _never_added(suspect, call, before)
     return None
+
+
+def _never_added(suspect: Suspect, call: ast.Call, owner: str) -> RecognisedMistake:
+    """Return that an executor has no node: with the node to add, if main has it in one variable."""
+    source, main = suspect.source, suspect.source.function_around(call)
+    code = source.module_of(call).text.code(call)
+    found = suspect.finding("executor_without_node", call, name=owner)
+    made = [n for n in ast.walk(main) if isinstance(n, ast.Assign)] if main is not None else []
+    nodes = {t for n in made for t in targets_of(n)} & source.node_variables
+    if len(nodes) != 1 or "\n" in code:
+        return replace(found, words={**found.words, "written": code}, variant="unknown")
+    params = {"node": min(nodes), "written": code}
+    return replace(found, params={**found.params, **params}, words={**found.words, **params})
 
 
 def _node_to_spin(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -160,9 +173,10 @@ def _none_is_spun(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
 def _value_lost(raised: Raised, lost: NotReturned, name: str) -> RecognisedMistake:
     """Return that the function which makes the node does not return it."""
     code = f"return {lost.variable}" if lost.variable else ""
-    params = {"name": name, "written": code} if code else {"name": name}
+    params = {"name": name, "function": lost.function.name}
+    params |= {"written": code} if code else {}
     found = raised.finding("spin_of_none", at=lost.function.body[-1], params=params)
-    words = {"function": lost.function.name, "line": str(lost.used.lineno)}
+    words = {"line": str(lost.used.lineno)}
     variant = "returned" if code else "unreturned"
     return replace(found, words={**found.words, **words}, variant=variant)
 
@@ -761,7 +775,7 @@ KINDS = (
         msg(
             "An executor calls the callbacks of the nodes that were added to it, and of no others."
         ),
-        msg("Write {name}.add_node(node) before {name}.spin()."),
+        msg("Write {name}.add_node({node}) on a line above {written}, and outside of a loop."),
         whys={
             "late": msg(
                 "spin waits until Ctrl+C: line {line}, which gives the node to the executor, is not "
@@ -772,6 +786,10 @@ KINDS = (
         },
         fixes={
             "late": msg("Move line {line} ({name}.add_node) above this line."),
+            "unknown": msg(
+                "Write {name}.add_node() with the node in the () on a line above {written}, and outside of "
+                "a loop."
+            ),
             "given": msg(
                 "Write {name}.add_node({node}) on a line of its own above this line, and "
                 "{name}.spin() in this line."
