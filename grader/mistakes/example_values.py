@@ -212,6 +212,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.self_misspelt": {"name": "slef", "method": "callback"},
     "node.dot_for_comma": {"name": "1.0. self", "written": "1.0, self"},
     "node.period_zero": {"name": "0", "written": "1.0"},
+    "node.period_far_too_long": {"name": "rate * 60", "value": "60", "written": "1.0"},
     "node.period_tiny": {"name": "1e-6", "written": "1.0"},
     "node.call_assigned": {
         "name": "self.create_timer = (0.5, self.callback)",
