@@ -11,7 +11,7 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.constructor import lines_of
-from grader.mistakes.example import DEAD, LOG, NODE, example
+from grader.mistakes.example import DEAD, LOG, NODE, STEP_LINE, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, on_line
@@ -101,6 +101,8 @@ def _missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """The call gives no value to several parameters, or to one of a helper."""
     names = re.findall(r"'(\w{1,120})'", match["names"])
     found = _called(raised, match["function"])
+    if found is not None and names == ["self"]:
+        return _class_alone(raised, found, match["function"])
     if found is None or "self" in names or _is_of_class(found, match["function"]):
         return None
     of_class = _class_for_object(raised, found, match["function"])
@@ -151,6 +153,22 @@ def _class_for_object(raised: Raised, found: _Called, function: str) -> Recognis
     return replace(told, variant="class_given")
 
 
+def _class_alone(raised: Raised, found: _Called, function: str) -> RecognisedMistake | None:
+    """A method is called on the class with no value, and the class stands at one place as a value."""
+    owner, call = last_part(function.rpartition(".")[0]), found.call
+    named = call.func.value if isinstance(call.func, ast.Attribute) else None
+    bare = [
+        n for n in raised.source.all_nodes if isinstance(n, ast.Name) and _is_bare(raised, n, owner)
+    ]
+    if named is None or dotted(named) == owner or len(bare) != 1 or call.args or call.keywords:
+        return None
+    if not _needs_nothing(raised, owner):
+        return None
+    called = f"{raised.module.text.code(call.func)}()"
+    params = {"name": owner, "written": f"{owner}()", "called": called, "line": str(raised.line)}
+    return replace(raised.finding("own_call", at=bare[0], params=params), variant="class_alone")
+
+
 def _is_bare(raised: Raised, node: ast.Name, owner: str) -> bool:
     """Whether a name is that of the class, and stands as a value: of a call, or of a variable."""
     if node.id != owner:
@@ -165,8 +183,12 @@ def _needs_nothing(raised: Raised, owner: str) -> bool:
     """Whether an object of a class can be made with nothing in the ()."""
     classes = [c for m in raised.source.modules for c in m.classes if c.name == owner]
     heads = [s for s in classes[0].body if isinstance(s, Function) and s.name == "__init__"]
-    if len(classes) != 1 or classes[0].decorator_list:
+    if len(classes) != 1:
         return False
+    if classes[0].decorator_list:
+        fields = [n for n in classes[0].body if isinstance(n, ast.AnnAssign)]
+        known = [dotted(d) in DATACLASS for d in classes[0].decorator_list] == [True]
+        return known and not classes[0].bases and all(n.value is not None for n in fields)
     given = heads[0].args if heads else None
     return given is None or len(given.args) - 1 <= len(given.defaults)
 
@@ -339,6 +361,10 @@ KINDS = (
                 "{name} is the class {type} itself here, and not an object of it. So Python passes no self, "
                 "and the first value of the call goes to self."
             ),
+            "class_alone": msg(
+                "{name} without () is the class itself, and not an object of it. So {called} in line {line} "
+                "passes no self."
+            ),
             "class_given": msg(
                 "{name} without () is the class itself, and not an object of it. So {called} in line {line} "
                 "passes no self, and its first value goes to self."
@@ -371,6 +397,7 @@ KINDS = (
                 "Find where {name} gets its value. Create an object there: write () behind the name of the "
                 "class, with the values that its __init__ needs."
             ),
+            "class_alone": msg("Write {written} instead of {name}: the () create an object."),
             "class_given": msg("Write {written} instead of {name}: the () create an object."),
             "near": msg("Write {written} instead of {name} on this line."),
             "unknown": msg(
@@ -394,6 +421,21 @@ KINDS = (
         },
         fixed_by=(lines.written,),
         examples=(
+            example(
+                "class_of_a_helper_has_no_self",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class Ticks:\n    def __init__(self):\n        self.n = -1\n\n"
+                    "    def forward(self):\n        self.n += 1\n        return self.n\n\n\n"
+                    "class MyFirstNode",
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = Ticks"),
+                Replace(NODE, "str(self.counter_)", "str(self.counter_.forward())"),
+                Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "class_of_a_helper_for_its_object",
                 Replace(
