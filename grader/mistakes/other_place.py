@@ -217,7 +217,7 @@ def _flag_lost(suspect: Suspect) -> RecognisedMistake | None:
     return replace(told, variant="flag")
 
 
-def _with_global(case: Case) -> Files | None:
+def with_global(case: Case) -> Files | None:
     """Write the global as the first line of the function."""
     module, params = read_module(case.files.data, case.finding.file), case.finding.params
     made = module.functions.get(str(params.get("function", ""))) if module is not None else None
@@ -328,7 +328,7 @@ KINDS = (
             ),
             r"AttributeError: 'NoneType' object has no attribute '(?:executor|handle)'": _spun_lost,
         },
-        fixed_by=(_with_global,),
+        fixed_by=(with_global,),
         examples=(
             example(
                 "node_of_the_file_without_global",
