@@ -70,6 +70,8 @@ def _without_brackets(where: Raised | Suspect, timer: Timer) -> RecognisedMistak
         found = where.finding("callback_called", at=timer.call, written=written)
     code = source.module_of(timer.call).text.code
     given = code(call) if call is not None else ""
+    if variant in ("lambda", "partial_here"):  # (nothing else of the file has to change)
+        found = replace(found, params={**found.params, "name": given})
     return replace(found, words={**found.words, "name": given}, variant=variant or found.variant)
 
 
