@@ -23,6 +23,7 @@ from grader.mistakes.recognised import (
 )
 from grader.mistakes.timer_period import TIMER
 from grader.package.edit.tree import Replace
+from grader.package.source.imported import imports
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
 from grader.package.source.node import NodeSource
@@ -34,6 +35,11 @@ WORDS = ("timer", "callback", "on", "log", "hello", "say", "count", "counter", "
 CALLED = msg(
     "create_timer takes the period in seconds and the callback itself, and calls it later. With () "
     "after its name the callback runs now, and its result (None) is passed instead."
+)
+
+KEPT = msg(
+    "create_timer takes the period in seconds and the callback itself, and calls it later. {name} runs "
+    "now, and its result (None) is passed instead. The timer calls its callback with nothing in the ()."
 )
 
 
@@ -55,13 +61,40 @@ def _without_brackets(where: Raised | Suspect, timer: Timer) -> RecognisedMistak
             return None  # (a function of a library: what it is for is not known)
         named, variant = own[0], "wrapped"
     written = source.module_of(named).text.code(named)
+    if isinstance(call, ast.Call) and not variant:
+        kept = _with_its_values(source, call)
+        variant, written = kept if kept is not None else (variant, written)
     if isinstance(where, Suspect):
         found = where.finding("callback_called", timer.call, written=written)
     else:
         found = where.finding("callback_called", at=timer.call, written=written)
     code = source.module_of(timer.call).text.code
     given = code(call) if call is not None else ""
+    if variant in ("lambda", "partial_here"):  # (nothing else of the file has to change)
+        found = replace(found, params={**found.params, "name": given})
     return replace(found, words={**found.words, "name": given}, variant=variant or found.variant)
+
+
+def _with_its_values(source: NodeSource, call: ast.Call) -> tuple[str, str] | None:
+    """Return how a callback is passed that needs the values of its call, and the variant that says so."""
+    module, name = source.module_of(call), last_part(dotted(call.func))
+    made = [n for n in module.nodes if isinstance(n, Function) and n.name == name]
+    given = _given(call)
+    if len(made) != 1 or not given or any(isinstance(a, ast.Starred) for a in call.args):
+        return None
+    needed = [a.arg for a in made[0].args.args]
+    bound = dotted(call.func).startswith("self.") or needed[:1] == ["self"]
+    if len(given) > len(needed) - bound or any(k.arg is None for k in call.keywords):
+        return None
+    code, shown_call = module.text.code, module.text.code(call)
+    if "\n" in shown_call:
+        return None
+    if not any(isinstance(n, ast.Call) for part in given for n in ast.walk(part)):
+        return "lambda", f"lambda: {shown_call}"
+    values = ", ".join([code(call.func), *map(code, call.args)])
+    named = [f"{k.arg}={code(k.value)}" for k in call.keywords]
+    here = any(bound == "partial" for bound, _, _ in imports(module))
+    return "partial_here" if here else "partial", f"partial({', '.join([values, *named])})"
 
 
 def _given(call: ast.Call) -> list[ast.expr]:
@@ -172,12 +205,22 @@ KINDS = (
         msg("create_timer gets a call instead of the callback"),
         CALLED,
         msg("Remove the () after the callback's name: create_timer({period}, {written})"),
-        fixes={"wrapped": msg("Pass the callback itself: write {written} instead of {name}.")},
+        fixes={
+            "wrapped": msg("Pass the callback itself: write {written} instead of {name}."),
+            "lambda": msg("Write {written} instead of {name}."),
+            "partial": msg(
+                "Write {written} instead of {name}, and from functools import partial among the imports."
+            ),
+            "partial_here": msg("Write {written} instead of {name}."),
+        },
         whys={
+            "lambda": KEPT,
+            "partial": KEPT,
+            "partial_here": KEPT,
             "wrapped": msg(
                 "create_timer takes the period in seconds and the callback itself, and calls it later. "
                 "{name} runs now, and its result (None) is passed instead."
-            )
+            ),
         },
         seen=r"TypeError: 'NoneType' object is not callable"
         r"|UnboundLocalError: .{0,60}'arg_name'",
@@ -187,8 +230,17 @@ KINDS = (
             OWN_ATTRIBUTE: _called_early,
         },
         behind={"run.by_hand": _calls_back_at_once},
-        fixed_by=(node_timer.callback,),
+        fixed_by=(node_timer.callback, lines.written),
         examples=(
+            example(
+                "callback_called_with_its_values",
+                Replace(NODE, "self.timer_callback)", "self.timer_callback('Hello time: '))"),
+                Replace(NODE, "def timer_callback(self)", "def timer_callback(self, text)"),
+                Replace(NODE, "'Hello time: ' + str", "text + str"),
+                fails="run.output",
+                also={"run.period": "node.callback_called"},
+                blocks=("run.interrupt",),
+            ),
             example(
                 "brackets_behind_callback",
                 Replace(NODE, "self.timer_callback)", "self.timer_callback())"),

@@ -179,8 +179,14 @@ def _without_name(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     found, call = raised.finding("super_without_name"), raised.source.super_init
     if call is None or raised.line not in lines_of(call) or not call.args:
         return found
-    on_class = dotted(call.func).endswith("Node.__init__")
-    return replace(found, variant="on_class") if on_class else found
+    if not dotted(call.func).endswith("Node.__init__"):
+        return found
+    code = raised.source.module_of(call).text.code
+    name, given = code(call), [*call.args, *(k.value for k in call.keywords)]
+    if "\n" in name or len(given) != 1 or call.keywords:
+        return replace(found, variant="on_class")
+    params = {"name": name, "written": f"super().__init__({code(call.args[0])})"}
+    return replace(raised.finding("super_without_name", params=params), variant="on_class_only")
 
 
 def _init_no_self(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -325,6 +331,10 @@ def _super_bare(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     return replace(raised.finding("super_not_called", params=params), variant="written")
 
 
+ON_CLASS = msg(
+    "Node.__init__ is called on the class. There the first argument is self, so your string is taken for "
+    "self, and the name is missing. super() passes self on its own."
+)
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -625,12 +635,8 @@ KINDS = (
         msg("A node needs a name: ros2 node list and the log show it."),
         SUPER,
         seen=r"TypeError: Node\.__init__\(\) missing 1 required positional argument: 'node_name'",
-        whys={
-            "on_class": msg(
-                "Node.__init__ is called on the class. There the first argument is self, so your "
-                "string is taken for self, and the name is missing. super() passes self on its own."
-            )
-        },
+        whys={"on_class": ON_CLASS, "on_class_only": ON_CLASS},
+        fixes={"on_class_only": msg("Write {written} instead of {name}.")},
         raised={NO_NODE_NAME: _without_name},
         fixed_by=(node_life.own_init, node_life.name),
         examples=(

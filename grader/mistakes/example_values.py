@@ -219,6 +219,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.self_misspelt": {"name": "slef", "method": "callback"},
     "node.dot_for_comma": {"name": "1.0. self", "written": "1.0, self"},
     "node.period_zero": {"name": "0", "written": "1.0"},
+    "node.period_far_too_long": {"name": "rate * 60", "value": "60", "written": "1.0"},
     "node.period_tiny": {"name": "1e-6", "written": "1.0"},
     "node.call_assigned": {
         "name": "self.create_timer = (0.5, self.callback)",
@@ -431,6 +432,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "type": "range",
         "written": "self.numbers()",
         "line": 14,
+        "function": "step",
+        "names": "log, numbers",
     },
     "node.pop_from_the_end": {"name": "self.numbers.pop()", "written": "self.numbers.pop(0)"},
     "node.starts_as_truth_value": {"name": "False", "written": "0"},
@@ -971,6 +974,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "called": "MyNode()",
         "line": "8",
         "written": "start=",
+        "type": "Wording",
     },
     "node.argument_twice": {
         "name": "timer_period_sec",

@@ -23,6 +23,7 @@ from grader.package.source.node import LOG_METHODS
 from grader.package.source.place import function_at
 
 NO_TEXT = r"TypeError: rclpy_logging_rcutils_log\(\): incompatible function arguments"
+PERCENT = r"%[-+ 0#]*\d*(?:\.\d+)?[diufFeEgGxXosrc]"
 TEXT = "'Hello time: ' + str(self.counter_)"
 
 
@@ -163,10 +164,32 @@ def _of_value(raised: Raised, value: ast.expr) -> RecognisedMistake | None:
     if isinstance(value, ast.List | ast.Tuple | ast.Set) and value.elts:
         if any(isinstance(part, ast.Starred) for part in value.elts) or not _is_line(raised, value):
             return None
+        if _has_places(value.elts[0]):
+            return _with_places(raised, value)
         written = " + ".join(_as_text(text.code(part), part) for part in value.elts)
         kind = type(value).__name__.lower()
         return _finding(raised, value, code, written, kind)
     return None
+
+
+def _has_places(part: ast.expr) -> bool:
+    """Whether a text has places for values: %d or {}."""
+    text = part.value if isinstance(part, ast.Constant) else ""
+    return isinstance(text, str) and bool(re.search(PERCENT, text) or "{" in text)
+
+
+def _with_places(raised: Raised, value: ast.List | ast.Tuple | ast.Set) -> RecognisedMistake | None:
+    """The values for the places of a text stand behind a comma, as those of printf do."""
+    first, *rest = value.elts
+    text, module = getattr(first, "value", ""), raised.source.module_of(value)
+    codes = ", ".join(module.text.code(part) for part in rest)
+    percent, braces = re.findall(PERCENT, text), text.count("{}")
+    plain = len(rest) == 1 and isinstance(rest[0], ast.Name | ast.Attribute | ast.Call)
+    if not rest or (bool(percent) == bool(braces)) or len(rest) != (len(percent) or braces):
+        return None
+    behind = f" % {codes}" if plain else f" % ({codes})"
+    written = module.text.code(first) + (behind if percent else f".format({codes})")
+    return _finding(raised, value, module.text.code(value), written, "places")
 
 
 def _is_line(raised: Raised, value: ast.List | ast.Tuple | ast.Set) -> bool:
@@ -207,6 +230,10 @@ KINDS = (
                 "Values in braces are a set, and no text. Line {line} logs it. In Python, + joins "
                 "texts."
             ),
+            "places": msg(
+                "Values with a comma between them are several values, and no text. Line {line} logs them. "
+                "A comma does not put a value into the text before it."
+            ),
             "method": msg("{name} is a method, and no text: with (), Python calls it."),
             "message": msg(
                 "{name} is a message of the type {type}, and no text. The logger needs the text that "
@@ -245,6 +272,12 @@ KINDS = (
             example(
                 "logged_tuple",
                 Replace(NODE, TEXT, "('Hello time: ', self.counter_)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "logged_tuple_as_of_printf",
+                Replace(NODE, TEXT, "('Hello time: %d', self.counter_)"),
                 fails="run.output",
                 blocks=DEAD,
             ),

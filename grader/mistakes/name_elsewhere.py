@@ -12,6 +12,7 @@ from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
+from grader.mistakes.other_place import with_global
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
@@ -126,10 +127,27 @@ def _local(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return replace(mistake, variant=variant, params=given, words={**mistake.words, **given})
     if len(found) == 1 and isinstance(found[0].part, Function) and _is_apart(found[0].part, owner):
         return replace(mistake, variant="def")
+    if isinstance(here, Function) and _is_of_timer(raised, owner, here, found):
+        return replace(
+            mistake,
+            variant="global",
+            params={**params, "word": "global"},
+            words={**mistake.words, "called": here.name},
+        )
     passed = _passed(raised, owner, here)
     words = {**mistake.words, "head": passed[0], "others": passed[1]} if passed else mistake.words
     called = here.name if isinstance(here, Function) else ""
     return replace(mistake, variant="pass" if passed else "", words={**words, "called": called})
+
+
+def _is_of_timer(raised: Raised, owner: Function, here: Function, found: list[Bound]) -> bool:
+    """Whether only a timer calls the function: it runs after the other one has set the name."""
+    module = raised.module
+    plain = all(_is_assigned(module, bound.part) for bound in found)
+    of_file = all(module.functions.get(each.name) is each for each in (owner, here))
+    called = any(isinstance(n, ast.Call) and dotted(n.func) == here.name for n in module.nodes)
+    timed = any(timer.method == here.name for timer in raised.source.timers)
+    return plain and of_file and timed and not called and here is not owner
 
 
 def _as_attribute(
@@ -239,6 +257,11 @@ def _kept(case: Case) -> Files | None:
     return case.changed(module, *(module.text.swap(n, new) for n in parts))
 
 
+def _global(case: Case) -> Files | None:
+    """Write the global in the function that sets the name."""
+    return with_global(case) if case.finding.params.get("word") else None
+
+
 _node = Family("node", links.PYTHON_CLASSES)
 KINDS = (
     _node(
@@ -295,14 +318,34 @@ KINDS = (
                 "Move def {name} (line {line}) and its lines out of {function}, to the left margin "
                 "of the file."
             ),
+            "global": msg(
+                "Write global {name} as the first line of {function}: {name} is a variable of the file then, "
+                "and {called} can read it."
+            ),
             "pass": msg(
                 "Add {name} to the parameters of {called} (line {head}), and pass {name} in the () "
                 "behind {called} in line {others}."
             ),
         },
         raised={NAME_ERROR: _local},
-        fixed_by=(_kept,),
+        fixed_by=(_kept, _global),
         examples=(
+            example(
+                "node_of_main_in_callback_of_the_file",
+                Replace(
+                    NODE,
+                    "def main(args=None):",
+                    "def beat():\n    node.timer_callback()\n\n\ndef main(args=None):",
+                ),
+                Replace(NODE, "        self.create_timer(1.0, self.timer_callback)\n", ""),
+                Replace(
+                    NODE,
+                    "node = MyFirstNode()\n",
+                    "node = MyFirstNode()\n    node.create_timer(1.0, beat)\n",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "init_above_main",
                 Replace(NODE, "    rclpy.init(args=args)\n", ""),

@@ -152,8 +152,22 @@ def _not_spun(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
             continue
         code = raised.module.text.code(given)
         node = variables[0] if len(variables) == 1 else "node"
+        if variables and not any(_is_seen_by(raised, call, name) for name in variables):
+            return None  # (a variable of another function)
         return raised.finding("spin_of_other", at=call, name=code, written=node)
     return None
+
+
+def _is_seen_by(raised: Raised, call: ast.Call, name: str) -> bool:
+    """Whether a variable is one of the function that has a call, or of the file."""
+    function = raised.source.function_around(call)
+    inside = list(ast.walk(function)) if function is not None else []
+    passed = any(isinstance(n, ast.arg) and n.arg == name for n in inside)
+    return (
+        "." in name
+        or passed
+        or any(name in targets_of(n) for n in (*inside, *raised.module.tree.body))
+    )
 
 
 def _spin_with_more(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:

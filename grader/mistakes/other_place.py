@@ -29,10 +29,12 @@ from grader.package.source.counter import targets_of
 from grader.package.source.guard import is_guard
 from grader.package.source.lost_flag import lost_flag
 from grader.package.source.module import Function, Module
+from grader.package.source.names import dotted, last_part
 from grader.package.source.node import read_module
 from grader.package.source.place import statement_at
 from grader.package.source.scopes import bindings, has_self, scope_of
 
+SPINS = ("spin", "spin_once", "spin_until_future_complete", "add_node")
 NO_SELF = (
     r"AttributeError: (?:'\w{1,120}' object|type object '\w{1,120}'|module '[\w.]{1,120}') "
     r"has no attribute 'self'"
@@ -164,13 +166,31 @@ def _is_none_in_file(module: Module, name: str) -> bool:
 
 def _global_lost(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A variable of the file stays None, because a function sets its own one of the same name."""
-    module = raised.module
-    used = [n for n in _parts(raised, ast.Attribute) if getattr(n, "attr", "") == match["name"]]
+    used: list[ast.AST] = [
+        n for n in _parts(raised, ast.Attribute) if getattr(n, "attr", "") == match["name"]
+    ]
     base = getattr(used[0], "value", None) if len(used) == 1 else None
+    return _lost(raised, base)
+
+
+def _spun_lost(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The same, where rclpy.spin or add_node gets the variable as the node."""
+    del match
+    given = [
+        call.args[-1]
+        for call in _parts(raised, ast.Call)
+        if isinstance(call, ast.Call) and last_part(dotted(call.func)) in SPINS and call.args
+    ]
+    return _lost(raised, given[0]) if len(given) == 1 else None
+
+
+def _lost(raised: Raised, base: ast.AST | None) -> RecognisedMistake | None:
+    """Look for the only function that sets a variable of its own instead of this one of the file."""
+    module = raised.module
     name = base.id if isinstance(base, ast.Name) else ""
     if not name or not _is_none_in_file(module, name):
         return None
-    here = scope_of(module, used[0])
+    here = scope_of(module, base) if base is not None else None
     inside = [b for b in bindings(module, name) if b.scope is not None]
     setters = {b.scope for b in inside}
     owner = inside[0].scope if len(setters) == 1 else None
@@ -197,7 +217,7 @@ def _flag_lost(suspect: Suspect) -> RecognisedMistake | None:
     return replace(told, variant="flag")
 
 
-def _with_global(case: Case) -> Files | None:
+def with_global(case: Case) -> Files | None:
     """Write the global as the first line of the function."""
     module, params = read_module(case.files.data, case.finding.file), case.finding.params
     made = module.functions.get(str(params.get("function", ""))) if module is not None else None
@@ -305,9 +325,10 @@ KINDS = (
         raised={
             r"AttributeError: 'NoneType' object has no attribute '(?P<name>\w{1,120})'": on_line(
                 _global_lost
-            )
+            ),
+            r"AttributeError: 'NoneType' object has no attribute '(?:executor|handle)'": _spun_lost,
         },
-        fixed_by=(_with_global,),
+        fixed_by=(with_global,),
         examples=(
             example(
                 "node_of_the_file_without_global",

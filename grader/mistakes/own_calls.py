@@ -11,7 +11,7 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.constructor import lines_of
-from grader.mistakes.example import DEAD, LOG, NODE, example
+from grader.mistakes.example import DEAD, LOG, NODE, STEP_LINE, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, on_line
@@ -101,8 +101,13 @@ def _missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """The call gives no value to several parameters, or to one of a helper."""
     names = re.findall(r"'(\w{1,120})'", match["names"])
     found = _called(raised, match["function"])
+    if found is not None and names == ["self"]:
+        return _class_alone(raised, found, match["function"])
     if found is None or "self" in names or _is_of_class(found, match["function"]):
         return None
+    of_class = _class_for_object(raised, found, match["function"])
+    if of_class is not None:
+        return of_class
     alone = len(names) == 1 and "positional" in match[0]
     owner, method = match["function"].rpartition(".")[::2]
     own = raised.source.method(method) is not None or owner in raised.source.known_classes
@@ -118,6 +123,74 @@ def _is_of_class(found: _Called, function: str) -> bool:
     given = [dotted(value) for value in found.call.args[:1]]
     of_class = bool(made) and made[0].arg == "self" and "." in function
     return of_class and dotted(found.call.func) == function and given != ["self"]
+
+
+def _class_for_object(raised: Raised, found: _Called, function: str) -> RecognisedMistake | None:
+    """The call fits, but what it is called on is the class: the first value went to self."""
+    made, call, owner = found.made, found.call, last_part(function.rpartition(".")[0])
+    own = (
+        isinstance(made, Function) and bool(made.args.args) and isinstance(call.func, ast.Attribute)
+    )
+    if not own or not owner or isinstance(made, ast.ClassDef) or made.name == "__init__":
+        return None
+    given = [*call.args, *(k.value for k in call.keywords)]
+    starred = any(isinstance(a, ast.Starred) for a in call.args) or any(
+        k.arg is None for k in call.keywords
+    )
+    needed = len(made.args.args) - 1 - len(made.args.defaults)
+    if starred or not call.args or not needed <= len(given) < len(made.args.args):
+        return None
+    bare = [
+        n for n in raised.source.all_nodes if isinstance(n, ast.Name) and _is_bare(raised, n, owner)
+    ]
+    name = raised.module.text.code(getattr(call.func, "value", call.func))
+    words = {"name": name, "type": owner}
+    if len(bare) != 1 or not _needs_nothing(raised, owner):
+        return _told(raised, found, "of_class", **words)
+    params = {"name": owner, "written": f"{owner}()", "called": f"{name}.{made.name}()"}
+    line = str(raised.line)
+    told = raised.finding("own_call", at=bare[0], params={**params, "line": line, "type": owner})
+    return replace(told, variant="class_given")
+
+
+def _class_alone(raised: Raised, found: _Called, function: str) -> RecognisedMistake | None:
+    """A method is called on the class with no value, and the class stands at one place as a value."""
+    owner, call = last_part(function.rpartition(".")[0]), found.call
+    named = call.func.value if isinstance(call.func, ast.Attribute) else None
+    bare = [
+        n for n in raised.source.all_nodes if isinstance(n, ast.Name) and _is_bare(raised, n, owner)
+    ]
+    if named is None or dotted(named) == owner or len(bare) != 1 or call.args or call.keywords:
+        return None
+    if not _needs_nothing(raised, owner):
+        return None
+    called = f"{raised.module.text.code(call.func)}()"
+    params = {"name": owner, "written": f"{owner}()", "called": called, "line": str(raised.line)}
+    return replace(raised.finding("own_call", at=bare[0], params=params), variant="class_alone")
+
+
+def _is_bare(raised: Raised, node: ast.Name, owner: str) -> bool:
+    """Whether a name is that of the class, and stands as a value: of a call, or of a variable."""
+    if node.id != owner:
+        return False
+    around = raised.source.module_of(node).parents.get(node)
+    if isinstance(around, ast.Call):
+        return node in around.args and dotted(around.func) not in ("isinstance", "issubclass")
+    return isinstance(around, ast.Assign | ast.keyword) and around.value is node
+
+
+def _needs_nothing(raised: Raised, owner: str) -> bool:
+    """Whether an object of a class can be made with nothing in the ()."""
+    classes = [c for m in raised.source.modules for c in m.classes if c.name == owner]
+    heads = [s for s in classes[0].body if isinstance(s, Function) and s.name == "__init__"]
+    if len(classes) != 1:
+        return False
+    if classes[0].decorator_list:
+        fields = [n for n in classes[0].body if isinstance(n, ast.AnnAssign)]
+        known = [dotted(d) in DATACLASS for d in classes[0].decorator_list] == [True]
+        return known and not classes[0].bases and all(n.value is not None for n in fields)
+    given = heads[0].args if heads else None
+    return given is None or len(given.args) - 1 <= len(given.defaults)
 
 
 def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -284,6 +357,18 @@ KINDS = (
             "definition: name=value."
         ),
         whys={
+            "of_class": msg(
+                "{name} is the class {type} itself here, and not an object of it. So Python passes no self, "
+                "and the first value of the call goes to self."
+            ),
+            "class_alone": msg(
+                "{name} without () is the class itself, and not an object of it. So {called} in line {line} "
+                "passes no self."
+            ),
+            "class_given": msg(
+                "{name} without () is the class itself, and not an object of it. So {called} in line {line} "
+                "passes no self, and its first value goes to self."
+            ),
             "near": msg(
                 "name=value in a call works only for the names in the definition (line {line})."
             ),
@@ -308,6 +393,12 @@ KINDS = (
                 "Write a value for each of these in the () of {called} on this line: {name}. Or give them "
                 "defaults in the definition: name=value."
             ),
+            "of_class": msg(
+                "Find where {name} gets its value. Create an object there: write () behind the name of the "
+                "class, with the values that its __init__ needs."
+            ),
+            "class_alone": msg("Write {written} instead of {name}: the () create an object."),
+            "class_given": msg("Write {written} instead of {name}: the () create an object."),
             "near": msg("Write {written} instead of {name} on this line."),
             "unknown": msg(
                 "Write one of these names instead of {name} on this line. Or add {name} to the definition."
@@ -330,6 +421,38 @@ KINDS = (
         },
         fixed_by=(lines.written,),
         examples=(
+            example(
+                "class_of_a_helper_has_no_self",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class Ticks:\n    def __init__(self):\n        self.n = -1\n\n"
+                    "    def forward(self):\n        self.n += 1\n        return self.n\n\n\n"
+                    "class MyFirstNode",
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = Ticks"),
+                Replace(NODE, "str(self.counter_)", "str(self.counter_.forward())"),
+                Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "class_of_a_helper_for_its_object",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class Wording:\n    def line(self, number):\n"
+                    "        return f'Hello time: {number}'\n\n\nclass MyFirstNode",
+                ),
+                Replace(
+                    NODE, "self.counter_ = 0\n", "self.counter_ = 0\n        self.words = Wording\n"
+                ),
+                Replace(
+                    NODE, "'Hello time: ' + str(self.counter_)", "self.words.line(self.counter_)"
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "dataclass_without_types",
                 Replace(

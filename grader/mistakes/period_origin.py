@@ -233,7 +233,10 @@ KINDS = (
                 "the node runs."
             )
         },
-        behind={"run.too_much_output": _tiny, "run.by_hand": _known, "run.wrong_period": _known},
+        behind={
+            "run.too_much_output": _tiny,
+            **dict.fromkeys(("run.by_hand", "run.wrong_period", "run.twice"), _known),
+        },
         fixed_by=(lines.written,),
         examples=(
             example(

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
+from grader.base.nearest import nearest
 from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, LOG, LOG_LINE, NODE, example
@@ -25,7 +26,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, own_name
-from grader.package.source.place import statement_at
+from grader.package.source.place import block_of, statement_at
 
 OF_LISTS = ("append", "extend", "insert", "sort", "reverse", "clear", "update", "add")
 STARTERS = ("run", "Popen", "call", "check_call", "check_output", "execv", "execvp", "spawn")
@@ -63,12 +64,35 @@ def _none_attribute(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
     found = raised.finding("none_used", name=code)
     function = _gives_nothing(raised, used[0])
     if function is None:
+        below = _set_below(raised, code)
+        if below:
+            return replace(found, words={**found.words, **below}, variant="below")
         later = _set_in_uncalled(raised, code)
         return (
             replace(found, words={**found.words, **later}, variant="uncalled") if later else found
         )
     words = {**found.words, "function": function.name, "line": function.lineno}
     return replace(found, words=words, variant="function")
+
+
+def _set_below(raised: Raised, name: str) -> dict[str, str]:
+    """Return the line below this one, in the same block, that first gives a name a value."""
+    here = statement_at(raised.module, raised.line)
+    around = block_of(raised.module, here) if here is not None else []
+    sets = [n for n in raised.module.nodes if name in targets_of(n) and isinstance(n, ast.stmt)]
+    values = [s for s in sets if not _is_none(getattr(s, "value", None))]
+    below = [s for s in values if here is not None and s in around and s.lineno > here.lineno]
+    if here is None or len(below) != 1 or values != below or not isinstance(below[0], ast.Assign):
+        return {}
+    between = [s for s in around if here.lineno < s.lineno <= below[0].lineno]
+    made = set(targets_of(here)) - {name}
+    if any(dotted(n) in made for s in between for n in ast.walk(s)):
+        return {}
+    return {"line": str(below[0].lineno)}
+
+
+def _is_none(value: ast.AST | None) -> bool:
+    return isinstance(value, ast.Constant) and value.value is None
 
 
 def _set_in_uncalled(raised: Raised, name: str) -> dict[str, str]:
@@ -146,6 +170,9 @@ def _no_key(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return None
     keys = _keys_given(raised) if written else None
     if keys is not None:
+        spelt = _spelt_in_dict(raised, match["name"])
+        if spelt is not None:
+            return spelt
         found = _told("no_such_item", "known_keys")(raised, match)
         return replace(found, words={**found.words, **keys}) if found is not None else None
     return _told("no_such_item", "key")(raised, match)
@@ -166,6 +193,31 @@ def _keys_given(raised: Raised) -> dict[str, str] | None:
     keys = ", ".join(code(key) for key in value.keys if key is not None)
     plain = len(keys) <= MOST_CODE and "\n" not in keys
     return {"line": str(given[0].lineno), "keys": keys} if plain else None
+
+
+def _spelt_in_dict(raised: Raised, missing: str) -> RecognisedMistake | None:
+    """The dict has a key of nearly this name, which nothing reads."""
+    texts = [
+        n
+        for n in raised.source.all_nodes
+        if isinstance(n, ast.Constant) and isinstance(n.value, str) and repr(n.value) != missing
+    ]
+    keys = {str(n.value): n for n in texts if _is_key(raised, n)}
+    near = nearest(missing.strip("'"), dict.fromkeys(keys))
+    if not near or len([n for n in texts if n.value == near]) != 1:
+        return None
+    code = raised.source.module_of(keys[near]).text.code(keys[near])
+    mistake = raised.finding("no_such_item", at=keys[near], name=code, written=missing)
+    return replace(mistake, words={**mistake.words, "at": str(raised.line)}, variant="spelt")
+
+
+def _is_key(raised: Raised, text: ast.Constant) -> bool:
+    """Whether a text is a key of the dict that this line reads from."""
+    read = {dotted(n.value) for n in _on_line(raised) if isinstance(n, ast.Subscript)} - {""}
+    parents = raised.source.module_of(text).parents
+    made = parents.get(text)
+    around = parents.get(made) if isinstance(made, ast.Dict) and text in made.keys else None
+    return around is not None and bool(read & set(targets_of(around)))
 
 
 def _too_many_values(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -405,12 +457,16 @@ KINDS = (
                 "{function} changes the list itself, and gives back None. This line puts that None in "
                 "the place of the list."
             ),
+            "below": msg(
+                "{name} is None until line {line} runs, and line {line} is below this line."
+            ),
             "uncalled": msg(
                 "{name} is None until line {line} runs. That line is in {function}, which nothing calls."
             ),
         },
         fixes={
             "changes_list": msg("Write only {written} instead of {name}."),
+            "below": msg("Move this line below line {line}."),
             "uncalled": msg(
                 "Write self.{function}() in __init__, above the line that creates the timer. Or set "
                 "{name} there to the value of line {line}, instead of None."
@@ -437,6 +493,18 @@ KINDS = (
                 Replace(NODE, "self.counter_ += 1", "self.counter_ = self.counter_.append(1)"),
                 fails="run.output",
                 blocks=("run.period", "run.interrupt"),
+            ),
+            example(
+                "none_until_a_line_below",
+                Replace(
+                    NODE,
+                    "        self.create_timer(",
+                    "        self.period = None\n"
+                    "        self.get_logger().debug(str(self.period.real))\n"
+                    "        self.period = 1.0\n"
+                    "        self.create_timer(",
+                ),
+                fails="run.starts",
             ),
             example(
                 "names_are_what_append_returns",
@@ -768,12 +836,17 @@ KINDS = (
             "key": msg(
                 "What this line reads from has only the keys that it was given. {name} is not one of them."
             ),
+            "spelt": msg(
+                "Line {at} reads the key {written}, and the dict of this line has {name}. Nothing reads "
+                "{name}."
+            ),
             "known_keys": msg(
                 "Line {line} makes the dict with: {keys}. The key {name} is not there, so it has no "
                 "value to read."
             ),
         },
         fixes={
+            "spelt": msg("Write {written} instead of {name} on this line."),
             "known_keys": msg(
                 "Write in this line, instead of {name}, the key that is meant. If {name} is to be a key "
                 "of its own, give it a first value in line {line}."
@@ -789,7 +862,16 @@ KINDS = (
             ),
             r"^KeyError: (?P<name>.{1,60})$": on_line(_no_key),
         },
+        fixed_by=(lines.written,),
         examples=(
+            example(
+                "key_spelt_otherwise_in_the_dict",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = {'counter': 0}"),
+                Replace(NODE, "str(self.counter_)", "str(self.counter_['count'])"),
+                Replace(NODE, "self.counter_ += 1", "self.counter_['count'] += 1"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "counts_under_a_key_without_value",
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = {'number': 0}"),

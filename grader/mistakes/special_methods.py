@@ -18,7 +18,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import parts_of_callback, targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, last_part
-from grader.package.source.place import statement_at
+from grader.package.source.place import function_at, statement_at
 
 MOST_CODE = 80  # characters of a piece of code that a text shows
 NOT_CALLED = ("method", "function")
@@ -51,6 +51,12 @@ def _no_iterator(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
         if isinstance(n, Function) and named is not None and n.name == last_part(dotted(named))
     ]
     if named is None or len(known) != 1 or not _is_generator(known[0]):
+        function = function_at(raised.module, raised.line)
+        names = [a.arg for a in function.args.args] if function is not None else []
+        if function is not None and code in names and not values:
+            found = raised.finding("not_an_iterator", name=code)
+            order = {"function": function.name, "names": ", ".join(names)}
+            return replace(found, words={**found.words, **order}, variant="parameter")
         found = raised.finding("not_an_iterator", name=code)
         return replace(found, variant="function")
     name = raised.source.module_of(named).text.code(named)
@@ -291,6 +297,10 @@ KINDS = (
                 "next() takes the next item of an iterator. {name} is a function here, and only the call "
                 "of a function can give an iterator."
             ),
+            "parameter": msg(
+                "next() takes the next item of an iterator. {name} is a parameter of {function} and gets a "
+                "function here, not an iterator."
+            ),
             "kept": msg(
                 "Without (), {name} is the function itself. next() needs what the call of the function "
                 "gives."
@@ -301,6 +311,10 @@ KINDS = (
                 "Find the line that gives {name} its value, and call the function there: write () behind "
                 "its name, with the values that it needs. Call it once, before the first callback: each "
                 "call begins again."
+            ),
+            "parameter": msg(
+                "Find where {function} is called, or passed on with its values, and compare these with its "
+                "parameters in their order: {names}. An iterator has to stand at the place of {name}."
             ),
             "kept": msg("Write {written} instead of {name} in this line."),
             "items": msg("Write {written} instead of {name} in this line."),

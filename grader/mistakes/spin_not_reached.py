@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import NODE, example
+from grader.mistakes.example import NODE, SPIN_UNTIL_CTRL_C, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
@@ -17,6 +17,7 @@ from grader.package.edit.files import Files
 from grader.package.edit.text import indent_of
 from grader.package.edit.tree import Replace
 from grader.package.source.module import Function
+from grader.package.source.names import called_name, dotted
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of
 from grader.package.source.unreached import Unreached, exits, unreached
@@ -27,7 +28,9 @@ LONGEST = 60  # characters of a condition in a text
 
 
 def _not_reached(suspect: Suspect) -> RecognisedMistake | None:
-    found = unreached(suspect.source, suspect.source.calls_of(*SPINS))
+    source = suspect.source
+    spins = source.calls_of(*SPINS) or [c for c, _ in source.calls if called_name(c) in SPINS]
+    found = unreached(source, spins)
     if found is None:
         return None
     if isinstance(found.at, ast.ExceptHandler):
@@ -96,6 +99,9 @@ def _uncalled(suspect: Suspect, found: Unreached, function: Function) -> Recogni
     if isinstance(function, ast.AsyncFunctionDef) or given.kwonlyargs or given.posonlyargs:
         return None
     node = str(placeholder_values(suspect.assignment, source)["node"])
+    around = source.module_of(function).parents.get(function)
+    if isinstance(around, ast.ClassDef) and source.methods.get(name) is not function:
+        return _uncalled_of_class(suspect, found, function, around)
     is_method = source.methods.get(name) is function
     written = f"{node}.{name}()" if is_method else f"{name}({node if needed else ''})"
     inside = source.function_around(function)
@@ -104,6 +110,35 @@ def _uncalled(suspect: Suspect, found: Unreached, function: Function) -> Recogni
     line = found.statement.lineno
     mistake = suspect.finding("spin_not_reached", function, name=name, line=line, written=written)
     return replace(mistake, variant="uncalled")
+
+
+def _uncalled_of_class(
+    suspect: Suspect, found: Unreached, function: Function, around: ast.ClassDef
+) -> RecognisedMistake | None:
+    """The function is a method of a class beside the node: it is called on its object, if it has one."""
+    source, given, main = suspect.source, function.args, suspect.source.main
+    needed = [a.arg for a in given.args[: len(given.args) - len(given.defaults)]]
+    static = [dotted(d) for d in function.decorator_list] in (["staticmethod"], ["classmethod"])
+    own = needed[1:] if needed[:1] in (["self"], ["cls"]) else needed
+    if own or given.kwonlyargs or isinstance(function, ast.AsyncFunctionDef) or main is None:
+        return None
+    made = [n for n in ast.walk(main) if isinstance(n, ast.Call) and dotted(n.func) == around.name]
+    words = {"name": f"{around.name}.{function.name}", "line": str(found.statement.lineno)}
+    statement = source.module_of(main).parents.get(made[0]) if len(made) == 1 else None
+    if len(made) == 1 and isinstance(statement, ast.Expr):
+        code = source.module_of(main).text.code(made[0])
+        written = f"{around.name if static else code}.{function.name}({_passed(given, main)})"
+        params = {"name": code, "written": written, "function": words["name"]}
+        told = suspect.finding("spin_not_reached", made[0], **params, line=words["line"])
+        return replace(told, variant="uncalled_object")
+    mistake = suspect.finding("spin_not_reached", function, **words)
+    return replace(mistake, variant="uncalled_method")
+
+
+def _passed(given: ast.arguments, main: Function) -> str:
+    """Return the arguments of main that a function takes by the same name."""
+    names = {a.arg for a in main.args.args}
+    return ", ".join(f"{a.arg}={a.arg}" for a in given.args if a.arg in names - {"self", "cls"})
 
 
 def _into_try(case: Case) -> Files | None:
@@ -136,6 +171,9 @@ def _unblocked(case: Case) -> Files | None:
     return lines.unwrapped(case) if found.obstacle == "condition" else None
 
 
+UNCALLED = msg(
+    "def only defines {name}, and nothing calls it. So line {line}, which spins the node, is not reached."
+)
 IN_EXCEPT = msg(
     "The lines of an except run only when a line of its try raises {name}, as Ctrl+C does. This "
     "try comes to its end at once, so that the node is not spun."
@@ -181,6 +219,11 @@ KINDS = (
                 "def only defines {name}, and nothing calls it. So line {line}, which spins the "
                 "node, is not reached."
             ),
+            "uncalled_method": UNCALLED,
+            "uncalled_object": msg(
+                "This line makes an object, and nothing calls {function}. So line {line}, which spins the "
+                "node, is not reached."
+            ),
         },
         fixes={
             "alone": msg(
@@ -193,10 +236,29 @@ KINDS = (
             "else": BELOW,
             "exits": msg("Delete this line."),
             "uncalled": msg("Write {written} in {function}, after creating the node."),
+            "uncalled_method": msg(
+                "Call {name} in the function that starts the program, and let nothing before this call end it."
+            ),
+            "uncalled_object": msg("Write {written} instead of {name}."),
         },
         behind={"run.exits_at_once": _not_reached, "run.never_spins": _not_reached},
-        fixed_by=(_into_try, _unblocked),
+        fixed_by=(_into_try, _unblocked, lines.written),
         examples=(
+            example(
+                "method_that_spins_is_not_called",
+                Replace(
+                    NODE,
+                    "def main(",
+                    "class App:\n    @staticmethod\n    def run(args=None):\n        rclpy.init(args=args)\n"
+                    "        node = MyFirstNode()\n        try:\n            rclpy.spin(node)\n"
+                    "        except KeyboardInterrupt:\n            pass\n\n\ndef main(",
+                ),
+                Replace(
+                    NODE, "    rclpy.init(args=args)\n    node = MyFirstNode()\n", "    App()\n"
+                ),
+                Replace(NODE, SPIN_UNTIL_CTRL_C, ""),
+                fails="run.starts",
+            ),
             example(
                 "spin_in_except",
                 Replace(

@@ -23,6 +23,7 @@ from grader.package.source.timer import Timer
 
 MOST_EXPONENT = 9
 MICRO = 1e5  # seconds: a period in microseconds is ten times as long
+MANY_PERIODS = 30  # a run without a line has waited for fewer of them
 LONG = 100.0  # seconds; a longer period was meant in milliseconds
 REAL_NUMBER = (
     r"float\(\) argument must be .{1,60}not '(?P<type>\w{1,120})'"
@@ -213,6 +214,26 @@ def _milliseconds(suspect: Suspect) -> RecognisedMistake | None:
         return None
     found = suspect.finding("period_milliseconds", value, written=f"{number:g}")
     return found if number < MICRO else replace(found, variant="large")
+
+
+def _far_too_long(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a period in seconds that the source shows, and in which no line can come so soon."""
+    source, timers = suspect.source, suspect.source.timers
+    given = timers[0].period if len(timers) == 1 else None
+    if given is None:
+        return None
+    origin = origin_of(source, given)
+    seconds = origin.seconds if origin is not None else seconds_of(source, given)
+    if seconds is None or not seconds >= MANY_PERIODS * suspect.output.period:
+        return None
+    value = node_timer.value_of(source, given) or given
+    if origin is not None and origin.calculation is None:
+        value = origin.number
+    code = source.module_of(value).text.code(value)
+    if "\n" in code:
+        return None
+    params = {"name": code, "value": f"{seconds:g}", "written": repr(suspect.output.period)}
+    return suspect.finding("period_far_too_long", value, **params)
 
 
 def _caret(suspect: Suspect) -> RecognisedMistake | None:
@@ -495,6 +516,24 @@ KINDS = (
                 "constant_in_milliseconds",
                 Replace(NODE, "\n\nclass MyFirstNode", "PERIOD = 1000\n\n\nclass MyFirstNode"),
                 Replace(NODE, "(1.0,", "(PERIOD,"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "period_far_too_long",
+        "timer",
+        msg("The period is much too long"),
+        msg("With {name} the period is {value} s: the first line comes only after this time."),
+        msg("Write {written} instead of {name} on this line."),
+        links.FIRST_NODE,
+        behind={"run.no_lines": _far_too_long},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "period_in_minutes",
+                Replace(NODE, "(1.0,", "(1.0 * 60,"),
                 fails="run.output",
                 blocks=SILENT,
             ),

@@ -14,6 +14,7 @@ from grader.mistakes.fixes import lines, node_parameters
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
+from grader.package.source.counter import targets_of
 from grader.package.source.declared import Parameter, declared, declares_others
 from grader.package.source.names import called_name, calls_in, dotted, last_part
 from grader.package.source.place import place_of, statement_at
@@ -130,6 +131,21 @@ def _parameter_object(raised: Raised, match: re.Match[str]) -> RecognisedMistake
     statement = statement_at(raised.module, raised.line)
     calls = [call for call, _ in calls_in(statement)] if statement is not None else []
     found = [c for c in calls if called_name(c) in ("get_parameter", "declare_parameter")]
+    named = {dotted(n) for n in ast.walk(statement)} - {""} if statement is not None else set()
+    sets = [
+        n.value
+        for n in raised.source.all_nodes
+        if isinstance(n, ast.Assign)
+        and named & set(targets_of(n))
+        and isinstance(n.value, ast.Call)
+        and called_name(n.value) in ("get_parameter", "declare_parameter")
+    ]
+    if not found and len(sets) == 1 and raised.module.has(sets[0]):
+        code = " ".join(raised.module.text.code(sets[0]).split())
+        params = {"name": code, "written": f"{code}.value"}
+        return replace(
+            raised.finding("parameter_object", at=sets[0], params=params), variant="written"
+        )
     if len(found) != 1:
         return raised.finding("parameter_object")
     code = " ".join(raised.module.text.code(found[0]).split())

@@ -20,6 +20,7 @@ from grader.mistakes.fixes import (
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.spin import executors
+from grader.mistakes.spun_none import NotReturned, not_returned, with_return
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.guard import called_on_import
@@ -100,8 +101,21 @@ def _executor_without_node(suspect: Suspect) -> RecognisedMistake | None:
     for call, name in suspect.source.calls:
         before, _, method = name.rpartition(".")
         if method in SPINS and before in executors(suspect) - given:
-            return suspect.finding("executor_without_node", call, name=before)
+            return _never_added(suspect, call, before)
     return None
+
+
+def _never_added(suspect: Suspect, call: ast.Call, owner: str) -> RecognisedMistake:
+    """Return that an executor has no node: with the node to add, if main has it in one variable."""
+    source, main = suspect.source, suspect.source.function_around(call)
+    code = source.module_of(call).text.code(call)
+    found = suspect.finding("executor_without_node", call, name=owner)
+    made = [n for n in ast.walk(main) if isinstance(n, ast.Assign)] if main is not None else []
+    nodes = {t for n in made for t in targets_of(n)} & source.node_variables
+    if len(nodes) != 1 or "\n" in code:
+        return replace(found, words={**found.words, "written": code}, variant="unknown")
+    params = {"node": min(nodes), "written": code}
+    return replace(found, params={**found.params, **params}, words={**found.words, **params})
 
 
 def _node_to_spin(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -136,15 +150,35 @@ def _spins_in_init(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+NODE_LOST = msg(
+    "{function} makes the node and has no return with a value, so line {line}, which uses its value, gets "
+    "None."
+)
+
+
 def _none_is_spun(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     del match
     for call in raised.source.calls_of("spin"):
         name = dotted(call.args[0]) if call.args else ""
         if raised.line in (None, call.lineno) and name:
+            lost = not_returned(raised, name)
+            if lost is not None:
+                return _value_lost(raised, lost, name)
             made = _local_of_that_name(raised, name)
             found = raised.finding("spin_of_none", at=made or call, name=name)
             return replace(found, variant="local" if made is not None else "")
     return None
+
+
+def _value_lost(raised: Raised, lost: NotReturned, name: str) -> RecognisedMistake:
+    """Return that the function which makes the node does not return it."""
+    code = f"return {lost.variable}" if lost.variable else ""
+    params = {"name": name, "function": lost.function.name}
+    params |= {"written": code} if code else {}
+    found = raised.finding("spin_of_none", at=lost.function.body[-1], params=params)
+    words = {"line": str(lost.used.lineno)}
+    variant = "returned" if code else "unreturned"
+    return replace(found, words={**found.words, **words}, variant=variant)
 
 
 def _local_of_that_name(raised: Raised, name: str) -> ast.Assign | None:
@@ -442,18 +476,36 @@ KINDS = (
         "spin",
         msg("rclpy.spin gets None instead of a node"),
         msg("{name} has no node at this point."),
-        msg("Make the node before this line, and give it to rclpy.spin."),
+        msg(
+            "Find the line that gives {name} its value, and see why it is None: rclpy.spin needs the node."
+        ),
         whys={
+            "returned": NODE_LOST,
+            "unreturned": NODE_LOST,
             "local": msg(
                 "A function that assigns to {name} has its own variable {name}; the one outside "
                 "stays None."
-            )
+            ),
         },
-        fixes={"local": msg("Return the node from this function, and give it to rclpy.spin.")},
+        fixes={
+            "local": msg("Return the node from this function, and give it to rclpy.spin."),
+            "returned": msg(
+                "Write {written} as the last line of {function}, indented as far as its first line."
+            ),
+            "unreturned": msg("Let the last line of {function} return the node."),
+        },
         raised={
             r"AttributeError: 'NoneType' object has no attribute '(?:executor|handle)'": _none_is_spun
         },
+        fixed_by=(with_return,),
         examples=(
+            example(
+                "made_node_is_not_returned",
+                Replace(NODE, "def main(", "def make():\n    made = MyFirstNode()\n\n\ndef main("),
+                Replace(NODE, "node = MyFirstNode()\n", "node = make()\n"),
+                Replace(NODE, "        node.destroy_node()\n", ""),
+                fails="run.starts",
+            ),
             example(
                 "spin_of_none",
                 Replace(
@@ -723,7 +775,7 @@ KINDS = (
         msg(
             "An executor calls the callbacks of the nodes that were added to it, and of no others."
         ),
-        msg("Write {name}.add_node(node) before {name}.spin()."),
+        msg("Write {name}.add_node({node}) on a line above {written}, and outside of a loop."),
         whys={
             "late": msg(
                 "spin waits until Ctrl+C: line {line}, which gives the node to the executor, is not "
@@ -734,6 +786,10 @@ KINDS = (
         },
         fixes={
             "late": msg("Move line {line} ({name}.add_node) above this line."),
+            "unknown": msg(
+                "Write {name}.add_node() with the node in the () on a line above {written}, and outside of "
+                "a loop."
+            ),
             "given": msg(
                 "Write {name}.add_node({node}) on a line of its own above this line, and "
                 "{name}.spin() in this line."

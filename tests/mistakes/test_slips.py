@@ -258,6 +258,8 @@ TYPED = [
     ("try:\n    a()\nexcept K:\nfinally:\n    b()\n", "except_empty", 3,
      "try:\n    a()\nexcept K:\n    pass\nfinally:\n    b()\n"),
     ("a = (\n    'b': 1,\n}\n", "bracket_opener", 1, "a = {\n    'b': 1,\n}\n"),
+    ("try:\n    a()\nexcept K:\nb.destroy_node()\n", "block_empty", 3,
+     "try:\n    a()\nexcept K:\n    pass\nb.destroy_node()\n"),
     ("f(\n    a=1),\n    b=2,\n)\n", "closed_early", 2, "f(\n    a=1,\n    b=2,\n)\n"),
     ("f(\n    a=[\n        1,\n    ]),\n    b=2,\n)\n", "closed_early", 4,
      "f(\n    a=[\n        1,\n    ],\n    b=2,\n)\n"),

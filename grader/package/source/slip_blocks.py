@@ -152,6 +152,10 @@ def _not_indented(text: Broken) -> Slip | None:
     deeper = _def_of_class(text, head)
     if deeper is not None:
         return deeper
+    if own == width and _is_end_of_node(text, head) and not between:
+        new = text.changed(text.source.before(head + 1, " " * (width + 4) + "pass"))
+        code = text.source.line(head).strip()
+        return Slip("signs", "block_empty", head, code, "", new, other=text.number)
     for lines in _lines_of_block(text, head) if own <= width else ():
         columns = " " * (width + 4 - own)
         starts = [text.source.start_of(n) for n in lines if text.source.line(n).strip()]
@@ -165,6 +169,12 @@ def _not_indented(text: Broken) -> Slip | None:
     alone = own == width and (_next_indent(text) > own or _ends_after(text))
     new = text.changed(text.within(0, 0, " " * 4)) if alone else None
     return Slip("signs", "not_indented", text.number, shown, "", new, other=head)
+
+
+def _is_end_of_node(text: Broken, head: int) -> bool:
+    """Whether an except has no line, and the line below it ends the node: it is for every end."""
+    ends = re.search(r"\.(?:try_)?shutdown\(|\bdestroy_node\(", text.line)
+    return ends is not None and text.source.line(head).strip().startswith("except")
 
 
 def _only_comment(text: Broken, head: int, rows: list[str]) -> Slip:

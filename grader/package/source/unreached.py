@@ -12,6 +12,8 @@ from grader.package.source.names import dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.truth import Truth, truth_of
 
+PLAIN = ("staticmethod", "classmethod")
+"""Decorators that call nothing by themselves."""
 EXITS = ("exit", "quit", "sys.exit", "os._exit")
 Obstacle = Literal["except", "condition", "else", "exits", "uncalled"]
 
@@ -111,5 +113,6 @@ def _is_named(source: NodeSource, function: Function) -> bool:
             return True  # (getattr)
         if any(last_part(name) == function.name for name in targets_of(node)):
             return True
-    special = function.name.startswith("__") or bool(function.decorator_list)
+    decorated = any(dotted(d) not in PLAIN for d in function.decorator_list)
+    special = function.name.startswith("__") or decorated
     return special or function.name in ("destroy_node",)
