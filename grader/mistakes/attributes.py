@@ -24,7 +24,7 @@ from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import starts_of, targets_of
 from grader.package.source.imported import imports
-from grader.package.source.module import Module
+from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS
 from grader.package.source.node_here import node_here
@@ -222,9 +222,20 @@ def _without_value(raised: Raised, name: str, close: str) -> RecognisedMistake:
     if start is not None:
         found = raised.finding("attribute_not_set", at=start, name=close, close=name)
         return replace(found, variant="start")
-    if close or node_names.counts(raised.source, name):
-        return found
-    return replace(found, variant="value")
+    counts = node_names.counts(raised.source, name)
+    here = class_of(raised.module, function_at(raised.module, raised.line))
+    if not close and here is not None and not _has_init(raised, here[0]):
+        words = {**found.words, "type": here[0].name}
+        return replace(found, variant="no_init" if counts else "no_init_value", words=words)
+    return found if close or counts else replace(found, variant="value")
+
+
+def _has_init(raised: Raised, owner: ast.ClassDef) -> bool:
+    """Whether a class of the files has an __init__, in itself or in a base of the files."""
+    bodies = (
+        [s for c in raised.source.family for s in c.body] if owner in raised.source.family else []
+    )
+    return any(isinstance(s, Function) and s.name == "__init__" for s in (*owner.body, *bodies))
 
 
 def _of_helper(raised: Raised, name: str) -> tuple[str, str] | None:
@@ -634,6 +645,15 @@ KINDS = (
                 "line {lines} to __init__."
             ),
             "initialiser": msg("Write {written} instead of {name}."),
+            "no_init": msg(
+                "The class {type} has no __init__. Give it a first value in the class: write {name} = "
+                "{start} above the first def of {type}, indented like that def."
+            ),
+            "no_init_value": msg(
+                "The class {type} has no __init__. Give it a first value in the class: write {name} = "
+                "and the value that it has at the beginning above the first def of {type}, indented "
+                "like that def."
+            ),
             "helper": msg("Write {written} instead of {name}, here and in the other lines."),
             "no_method": msg(
                 "Write def {name}(self): with its lines in the class, write the name of the method "
@@ -686,6 +706,23 @@ KINDS = (
         raised={OWN_ATTRIBUTE: _not_set},
         fixed_by=(_through_helper, lines.written, node_names.close_attribute, node_names.counter),
         examples=(
+            example(
+                "counter_not_set_in_a_class_without_init",
+                Replace(
+                    NODE,
+                    "    def __init__(self):\n",
+                    "    def prepare(self):\n",
+                ),
+                Replace(NODE, "        super().__init__('my_first_node')\n", ""),
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(
+                    NODE,
+                    "node = MyFirstNode()",
+                    "node = MyFirstNode('my_first_node')\n    node.prepare()",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "period_attribute_not_set",
                 Replace(NODE, "create_timer(1.0", "create_timer(self.timer_period"),

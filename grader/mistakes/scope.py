@@ -135,7 +135,8 @@ def _self_in_function(raised: Raised) -> RecognisedMistake:
     if kept is not None:
         return kept
     found = raised.finding("self_outside", name=variables[0] if variables else "")
-    return replace(found, variant="variable") if len(variables) == 1 else found
+    known = set(variables) <= visible_names(raised.module, raised.line, "self")
+    return replace(found, variant="variable") if len(variables) == 1 and known else found
 
 
 def _kept_as_attribute(raised: Raised) -> RecognisedMistake | None:

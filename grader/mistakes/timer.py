@@ -7,14 +7,17 @@ import re
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
-from grader.mistakes import links
+from grader.mistakes import links, stop_in_branch
 from grader.mistakes.example import NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_scope, node_timer
+from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.order import attribute_needed_early
 from grader.mistakes.recognised import NAME_ERROR, OWN_ATTRIBUTE, Raised, RecognisedMistake, Suspect
 from grader.mistakes.scope import creates_timer
+from grader.mistakes.stop_in_branch import in_branch
 from grader.mistakes.timer_period import TIMER
+from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.endless import calls_of_methods, endless_loop
@@ -149,12 +152,22 @@ def _with_line(suspect: Suspect, call: ast.Call, name: str) -> RecognisedMistake
     if not isinstance(statement, ast.Expr):
         return replace(found, variant="other", words={**found.words, "name": f"{name}()"})
     block, around = block_of(module, statement), module.parents.get(statement)
+    branch = in_branch(suspect.source, module, statement)
+    if branch is not None:
+        return replace(found, variant=branch[0], words={**found.words, **branch[1]})
     if len(block) > 1:
         return replace(found, variant="destroyed" if destroyed else "line")
     alone = isinstance(around, ast.If) and around.body == block and not around.orelse
     if destroyed and not alone:
         return replace(found, variant="destroyed_alone")
     return replace(found, variant="if" if alone else "alone")
+
+
+def _without_cancel(case: Case) -> Files | None:
+    """Delete the line that stops a timer which another line creates."""
+    node, line = case.node, case.finding.line
+    made = node.calls_of("create_timer") if node is not None else []
+    return stop_in_branch.without_stop(case) if all(call.lineno != line for call in made) else None
 
 
 def _not_started(suspect: Suspect) -> RecognisedMistake | None:
@@ -322,9 +335,10 @@ KINDS = (
             "if": msg("Delete this line and the if above it."),
             "alone": msg("Write pass instead of this line."),
             "other": msg("Remove {name} from this line."),
+            **stop_in_branch.FIXES,
         },
         behind={"run.no_lines": _cancelled, "run.stops": _stopped},
-        fixed_by=(node_timer.cancelled, node_timer.without_cancel),
+        fixed_by=(node_timer.cancelled, _without_cancel),
         examples=(
             example(
                 "timer_cancelled",
@@ -335,6 +349,25 @@ KINDS = (
                 ),
                 fails="run.output",
                 blocks=SILENT,
+            ),
+            example(
+                "cancel_in_the_if_of_an_else_that_logs",
+                Replace(
+                    NODE,
+                    "self.create_timer(1.0, self.timer_callback)",
+                    "self.timer_ = self.create_timer(1.0, self.timer_callback)",
+                ),
+                Replace(
+                    NODE,
+                    "        self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                    "        self.counter_ += 1\n",
+                    "        if self.counter_ >= 3:\n"
+                    "            self.timer_.cancel()\n"
+                    "        else:\n"
+                    "            self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                    "            self.counter_ += 1\n",
+                ),
+                fails="run.output",
             ),
             example(
                 "three_then_silence",
