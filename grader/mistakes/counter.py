@@ -221,12 +221,21 @@ def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
         found = suspect.finding("counter_not_increased", at, name=code, written=written)
         return replace(found, words={**found.words, "attribute": name}, variant="nothing")
     found = suspect.finding("counter_not_increased", counter.logged, name=counter.name)
+    if _is_returned(suspect, counter.logged):
+        return replace(found, variant="returned")
     around = source.function_around(counter.logged)
     word = outer_word(source, around, counter.name) if around is not None else ""
     if around is None or not word or declares(around, counter.name):
         return found
     words = {**found.words, "word": word, "function": around.name}
     return replace(found, words=words, variant="outer")
+
+
+def _is_returned(suspect: Suspect, logged: ast.expr) -> bool:
+    """Whether the log stands behind return: a line below it would not run."""
+    around = suspect.source.module_of(logged).around(logged)
+    statement = next((part for part in around if isinstance(part, ast.stmt)), None)
+    return isinstance(statement, ast.Return) and bool(suspect.source.logs(statement))
 
 
 def _is_misspelt_step(source: NodeSource, node: ast.AST) -> bool:
@@ -484,6 +493,10 @@ KINDS = (
                 "Write {word} {name} as the first line of {function}, and after the log line: "
                 "{name} += {step}"
             ),
+            "returned": msg(
+                "Delete the word return before the call that logs, and write on a line of its own below "
+                "that call: {name} += {step}"
+            ),
         },
         behind={"run.constant_counter": _not_increased},
         fixed_by=(lines.written, node_count.step),
@@ -495,6 +508,14 @@ KINDS = (
                     NODE,
                     "    def timer_callback",
                     "    def increase(self):\n        self.counter_ + 1\n\n    def timer_callback",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "counter_constant_in_a_return",
+                Replace(NODE, "        self.counter_ += 1\n", ""),
+                Replace(
+                    NODE, "        self.get_logger().info", "        return self.get_logger().info"
                 ),
                 fails="run.output",
             ),
