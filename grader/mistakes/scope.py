@@ -51,7 +51,12 @@ def _quotes(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name = match["name"]
     places = node_scope.names_as_text(raised.module, name)
     of_class = {target for c in raised.module.classes for s in c.body for target in targets_of(s)}
-    if not places or name in of_class:
+    if name in of_class:
+        return None
+    if not places and name == raised.assignment.node_name and name not in raised.module.names:
+        found = raised.finding("quotes_missing", name=name, written=repr(name))
+        return replace(found, variant="written")
+    if not places:
         return None
     found = raised.finding("quotes_missing", at=places[0], name=name)
     return replace(found, variant="guard") if name == "__main__" else found
@@ -243,10 +248,20 @@ KINDS = (
         msg("Without quotes, {name} is the name of a variable, and there is no such variable."),
         msg("Write super().__init__('{node_name}')."),
         links.PYTHON_STRINGS,
-        fixes={"guard": msg("Write: if __name__ == '__main__':")},
+        fixes={
+            "guard": msg("Write: if __name__ == '__main__':"),
+            "written": msg("Write {written} instead of {name}."),
+        },
         raised={NAME_ERROR: _quotes},
-        fixed_by=(node_scope.quotes,),
+        fixed_by=(node_scope.quotes, lines.written),
         examples=(
+            example(
+                "node_name_without_quotes_in_an_argument",
+                Replace(NODE, "def __init__(self)", "def __init__(self, name)"),
+                Replace(NODE, "__init__('my_first_node')", "__init__(name)"),
+                Replace(NODE, "node = MyFirstNode()", "node = MyFirstNode(my_first_node)"),
+                fails="run.starts",
+            ),
             example(
                 "node_name_without_quotes",
                 Replace(NODE, "'my_first_node'", "my_first_node"),
@@ -380,7 +395,10 @@ KINDS = (
         "timer",
         msg("The callback is outside of the class"),
         msg("A function at the margin is not a method of the class, so self does not have it."),
-        msg("Indent def {name}(self): and its lines by 4 spaces, below the class."),
+        msg(
+            "Put def {name}(self): and its lines at the end of the class, indented by 4 more spaces "
+            "than now."
+        ),
         raised={OWN_ATTRIBUTE: _callback_outside},
         fixed_by=(node_scope.into_class,),
         examples=(
