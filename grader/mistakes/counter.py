@@ -224,6 +224,8 @@ def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
     if _is_returned(suspect, counter.logged):
         return replace(found, variant="returned")
     around = source.function_around(counter.logged)
+    if around is not None and around.lineno == around.body[-1].lineno:
+        return replace(found, variant="one_line")
     word = outer_word(source, around, counter.name) if around is not None else ""
     if around is None or not word or declares(around, counter.name):
         return found
@@ -493,6 +495,10 @@ KINDS = (
                 "Write {word} {name} as the first line of {function}, and after the log line: "
                 "{name} += {step}"
             ),
+            "one_line": msg(
+                "Write what is behind the colon of this def on a line of its own below it, with 4 more "
+                "spaces before it than def has. Below that, in the same column: {name} += {step}"
+            ),
             "returned": msg(
                 "Delete the word return before the call that logs, and write on a line of its own below "
                 "that call: {name} += {step}"
@@ -509,6 +515,18 @@ KINDS = (
                     "    def timer_callback",
                     "    def increase(self):\n        self.counter_ + 1\n\n    def timer_callback",
                 ),
+                fails="run.output",
+            ),
+            example(
+                "counter_constant_in_a_def_of_one_line",
+                Replace(
+                    NODE,
+                    "    def timer_callback(self):\n"
+                    '        """Say hello once; the timer calls this for as long as the node spins."""\n'
+                    "        self.get_logger()",
+                    "    def timer_callback(self): self.get_logger()",
+                ),
+                Replace(NODE, "        self.counter_ += 1\n", ""),
                 fails="run.output",
             ),
             example(

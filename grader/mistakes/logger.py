@@ -17,6 +17,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, calls_in, dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS, NodeSource
+from grader.package.source.place import block_of, statement_at
 from grader.package.source.printed import as_log, imitates_record, writes_line
 
 
@@ -232,12 +233,29 @@ def _twice(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _print_beside(source: NodeSource, part: ast.AST) -> ast.Call | None:
-    """Return the print() of a text that the logger logs as well."""
-    logged = [ast.dump(call.args[0]) for call in source.own_logs if len(call.args) == 1]
+    """Return the print() of a text that the logger logs as well, wherever the print() is reached."""
+    logs = [call for call in source.logs(part) if called_name(call) != "debug"]
+    logs = [call for call in logs if len(call.args) == 1 and source.is_own_log(call)]
     for call in source.prints(part):
-        if len(call.args) == 1 and ast.dump(call.args[0]) in logged:
+        same = [log for log in logs if call.args[1:] == [] and _are_same(log, call)]
+        if any(_is_beside(source, log, call) for log in same):
             return call
     return None
+
+
+def _are_same(log: ast.Call, call: ast.Call) -> bool:
+    return bool(call.args) and ast.dump(call.args[0]) == ast.dump(log.args[0])
+
+
+def _is_beside(source: NodeSource, log: ast.Call, call: ast.Call) -> bool:
+    """Whether a log stands in the block of a call, or in one around it: it is no other branch."""
+    module = source.module_of(log)
+    statement = statement_at(module, log.lineno)
+    return statement is not None and any(
+        part in block_of(module, statement)
+        for part in module.around(call)
+        if isinstance(part, ast.stmt)
+    )
 
 
 def _print_inside(suspect: Suspect, call: ast.Call, given: ast.Call) -> RecognisedMistake:
@@ -642,6 +660,16 @@ KINDS = (
             node_log.only_logged,
         ),
         examples=(
+            example(
+                "printed_beside_a_debug_line",
+                Replace(
+                    NODE,
+                    "        self.get_logger().info('Hello time: ' + str(self.counter_))\n",
+                    "        text = 'Hello time: ' + str(self.counter_)\n"
+                    "        print(text)\n        self.get_logger().debug(text)\n",
+                ),
+                fails="run.logger",
+            ),
             example(
                 "printed", Replace(NODE, "self.get_logger().info", "print"), fails="run.logger"
             ),
