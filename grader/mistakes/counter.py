@@ -226,6 +226,8 @@ def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
     around = source.function_around(counter.logged)
     if around is not None and around.lineno == around.body[-1].lineno:
         return replace(found, variant="one_line")
+    if around is not None and _is_in_branch(suspect, around, counter.logged):
+        return replace(found, variant="last_line", words={**found.words, "function": around.name})
     word = outer_word(source, around, counter.name) if around is not None else ""
     if around is None or not word or declares(around, counter.name):
         return found
@@ -238,6 +240,14 @@ def _is_returned(suspect: Suspect, logged: ast.expr) -> bool:
     around = suspect.source.module_of(logged).around(logged)
     statement = next((part for part in around if isinstance(part, ast.stmt)), None)
     return isinstance(statement, ast.Return) and bool(suspect.source.logs(statement))
+
+
+def _is_in_branch(suspect: Suspect, function: Function, logged: ast.expr) -> bool:
+    """Whether the log is in a branch of a function that always comes to its last line."""
+    around = suspect.source.module_of(logged).around(logged)
+    inside = {part for part in ast.walk(function) if isinstance(part, ast.If | ast.Match)}
+    returns = any(isinstance(n, ast.Return | ast.Raise) for n in ast.walk(function))
+    return not returns and any(part in inside for part in around)
 
 
 def _is_misspelt_step(source: NodeSource, node: ast.AST) -> bool:
@@ -495,6 +505,10 @@ KINDS = (
                 "Write {word} {name} as the first line of {function}, and after the log line: "
                 "{name} += {step}"
             ),
+            "last_line": msg(
+                "Write as the last line of {function}, in the same column as its first line: {name} += "
+                "{step}"
+            ),
             "one_line": msg(
                 "Write what is behind the colon of this def on a line of its own below it, with 4 more "
                 "spaces before it than def has. Below that, in the same column: {name} += {step}"
@@ -514,6 +528,19 @@ KINDS = (
                     NODE,
                     "    def timer_callback",
                     "    def increase(self):\n        self.counter_ + 1\n\n    def timer_callback",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "counter_constant_in_a_branch",
+                Replace(NODE, "        self.counter_ += 1\n", ""),
+                Replace(
+                    NODE,
+                    "        self.get_logger().info('Hello time: ' + str(self.counter_))\n",
+                    "        if self.counter_ == 0:\n"
+                    "            self.get_logger().info('Hello time: 0')\n"
+                    "        else:\n"
+                    "            self.get_logger().info('Hello time: ' + str(self.counter_))\n",
                 ),
                 fails="run.output",
             ),

@@ -182,7 +182,8 @@ def _debug(suspect: Suspect) -> RecognisedMistake | None:
     logs = source.logs(callback) if callback is not None else []
     debug = [log for log in logs if dotted(log.func).endswith(".debug")]
     if debug:
-        return suspect.finding("debug_level", debug[0])
+        fit = [log for log in debug if _can_begin(log, suspect.output.line(0))]
+        return suspect.finding("debug_level", fit[0]) if fit else None
     # (in a lambda or a helper, of a logger that a parameter is; the only line that is logged)
     found = _methods_of_loggers(source)
     if len(found) != 1 or found[0].attr != "debug":
@@ -192,6 +193,23 @@ def _debug(suspect: Suspect) -> RecognisedMistake | None:
     written = f"{name.removesuffix('debug')}info"
     mistake = suspect.finding("debug_level", found[0], name=name, written=written)
     return replace(mistake, variant="written")
+
+
+def _can_begin(log: ast.Call, line: str) -> bool:
+    """Whether a log can write a line, as far as the text tells with which its value begins."""
+    first: ast.AST | None = log.args[0] if log.args else None
+    while first is not None and not isinstance(first, ast.Constant):
+        if isinstance(first, ast.BinOp):
+            first = first.left
+        elif isinstance(first, ast.JoinedStr):
+            first = first.values[0] if first.values else None
+        elif isinstance(first, ast.Call) and called_name(first) == "format":
+            first = first.func.value if isinstance(first.func, ast.Attribute) else None
+        else:
+            return True  # (a name: its value is not known here)
+    text = first.value if isinstance(first, ast.Constant) else ""
+    begin = text.strip()[:3].casefold() if isinstance(text, str) else ""
+    return begin[:1] in ("%", "{", "") or line.casefold().startswith(begin)
 
 
 def _methods_of_loggers(source: NodeSource) -> list[ast.Attribute]:
