@@ -56,6 +56,12 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
         if len(logging) == 1:
             found = replace(found, words={**found.words, "callback": logging[0]})
     loop = endless_loop(suspect.source, callback) if callback is not None else None
+    bodies = [s for c in suspect.source.family for s in c.body]
+    no_init = not any(isinstance(s, Function) and s.name == "__init__" for s in bodies)
+    variables = suspect.source.node_variables
+    if loop is None and suspect.source.node_class is not None and no_init and len(variables) == 1:
+        words = {**found.words, "node": min(variables)}
+        return replace(found, words=words, variant="no_init")
     if loop is None:
         return found
     return replace(found, words={**found.words, "line": str(loop.lineno)}, variant="loop")
@@ -243,6 +249,7 @@ def _by_hand(suspect: Suspect) -> RecognisedMistake | None:
     for call, name in calls_in(init) if init else ():
         if name in names:
             found = suspect.finding("called_by_hand", call)
+            found = replace(found, words={**found.words, "callback": last_part(name)})
             made = [t.call for t in source.timers if t.callback and dotted(t.callback) == name]
             around = source.function_around(made[0])
             if len(made) == 1 and around is not None and around is source.callback:
@@ -293,6 +300,10 @@ KINDS = (
         },
         fixes={
             "by_hand": msg("Write {written} instead of {name}."),
+            "no_init": msg(
+                "Write on a line of its own below the one that creates the node: "
+                "{node}.create_timer({period}, {node}.{callback})"
+            ),
             "loop": msg(
                 "Write in __init__: self.create_timer({period}, self.{callback}) In {callback}, delete "
                 "the loop of line {line} and the sleep in it, and indent its other lines as far as the "
@@ -309,6 +320,20 @@ KINDS = (
                 ),
                 fails="run.output",
                 also={"run.period": "run.by_hand"},
+            ),
+            example(
+                "timer_missing_in_a_class_without_init",
+                Replace(
+                    NODE,
+                    "    def __init__(self):\n"
+                    "        super().__init__('my_first_node')\n"
+                    "        self.counter_ = 0\n"
+                    "        self.create_timer(1.0, self.timer_callback)\n",
+                    "    counter_ = 0\n",
+                ),
+                Replace(NODE, "node = MyFirstNode()", "node = MyFirstNode('my_first_node')"),
+                fails="run.output",
+                blocks=SILENT,
             ),
             example(
                 "timer_missing",
@@ -502,6 +527,7 @@ KINDS = (
         raised={OWN_ATTRIBUTE: _by_hand_early},
         behind={"run.by_hand": _by_hand},
         fixed_by=(node_timer.by_hand,),
+        deletes=("",),
         examples=(
             example(
                 "called_by_hand_before_counter",
