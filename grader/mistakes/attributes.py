@@ -48,6 +48,9 @@ ELSEWHERE = {
     "logger": "get_logger",
 }
 """Methods of nodes in C++, in ROS 1 and in other libraries, and those of rclpy."""
+OF_FILE = msg(
+    "This is a function of the file, and no method of the class. It is called without self. before its name."
+)
 SET_ELSEWHERE = msg(
     "self.{name} does not exist until a line assigns to it. Line {lines} does so, but had not run "
     "for this object when Python came to this line."
@@ -336,6 +339,24 @@ def _is_object(raised: Raised, name: str) -> bool:
     return any(isinstance(parents.get(use), ast.Attribute) for use in uses)
 
 
+def _function_through_self(raised: Raised, own: str, name: str) -> RecognisedMistake:
+    """A function of the file is called as a method: it may need the node as its first value."""
+    needed = raised.module.functions[name].args
+    least = len(needed.args) - len(needed.defaults)
+    calls = [n for n in raised.module.nodes if isinstance(n, ast.Call) and dotted(n.func) == own]
+    here = [n for n in calls if raised.line in range(n.lineno, (n.end_lineno or n.lineno) + 1)]
+    found = raised.finding("attribute_unknown", name=own, written=name)
+    if len(here) != 1 or len(here[0].args) + len(here[0].keywords) >= least:
+        return replace(found, variant="function")
+    given = [raised.module.text.code(part) for part in here[0].args]
+    if len(given) + 1 != least or here[0].keywords:
+        return replace(raised.finding("attribute_unknown", name=own), variant="function_more")
+    code, written = raised.module.text.code(here[0]), f"{name}({', '.join(['self', *given])})"
+    return replace(
+        raised.finding("attribute_unknown", name=code, written=written), variant="function"
+    )
+
+
 def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if raised.inside and match["name"] not in raised.module.line(raised.line):
         return None  # (no name of the student's)
@@ -360,8 +381,7 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return replace(found, variant="none" if match["type"] == "NoneType" else "module")
     own = f"self.{match['name']}"
     if match["name"] in raised.module.functions and of_self(raised, match):
-        found = raised.finding("attribute_unknown", name=own, written=match["name"])
-        return replace(found, variant="function")
+        return _function_through_self(raised, own, match["name"])
     if match["type"] == "Parameter":
         return _of_parameter(raised, match["name"])
     uncalled = _class_kept(raised, match)
@@ -853,10 +873,8 @@ KINDS = (
         links.RCLPY,
         close=msg("Write {close} instead of {name}."),
         whys={
-            "function": msg(
-                "{written} is a function of the file, and no method of the class. It is called "
-                "without self."
-            ),
+            "function": OF_FILE,
+            "function_more": OF_FILE,
             "parameter": msg(
                 "get_parameter returns an object of the type Parameter. Its value is in .value, or in "
                 "get_parameter_value()."
@@ -895,6 +913,10 @@ KINDS = (
                 "self.{name}."
             ),
             "function": msg("Write {written} instead of {name}."),
+            "function_more": msg(
+                "Call the function without self. before its name, and give it a value for each of its "
+                "parameters."
+            ),
             "parameter": msg("Write {written} instead of {name} behind get_parameter(…)."),
             "number": msg("Write {written} instead of {name}."),
             "none": msg("Find the line that should give it its value, and see what that does."),
@@ -916,6 +938,17 @@ KINDS = (
         raised={ATTRIBUTE: _unknown},
         fixed_by=(lines.written,),
         examples=(
+            example(
+                "function_that_needs_the_node_called_as_a_method",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "def say(node, text):\n    node.get_logger().info(text)\n\n\nclass MyFirstNode",
+                ),
+                Replace(NODE, "self.get_logger().info(", "self.say("),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "logger_of_rclpy",
                 Replace(NODE, "self.get_logger()", "rclpy.get_logger('my_first_node')"),

@@ -71,7 +71,26 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     if added is None or number_first or not _may_be_number(added):
         return None
     name = raised.module.text.code(added)
+    if isinstance(statement, ast.AugAssign) and _is_kept_number(raised, statement):
+        return _kept_and_added(raised, statement, name)
     return raised.finding("str_plus_int", at=statement, name=name, written=f"str({name})")
+
+
+def _is_kept_number(raised: Raised, statement: ast.AugAssign) -> bool:
+    """Whether += adds a number to an attribute that no line sets to a text of other signs."""
+    name = dotted(statement.target)
+    if not name.startswith("self.") or not _is_literal(statement.value):
+        return False
+    sets = [n for n in raised.module.nodes if isinstance(n, ast.Assign) and name in targets_of(n)]
+    texts = [n.value.value for n in sets if isinstance(n.value, ast.Constant)]
+    return not any(isinstance(text, str) and not text.strip().isdigit() for text in texts)
+
+
+def _kept_and_added(raised: Raised, statement: ast.AugAssign, added: str) -> RecognisedMistake:
+    name, code = dotted(statement.target), raised.module.text.code(statement)
+    params = {"name": code, "written": f"{name} = int({name}) + {added}"}
+    found = raised.finding("str_plus_int", at=statement, params=params)
+    return replace(found, words={**found.words, "attribute": name}, variant="kept_text")
 
 
 def _kept_as_text(raised: Raised, statement: ast.stmt | None) -> RecognisedMistake | None:
@@ -616,6 +635,12 @@ KINDS = (
         },
         fixed_by=(node_log.number_as_text, lines.written),
         examples=(
+            example(
+                "counter_starts_as_str_of_a_number",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = str(0)"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
             example(
                 "int_for_str",
                 Replace(NODE, "str(self.counter_)", "int(self.counter_)"),

@@ -17,7 +17,7 @@ from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, own_name
 from grader.package.source.place import function_at, method_above, statement_at
-from grader.package.source.scopes import has_self, visible_names
+from grader.package.source.scopes import bindings, has_self, visible_names
 
 NODE_METHODS = (
     *("create_timer", "get_logger", "get_clock", "get_name", "create_publisher", "destroy_node"),
@@ -141,7 +141,31 @@ def _self_in_function(raised: Raised) -> RecognisedMistake:
         return kept
     found = raised.finding("self_outside", name=variables[0] if variables else "")
     known = set(variables) <= visible_names(raised.module, raised.line, "self")
-    return replace(found, variant="variable") if len(variables) == 1 and known else found
+    if len(variables) != 1 or not known:
+        return _given_self(raised) or found
+    below = [b for b in bindings(raised.module, variables[0]) if b.line > (raised.line or 0)]
+    if len(below) != len(bindings(raised.module, variables[0])):
+        return replace(found, variant="variable")
+    words = {**found.words, "line": str(below[0].line)}
+    return replace(found, variant="variable_below", words=words)
+
+
+def _given_self(raised: Raised) -> RecognisedMistake | None:
+    """A function outside of the class uses self, and only methods call it."""
+    function = function_at(raised.module, raised.line)
+    if function is None or raised.module.functions.get(function.name) is not function:
+        return None
+    uses = [n for n in raised.module.nodes if isinstance(n, ast.Name) and n.id == function.name]
+    around = [function_at(raised.module, use.lineno) for use in uses]
+    called = [isinstance(raised.module.parents.get(use), ast.Call) for use in uses]
+    own = [s for c in raised.source.family for s in c.body]
+    inside = all(isinstance(f, Function) and f in own and has_self(f) for f in around)
+    if not uses or not inside or not all(called) or function.args.posonlyargs:
+        return None
+    lines = ", ".join(str(row) for row in sorted({use.lineno for use in uses}))
+    words = {"function": function.name, "lines": lines}
+    found = raised.finding("self_outside", at=function, name=function.name)
+    return replace(found, variant="given", words={**found.words, **words})
 
 
 def _kept_as_attribute(raised: Raised) -> RecognisedMistake | None:
@@ -316,6 +340,14 @@ KINDS = (
                 "Indent the line as far as the other lines of {name}, the method above it."
             ),
             "variable": msg("Write {name} instead of self."),
+            "variable_below": msg(
+                "Write {name} instead of self, and move this line below line {line}, which creates the "
+                "node."
+            ),
+            "given": msg(
+                "Give it the node: write self as the first parameter of {function} in this line, and self "
+                "as the first value in each call of {function} (line {lines})."
+            ),
             "function": msg("Write {written} instead of {name}: the function belongs to no class."),
             "attribute": msg(
                 "Use a variable: give {attribute} its first value on a line above def {function}, in "
@@ -346,6 +378,21 @@ KINDS = (
                     "    self.counter_ = 0\n\n    def __init__(self):\n",
                 ),
                 fails="run.starts",
+            ),
+            example(
+                "self_in_a_function_that_methods_call",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "def say(text):\n    self.get_logger().info(text)\n\n\nclass MyFirstNode",
+                ),
+                Replace(
+                    NODE,
+                    "        self.get_logger().info('Hello time: ' + str(self.counter_))\n",
+                    "        say('Hello time: ' + str(self.counter_))\n",
+                ),
+                fails="run.output",
+                blocks=DEAD,
             ),
             example(
                 "self_in_main",
