@@ -48,6 +48,9 @@ ELSEWHERE = {
     "logger": "get_logger",
 }
 """Methods of nodes in C++, in ROS 1 and in other libraries, and those of rclpy."""
+NO_LOGGER = msg(
+    "No line of the class gives self.{attribute} a value. The node gets its logger with get_logger()."
+)
 OF_FILE = msg(
     "This is a function of the file, and no method of the class. It is called without self. before its name."
 )
@@ -213,6 +216,8 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
 def _without_value(raised: Raised, name: str, close: str) -> RecognisedMistake:
     """No line sets the attribute: a similar one is meant, or it needs a first value."""
     found = raised.finding("attribute_not_set", name=name, close=close)
+    if not close and (logger := _as_logger(raised, name)) is not None:
+        return logger
     if not close and _is_object(raised, name):
         return replace(found, variant="object")
     owner = _of_helper(raised, name)
@@ -239,6 +244,23 @@ def _has_init(raised: Raised, owner: ast.ClassDef) -> bool:
         [s for c in raised.source.family for s in c.body] if owner in raised.source.family else []
     )
     return any(isinstance(s, Function) and s.name == "__init__" for s in (*owner.body, *bodies))
+
+
+def _as_logger(raised: Raised, name: str) -> RecognisedMistake | None:
+    """An attribute of the node that no line sets is used only as a logger."""
+    module, own = raised.module, f"self.{name}"
+    uses = [n for n in module.nodes if isinstance(n, ast.Attribute) and dotted(n) == own]
+    read = {getattr(module.parents.get(use), "attr", "") for use in uses}
+    if (
+        not uses
+        or not read <= set(LOG_METHODS)
+        or node_here(raised.source, module, raised.line) != "self"
+    ):
+        return None
+    params = {"name": own, "written": "self.get_logger()"}
+    found = raised.finding("attribute_not_set", params={} if len(uses) > 1 else params)
+    words = {**found.words, **params, "attribute": name}
+    return replace(found, words=words, variant="logger" if len(uses) == 1 else "logger_lines")
 
 
 def _of_helper(raised: Raised, name: str) -> tuple[str, str] | None:
@@ -675,6 +697,8 @@ KINDS = (
                 "like that def."
             ),
             "helper": msg("Write {written} instead of {name}, here and in the other lines."),
+            "logger": msg("Write {written} instead of {name}."),
+            "logger_lines": msg("Write {written} instead of {name}, here and in the other lines."),
             "no_method": msg(
                 "Write def {name}(self): with its lines in the class, write the name of the method "
                 "that you mean, or delete the call if it is not needed."
@@ -721,11 +745,19 @@ KINDS = (
                 "The class {type} sets this attribute, and self.{attribute} is an object of this "
                 "class. self is another object."
             ),
+            "logger": NO_LOGGER,
+            "logger_lines": NO_LOGGER,
             "no_method": msg("self.{name}() calls a method, and the class has no method {name}."),
         },
         raised={OWN_ATTRIBUTE: _not_set},
         fixed_by=(_through_helper, lines.written, node_names.close_attribute, node_names.counter),
         examples=(
+            example(
+                "logger_in_an_attribute_that_is_not_set",
+                Replace(NODE, "self.get_logger().info", "self.logger_.info"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "counter_not_set_in_a_class_without_init",
                 Replace(

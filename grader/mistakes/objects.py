@@ -153,6 +153,8 @@ def _not_spun(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
             continue
         code = raised.module.text.code(given)
         node = node_here(raised.source, raised.module, raised.line)
+        if not node and not isinstance(given, ast.Constant):
+            return None  # (what it is has to be followed)
         if not node:
             return replace(raised.finding("spin_of_other", at=call), variant="no_variable")
         return raised.finding("spin_of_other", at=call, name=code, written=node)
