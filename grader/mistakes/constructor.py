@@ -162,7 +162,14 @@ def _without_name(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     if call is None or raised.line not in lines_of(call) or not call.args:
         return found
     on_class = dotted(call.func).endswith("Node.__init__")
-    return replace(found, variant="on_class") if on_class else found
+    if not on_class or dotted(call.args[0]) != "self":
+        return replace(found, variant="on_class") if on_class else found
+    text = raised.source.module_of(call).text
+    name = f"{text.quote}{raised.assignment.node_name}{text.quote}"
+    given = [text.code(part) for part in call.args[1:]] + [text.code(k) for k in call.keywords]
+    written = f"{text.code(call.func)}({', '.join(['self', name, *given])})"
+    found = raised.finding("super_without_name", at=call, name=text.code(call), written=written)
+    return replace(found, variant="self_alone")
 
 
 def _init_no_self(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -585,9 +592,15 @@ KINDS = (
                 "string is taken for self, and the name is missing. super() passes self on its own."
             )
         },
+        fixes={"self_alone": msg("Write {written} instead of {name}.")},
         raised={NO_NODE_NAME: _without_name},
-        fixed_by=(node_life.own_init, node_life.name),
+        fixed_by=(lines.written, node_life.own_init, node_life.name),
         examples=(
+            example(
+                "init_of_node_with_self_alone",
+                Replace(NODE, "super().__init__('my_first_node')", "Node.__init__(self)"),
+                fails="run.starts",
+            ),
             example(
                 "init_of_node_without_self",
                 Replace(NODE, "super().__init__(", "Node.__init__("),

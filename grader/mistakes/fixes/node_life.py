@@ -322,6 +322,8 @@ def own_init(case: Case) -> Files | None:
     call = node.super_init if node is not None else None
     if node is None or call is None or not dotted(call.func).endswith("Node.__init__"):
         return None
+    if call.args and dotted(call.args[0]) == "self":
+        return None  # (super() would get self as the name)
     module = node.module_of(call)
     return case.changed(module, module.text.swap(call.func, "super().__init__"))
 
