@@ -586,7 +586,7 @@ KINDS = (
                     NODE,
                     LOG_LINE,
                     "        if self.counter_ % 2:\n"
-                    "            self.get_logger().debug('odd')\n"
+                    "            self.get_logger().debug('Hello time: ' + str(self.counter_))\n"
                     f"        else:\n    {LOG_LINE}",
                 ),
                 fails="run.output",
