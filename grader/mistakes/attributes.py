@@ -24,7 +24,7 @@ from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import starts_of, targets_of
 from grader.package.source.imported import imports
-from grader.package.source.module import Module
+from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS
 from grader.package.source.node_here import node_here
@@ -48,6 +48,12 @@ ELSEWHERE = {
     "logger": "get_logger",
 }
 """Methods of nodes in C++, in ROS 1 and in other libraries, and those of rclpy."""
+NO_LOGGER = msg(
+    "No line of the class gives self.{attribute} a value. The node gets its logger with get_logger()."
+)
+OF_FILE = msg(
+    "This is a function of the file, and no method of the class. It is called without self. before its name."
+)
 SET_ELSEWHERE = msg(
     "self.{name} does not exist until a line assigns to it. Line {lines} does so, but had not run "
     "for this object when Python came to this line."
@@ -210,6 +216,8 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
 def _without_value(raised: Raised, name: str, close: str) -> RecognisedMistake:
     """No line sets the attribute: a similar one is meant, or it needs a first value."""
     found = raised.finding("attribute_not_set", name=name, close=close)
+    if not close and (logger := _as_logger(raised, name)) is not None:
+        return logger
     if not close and _is_object(raised, name):
         return replace(found, variant="object")
     owner = _of_helper(raised, name)
@@ -222,9 +230,37 @@ def _without_value(raised: Raised, name: str, close: str) -> RecognisedMistake:
     if start is not None:
         found = raised.finding("attribute_not_set", at=start, name=close, close=name)
         return replace(found, variant="start")
-    if close or node_names.counts(raised.source, name):
-        return found
-    return replace(found, variant="value")
+    counts = node_names.counts(raised.source, name)
+    here = class_of(raised.module, function_at(raised.module, raised.line))
+    if not close and here is not None and not _has_init(raised, here[0]):
+        words = {**found.words, "type": here[0].name}
+        return replace(found, variant="no_init" if counts else "no_init_value", words=words)
+    return found if close or counts else replace(found, variant="value")
+
+
+def _has_init(raised: Raised, owner: ast.ClassDef) -> bool:
+    """Whether a class of the files has an __init__, in itself or in a base of the files."""
+    bodies = (
+        [s for c in raised.source.family for s in c.body] if owner in raised.source.family else []
+    )
+    return any(isinstance(s, Function) and s.name == "__init__" for s in (*owner.body, *bodies))
+
+
+def _as_logger(raised: Raised, name: str) -> RecognisedMistake | None:
+    """An attribute of the node that no line sets is used only as a logger."""
+    module, own = raised.module, f"self.{name}"
+    uses = [n for n in module.nodes if isinstance(n, ast.Attribute) and dotted(n) == own]
+    read = {getattr(module.parents.get(use), "attr", "") for use in uses}
+    if (
+        not uses
+        or not read <= set(LOG_METHODS)
+        or node_here(raised.source, module, raised.line) != "self"
+    ):
+        return None
+    params = {"name": own, "written": "self.get_logger()"}
+    found = raised.finding("attribute_not_set", params={} if len(uses) > 1 else params)
+    words = {**found.words, **params, "attribute": name}
+    return replace(found, words=words, variant="logger" if len(uses) == 1 else "logger_lines")
 
 
 def _of_helper(raised: Raised, name: str) -> tuple[str, str] | None:
@@ -336,6 +372,24 @@ def _self_in_capitals(raised: Raised, name: str) -> RecognisedMistake | None:
     return None
 
 
+def _function_through_self(raised: Raised, own: str, name: str) -> RecognisedMistake:
+    """A function of the file is called as a method: it may need the node as its first value."""
+    needed = raised.module.functions[name].args
+    least = len(needed.args) - len(needed.defaults)
+    calls = [n for n in raised.module.nodes if isinstance(n, ast.Call) and dotted(n.func) == own]
+    here = [n for n in calls if raised.line in range(n.lineno, (n.end_lineno or n.lineno) + 1)]
+    found = raised.finding("attribute_unknown", name=own, written=name)
+    if len(here) != 1 or len(here[0].args) + len(here[0].keywords) >= least:
+        return replace(found, variant="function")
+    given = [raised.module.text.code(part) for part in here[0].args]
+    if len(given) + 1 != least or here[0].keywords:
+        return replace(raised.finding("attribute_unknown", name=own), variant="function_more")
+    code, written = raised.module.text.code(here[0]), f"{name}({', '.join(['self', *given])})"
+    return replace(
+        raised.finding("attribute_unknown", name=code, written=written), variant="function"
+    )
+
+
 def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if raised.inside and match["name"] not in raised.module.line(raised.line):
         return None  # (no name of the student's)
@@ -360,8 +414,7 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return replace(found, variant="none" if match["type"] == "NoneType" else "module")
     own = f"self.{match['name']}"
     if match["name"] in raised.module.functions and of_self(raised, match):
-        found = raised.finding("attribute_unknown", name=own, written=match["name"])
-        return replace(found, variant="function")
+        return _function_through_self(raised, own, match["name"])
     if match["type"] == "Parameter":
         return _of_parameter(raised, match["name"])
     uncalled = _class_kept(raised, match)
@@ -645,7 +698,18 @@ KINDS = (
                 "line {lines} to __init__."
             ),
             "initialiser": msg("Write {written} instead of {name}."),
+            "no_init": msg(
+                "The class {type} has no __init__. Give it a first value in the class: write {name} = "
+                "{start} above the first def of {type}, indented like that def."
+            ),
+            "no_init_value": msg(
+                "The class {type} has no __init__. Give it a first value in the class: write {name} = "
+                "and the value that it has at the beginning above the first def of {type}, indented "
+                "like that def."
+            ),
             "helper": msg("Write {written} instead of {name}, here and in the other lines."),
+            "logger": msg("Write {written} instead of {name}."),
+            "logger_lines": msg("Write {written} instead of {name}, here and in the other lines."),
             "no_method": msg(
                 "Write def {name}(self): with its lines in the class, write the name of the method "
                 "that you mean, or delete the call if it is not needed."
@@ -692,11 +756,36 @@ KINDS = (
                 "The class {type} sets this attribute, and self.{attribute} is an object of this "
                 "class. self is another object."
             ),
+            "logger": NO_LOGGER,
+            "logger_lines": NO_LOGGER,
             "no_method": msg("self.{name}() calls a method, and the class has no method {name}."),
         },
         raised={OWN_ATTRIBUTE: _not_set},
         fixed_by=(_through_helper, lines.written, node_names.close_attribute, node_names.counter),
         examples=(
+            example(
+                "logger_in_an_attribute_that_is_not_set",
+                Replace(NODE, "self.get_logger().info", "self.logger_.info"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "counter_not_set_in_a_class_without_init",
+                Replace(
+                    NODE,
+                    "    def __init__(self):\n",
+                    "    def prepare(self):\n",
+                ),
+                Replace(NODE, "        super().__init__('my_first_node')\n", ""),
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(
+                    NODE,
+                    "node = MyFirstNode()",
+                    "node = MyFirstNode('my_first_node')\n    node.prepare()",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "period_attribute_not_set",
                 Replace(NODE, "create_timer(1.0", "create_timer(self.timer_period"),
@@ -827,10 +916,8 @@ KINDS = (
         links.RCLPY,
         close=msg("Write {close} instead of {name}."),
         whys={
-            "function": msg(
-                "{written} is a function of the file, and no method of the class. It is called "
-                "without self."
-            ),
+            "function": OF_FILE,
+            "function_more": OF_FILE,
             "parameter": msg(
                 "get_parameter returns an object of the type Parameter. Its value is in .value, or in "
                 "get_parameter_value()."
@@ -873,6 +960,10 @@ KINDS = (
                 "self.{name}."
             ),
             "function": msg("Write {written} instead of {name}."),
+            "function_more": msg(
+                "Call the function without self. before its name, and give it a value for each of its "
+                "parameters."
+            ),
             "parameter": msg("Write {written} instead of {name} behind get_parameter(…)."),
             "number": msg("Write {written} instead of {name}."),
             "none": msg("Find the line that should give it its value, and see what that does."),
@@ -894,6 +985,17 @@ KINDS = (
         raised={ATTRIBUTE: _unknown},
         fixed_by=(lines.written,),
         examples=(
+            example(
+                "function_that_needs_the_node_called_as_a_method",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "def say(node, text):\n    node.get_logger().info(text)\n\n\nclass MyFirstNode",
+                ),
+                Replace(NODE, "self.get_logger().info(", "self.say("),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "logger_of_rclpy",
                 Replace(NODE, "self.get_logger()", "rclpy.get_logger('my_first_node')"),

@@ -73,8 +73,8 @@ def _parameter(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
     method = raised.source.methods.get(match["function"])
     if method is None or method is not raised.source.callback:
         return None
-    if match["name"] == "self" and _decorator(method):
-        return None
+    if match["name"] == "self":
+        return None  # (a decorator takes it away, or the method is called on the class)
     found = raised.finding("callback_parameter", at=method, name=match["name"])
     return _with_line(found, raised, method)
 

@@ -181,12 +181,24 @@ def _without_name(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return found
     if not dotted(call.func).endswith("Node.__init__"):
         return found
+    if dotted(call.args[0]) == "self":
+        return _self_alone(raised, call)
     code = raised.source.module_of(call).text.code
     name, given = code(call), [*call.args, *(k.value for k in call.keywords)]
     if "\n" in name or len(given) != 1 or call.keywords:
         return replace(found, variant="on_class")
     params = {"name": name, "written": f"super().__init__({code(call.args[0])})"}
     return replace(raised.finding("super_without_name", params=params), variant="on_class_only")
+
+
+def _self_alone(raised: Raised, call: ast.Call) -> RecognisedMistake:
+    """Node.__init__ gets self, and no name."""
+    text = raised.source.module_of(call).text
+    name = f"{text.quote}{raised.assignment.node_name}{text.quote}"
+    given = [text.code(part) for part in call.args[1:]] + [text.code(k) for k in call.keywords]
+    written = f"{text.code(call.func)}({', '.join(['self', name, *given])})"
+    found = raised.finding("super_without_name", at=call, name=text.code(call), written=written)
+    return replace(found, variant="self_alone")
 
 
 def _init_no_self(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -636,10 +648,17 @@ KINDS = (
         SUPER,
         seen=r"TypeError: Node\.__init__\(\) missing 1 required positional argument: 'node_name'",
         whys={"on_class": ON_CLASS, "on_class_only": ON_CLASS},
-        fixes={"on_class_only": msg("Write {written} instead of {name}.")},
+        fixes=dict.fromkeys(
+            ("on_class_only", "self_alone"), msg("Write {written} instead of {name}.")
+        ),
         raised={NO_NODE_NAME: _without_name},
-        fixed_by=(node_life.own_init, node_life.name),
+        fixed_by=(lines.written, node_life.own_init, node_life.name),
         examples=(
+            example(
+                "init_of_node_with_self_alone",
+                Replace(NODE, "super().__init__('my_first_node')", "Node.__init__(self)"),
+                fails="run.starts",
+            ),
             example(
                 "init_of_node_without_self",
                 Replace(NODE, "super().__init__(", "Node.__init__("),

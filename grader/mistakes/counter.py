@@ -221,12 +221,33 @@ def _not_increased(suspect: Suspect) -> RecognisedMistake | None:
         found = suspect.finding("counter_not_increased", at, name=code, written=written)
         return replace(found, words={**found.words, "attribute": name}, variant="nothing")
     found = suspect.finding("counter_not_increased", counter.logged, name=counter.name)
+    if _is_returned(suspect, counter.logged):
+        return replace(found, variant="returned")
     around = source.function_around(counter.logged)
+    if around is not None and around.lineno == around.body[-1].lineno:
+        return replace(found, variant="one_line")
+    if around is not None and _is_in_branch(suspect, around, counter.logged):
+        return replace(found, variant="last_line", words={**found.words, "function": around.name})
     word = outer_word(source, around, counter.name) if around is not None else ""
     if around is None or not word or declares(around, counter.name):
         return found
     words = {**found.words, "word": word, "function": around.name}
     return replace(found, words=words, variant="outer")
+
+
+def _is_returned(suspect: Suspect, logged: ast.expr) -> bool:
+    """Whether the log stands behind return: a line below it would not run."""
+    around = suspect.source.module_of(logged).around(logged)
+    statement = next((part for part in around if isinstance(part, ast.stmt)), None)
+    return isinstance(statement, ast.Return) and bool(suspect.source.logs(statement))
+
+
+def _is_in_branch(suspect: Suspect, function: Function, logged: ast.expr) -> bool:
+    """Whether the log is in a branch of a function that always comes to its last line."""
+    around = suspect.source.module_of(logged).around(logged)
+    inside = {part for part in ast.walk(function) if isinstance(part, ast.If | ast.Match)}
+    returns = any(isinstance(n, ast.Return | ast.Raise) for n in ast.walk(function))
+    return not returns and any(part in inside for part in around)
 
 
 def _is_misspelt_step(source: NodeSource, node: ast.AST) -> bool:
@@ -484,6 +505,18 @@ KINDS = (
                 "Write {word} {name} as the first line of {function}, and after the log line: "
                 "{name} += {step}"
             ),
+            "last_line": msg(
+                "Write as the last line of {function}, in the same column as its first line: {name} += "
+                "{step}"
+            ),
+            "one_line": msg(
+                "Write what is behind the colon of this def on a line of its own below it, with 4 more "
+                "spaces before it than def has. Below that, in the same column: {name} += {step}"
+            ),
+            "returned": msg(
+                "Delete the word return before the call that logs, and write on a line of its own below "
+                "that call: {name} += {step}"
+            ),
         },
         behind={"run.constant_counter": _not_increased},
         fixed_by=(lines.written, node_count.step),
@@ -495,6 +528,39 @@ KINDS = (
                     NODE,
                     "    def timer_callback",
                     "    def increase(self):\n        self.counter_ + 1\n\n    def timer_callback",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "counter_constant_in_a_branch",
+                Replace(NODE, "        self.counter_ += 1\n", ""),
+                Replace(
+                    NODE,
+                    "        self.get_logger().info('Hello time: ' + str(self.counter_))\n",
+                    "        if self.counter_ == 0:\n"
+                    "            self.get_logger().info('Hello time: 0')\n"
+                    "        else:\n"
+                    "            self.get_logger().info('Hello time: ' + str(self.counter_))\n",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "counter_constant_in_a_def_of_one_line",
+                Replace(
+                    NODE,
+                    "    def timer_callback(self):\n"
+                    '        """Say hello once; the timer calls this for as long as the node spins."""\n'
+                    "        self.get_logger()",
+                    "    def timer_callback(self): self.get_logger()",
+                ),
+                Replace(NODE, "        self.counter_ += 1\n", ""),
+                fails="run.output",
+            ),
+            example(
+                "counter_constant_in_a_return",
+                Replace(NODE, "        self.counter_ += 1\n", ""),
+                Replace(
+                    NODE, "        self.get_logger().info", "        return self.get_logger().info"
                 ),
                 fails="run.output",
             ),

@@ -538,7 +538,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "written": "24",
         "statement": "rclpy.spin(node)",
     },
-    "node.quotes_missing": {"name": "my_node"},
+    "node.quotes_missing": {"name": "my_node", "written": "'my_node'"},
     "node.self_missing": {"name": "create_timer"},
     "node.rate_sleep": {
         "name": "rate.sleep",

@@ -22,16 +22,18 @@ from grader.mistakes.fixes import lines, node_loops, node_timer, node_try
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Suspect
+from grader.mistakes.stop_in_branch import FIXES as BRANCH_FIXES
+from grader.mistakes.stop_in_branch import branch_of, in_branch, without_stop
 from grader.mistakes.worked_out import first_of, worked_out
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import adds_to, logged_counter, starts_of, targets_of
 from grader.package.source.endless import methods_run_by
-from grader.package.source.module import Function
-from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.module import Function, Module
+from grader.package.source.names import called_name, calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.period import is_right, seconds_of
-from grader.package.source.place import function_at, statement_at
+from grader.package.source.place import block_of, function_at, statement_at
 
 ENDS = ("destroy_node", "rclpy.shutdown", "rclpy.try_shutdown")
 LEVELS = ("set_level", "set_logger_level")
@@ -191,8 +193,51 @@ def _ends(suspect: Suspect) -> RecognisedMistake | None:
     parts = [] if callback is None else [callback, *inner]
     for call, name in (found for part in parts for found in calls_in(part)):
         if name in ENDS or last_part(name) == "destroy_node":
-            return suspect.finding("ends_in_callback", call, name=f"{name}()")
+            found = suspect.finding("ends_in_callback", call, name=f"{name}()")
+            return _with_its_block(suspect, call, found)
     return None
+
+
+def _with_its_block(
+    suspect: Suspect, call: ast.Call, found: RecognisedMistake
+) -> RecognisedMistake:
+    """Name what goes with a call that ends the node: its branch, or the other calls of this kind."""
+    module = suspect.source.module_of(call)
+    statement = statement_at(module, call.lineno)
+    branch = in_branch(suspect.source, module, statement)
+    if branch is not None:
+        return replace(found, variant=branch[0], words={**found.words, **branch[1]})
+    also = _ends_beside(module, statement) if statement is not None else []
+    if len(also) < 2:
+        return found
+    words = {**found.words, "lines": ", ".join(str(s.lineno) for s in also)}
+    return replace(found, variant="lines", words=words)
+
+
+def _ends_beside(module: Module, statement: ast.stmt) -> list[ast.stmt]:
+    """Return the statements of a block that only end the node, this one too."""
+    return [
+        s
+        for s in block_of(module, statement)
+        if isinstance(s, ast.Expr)
+        and isinstance(s.value, ast.Call)
+        and (dotted(s.value.func) in ENDS or called_name(s.value) == "destroy_node")
+    ]
+
+
+def _without_ends(case: Case) -> Files | None:
+    """Delete what ends the node: the only call, all calls of its block, or its branch."""
+    module, node = case.module, case.node
+    statement = statement_at(module, case.finding.line) if module is not None else None
+    if module is None or node is None or statement is None:
+        return None
+    also = _ends_beside(module, statement)
+    if len(also) < 2 or branch_of(node, module, statement) is not None:
+        return without_stop(case)
+    rows = [lines.own_lines(module, s) for s in also]
+    if len(also) == len(block_of(module, statement)) or None in rows:
+        return None
+    return case.changed(module, *(module.text.without(n) for row in rows for n in row or ()))
 
 
 def _setup_code(suspect: Suspect) -> RecognisedMistake | None:
@@ -538,9 +583,22 @@ KINDS = (
             "run.no_lines": _ends,
             "run.exits_at_once": _ends,
         },
-        fixed_by=(lines.deleted,),
+        fixes={"lines": msg("Remove lines {lines}: a node ends with Ctrl+C."), **BRANCH_FIXES},
+        fixed_by=(_without_ends,),
         deletes=("",),
         examples=(
+            example(
+                "shutdown_and_return_in_a_branch",
+                Replace(
+                    NODE,
+                    STEP_LINE,
+                    f"{STEP_LINE}        if self.counter_ == 4:\n"
+                    "            self.get_logger().info('done')\n            rclpy.shutdown()\n"
+                    "            return\n",
+                ),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
             example(
                 "shutdown_in_callback",
                 Replace(NODE, STEP_LINE, f"{STEP_LINE}        rclpy.shutdown()\n"),

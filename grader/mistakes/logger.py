@@ -17,6 +17,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, calls_in, dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS, NodeSource
+from grader.package.source.place import block_of, statement_at
 from grader.package.source.printed import as_log, imitates_record, writes_line
 
 
@@ -181,7 +182,8 @@ def _debug(suspect: Suspect) -> RecognisedMistake | None:
     logs = source.logs(callback) if callback is not None else []
     debug = [log for log in logs if dotted(log.func).endswith(".debug")]
     if debug:
-        return suspect.finding("debug_level", debug[0])
+        fit = [log for log in debug if _can_begin(log, suspect.output.line(0))]
+        return suspect.finding("debug_level", fit[0]) if fit else None
     # (in a lambda or a helper, of a logger that a parameter is; the only line that is logged)
     found = _methods_of_loggers(source)
     if len(found) != 1 or found[0].attr != "debug":
@@ -191,6 +193,23 @@ def _debug(suspect: Suspect) -> RecognisedMistake | None:
     written = f"{name.removesuffix('debug')}info"
     mistake = suspect.finding("debug_level", found[0], name=name, written=written)
     return replace(mistake, variant="written")
+
+
+def _can_begin(log: ast.Call, line: str) -> bool:
+    """Whether a log can write a line, as far as the text tells with which its value begins."""
+    first: ast.AST | None = log.args[0] if log.args else None
+    while first is not None and not isinstance(first, ast.Constant):
+        if isinstance(first, ast.BinOp):
+            first = first.left
+        elif isinstance(first, ast.JoinedStr):
+            first = first.values[0] if first.values else None
+        elif isinstance(first, ast.Call) and called_name(first) == "format":
+            first = first.func.value if isinstance(first.func, ast.Attribute) else None
+        else:
+            return True  # (a name: its value is not known here)
+    text = first.value if isinstance(first, ast.Constant) else ""
+    begin = text.strip()[:3].casefold() if isinstance(text, str) else ""
+    return begin[:1] in ("%", "{", "") or line.casefold().startswith(begin)
 
 
 def _methods_of_loggers(source: NodeSource) -> list[ast.Attribute]:
@@ -232,12 +251,29 @@ def _twice(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _print_beside(source: NodeSource, part: ast.AST) -> ast.Call | None:
-    """Return the print() of a text that the logger logs as well."""
-    logged = [ast.dump(call.args[0]) for call in source.own_logs if len(call.args) == 1]
+    """Return the print() of a text that the logger logs as well, wherever the print() is reached."""
+    logs = [call for call in source.logs(part) if called_name(call) != "debug"]
+    logs = [call for call in logs if len(call.args) == 1 and source.is_own_log(call)]
     for call in source.prints(part):
-        if len(call.args) == 1 and ast.dump(call.args[0]) in logged:
+        same = [log for log in logs if call.args[1:] == [] and _are_same(log, call)]
+        if any(_is_beside(source, log, call) for log in same):
             return call
     return None
+
+
+def _are_same(log: ast.Call, call: ast.Call) -> bool:
+    return bool(call.args) and ast.dump(call.args[0]) == ast.dump(log.args[0])
+
+
+def _is_beside(source: NodeSource, log: ast.Call, call: ast.Call) -> bool:
+    """Whether a log stands in the block of a call, or in one around it: it is no other branch."""
+    module = source.module_of(log)
+    statement = statement_at(module, log.lineno)
+    return statement is not None and any(
+        part in block_of(module, statement)
+        for part in module.around(call)
+        if isinstance(part, ast.stmt)
+    )
 
 
 def _print_inside(suspect: Suspect, call: ast.Call, given: ast.Call) -> RecognisedMistake:
@@ -550,7 +586,7 @@ KINDS = (
                     NODE,
                     LOG_LINE,
                     "        if self.counter_ % 2:\n"
-                    "            self.get_logger().debug('odd')\n"
+                    "            self.get_logger().debug('Hello time: ' + str(self.counter_))\n"
                     f"        else:\n    {LOG_LINE}",
                 ),
                 fails="run.output",
@@ -642,6 +678,16 @@ KINDS = (
             node_log.only_logged,
         ),
         examples=(
+            example(
+                "printed_beside_a_debug_line",
+                Replace(
+                    NODE,
+                    "        self.get_logger().info('Hello time: ' + str(self.counter_))\n",
+                    "        text = 'Hello time: ' + str(self.counter_)\n"
+                    "        print(text)\n        self.get_logger().debug(text)\n",
+                ),
+                fails="run.logger",
+            ),
             example(
                 "printed", Replace(NODE, "self.get_logger().info", "print"), fails="run.logger"
             ),

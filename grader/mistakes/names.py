@@ -52,6 +52,12 @@ PROPERTY = msg(
 )
 
 
+ON_CLASS = msg(
+    "{function} works on an object: Python passes the object as self. Nothing is passed if the method "
+    "is called on the class."
+)
+
+
 OF_ROS = ("spin", "spin_once", *NODE_METHODS)
 """Calls of ROS: an error that comes from inside of them is not about their own brackets."""
 
@@ -72,9 +78,7 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return guard
     timers = [] if bindings(raised.module, name) else raised.source.timers
     if any(dotted(timer.period or timer.call) == name for timer in timers):
-        period = repr(raised.assignment.output.period)
-        found = raised.finding("name_unknown", name=name, written=period)
-        return replace(found, variant="period")
+        return _period(raised, name)
     ways = (_class_for(raised, name), _of_module(raised, name), _of_rclpy(raised.module, name))
     certain = next((way for way in (*ways, _in_other_case(name)) if way), None)
     if certain is not None:
@@ -100,6 +104,17 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return replace(found, variant="cut", words={**found.words, "written": whole[0]})
     found = raised.finding("name_unknown", name=name, close=close)
     return _instead(found) if close and nearest(name, [close], cutoff=MISSPELT) else found
+
+
+def _period(raised: Raised, name: str) -> RecognisedMistake:
+    """The period is a name that nothing defines; other lines may use the name too."""
+    period = repr(raised.assignment.output.period)
+    uses = [n for n in raised.module.nodes if isinstance(n, ast.Name) and n.id == name]
+    if len(uses) == 1:
+        found = raised.finding("name_unknown", name=name, written=period)
+        return replace(found, variant="period")
+    found = raised.finding("name_unknown", name=name)
+    return replace(found, variant="period_named", words={**found.words, "written": period})
 
 
 def _binding(raised: Raised, name: str, close: str) -> RecognisedMistake | None:
@@ -247,9 +262,7 @@ def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     found = raised.finding("argument_missing", name=match["name"], function=match["function"])
     own = {n.name for n in raised.source.all_nodes if isinstance(n, Function)}
     if match["function"] == "spin":
-        here = node_here(raised.source, raised.module, raised.line)
-        words = {**found.words, "node": here} if here else found.words
-        return replace(found, words=words, variant="spin")
+        return _spin_without_node(raised, found)
     names = re.findall(r"'(\w{1,120})'", match["names"])
     if len(names) > 1 and function not in own:
         params = {"name": ", ".join(names), "function": match["function"]}
@@ -266,7 +279,9 @@ def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         words = {"name": function, "written": f"self.{function}", "function": function}
         found = raised.finding("argument_missing", at=outside[0].call)
         return replace(found, variant="outside", words={**found.words, **words})
-    if "." in match["function"] and (match["name"] == "self" or _on_class(raised, match)):
+    if match["name"] == "self" and "." in match["function"]:
+        return _through_object(raised, match["function"]) or replace(found, variant="class")
+    if "." in match["function"] and _on_class(raised, match):
         return replace(found, variant="class")
     if function in own and not foreign:
         return _of_own_method(raised, match) or replace(found, variant="own")
@@ -287,6 +302,41 @@ def _on_class(raised: Raised, match: re.Match[str]) -> bool:
     here = [c for c in calls if raised.line in lines_of(c) and c.args]
     plain = len(made) == 1 and has_self(made[0]) and not made[0].decorator_list
     return plain and len(here) == 1 and dotted(here[0].args[0]) != "self"
+
+
+def _spin_without_node(raised: Raised, found: RecognisedMistake) -> RecognisedMistake:
+    """Nothing is in the () of spin: name the node, which may have no variable yet."""
+    source = raised.source
+    here = node_here(source, raised.module, raised.line)
+    if here:
+        return replace(found, words={**found.words, "node": here}, variant="spin")
+    alone = [
+        n
+        for n in raised.module.nodes
+        if isinstance(n, ast.Expr)
+        and isinstance(n.value, ast.Call)
+        and source.is_node_class(n.value.func)
+        and function_at(raised.module, n.lineno) is function_at(raised.module, raised.line)
+    ]
+    if len(alone) != 1 or "node" in raised.module.names:
+        return replace(found, variant="spin_nothing")
+    words = {"written": f"node = {raised.module.text.code(alone[0])}", "line": str(alone[0].lineno)}
+    return replace(found, words={**found.words, **words}, variant="spin_unnamed")
+
+
+def _through_object(raised: Raised, function: str) -> RecognisedMistake | None:
+    """A method of the node is called on its class where the node itself is at hand."""
+    here = node_here(raised.source, raised.module, raised.line)
+    statement = statement_at(raised.module, raised.line)
+    called = [name for _, name in calls_in(statement)] if statement is not None else []
+    owner, _, method = function.partition(".")
+    if not here or called.count(function) != 1 or method.startswith("__"):
+        return None
+    if method not in raised.source.methods or owner not in {c.name for c in raised.source.family}:
+        return None
+    params = {"name": function, "written": f"{here}.{method}"}
+    found = raised.finding("argument_missing", params=params)
+    return replace(found, variant="class_object", words={**found.words, "function": function})
 
 
 def _in_method(raised: Raised) -> bool:
@@ -435,6 +485,9 @@ KINDS = (
                 "nothing defines."
             ),
             "period": msg("Write the period in seconds instead of {name}: {written}"),
+            "period_named": msg(
+                "Give {name} its value on a line of its own below the imports: {name} = {written}"
+            ),
             "instead": msg("Write {close} instead of {name}."),
             "type": msg("Write {close} instead of {name} in line {lines}."),
             "alias": msg(
@@ -466,7 +519,23 @@ KINDS = (
         seen=r"NameError: name '(?P<name>\w{1,120})' is not defined",
         raised={NAME_ERROR: _undefined},
         fixed_by=(lines.written, rename.variable, lines.deleted_name),
+        deletes=("alone",),
         examples=(
+            example(
+                "period_named_twice_and_unknown",
+                Replace(NODE, "create_timer(1.0", "create_timer(PERIOD"),
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "self.counter_ = 0\n        self.get_logger().debug(f'{PERIOD} s')",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "unknown_name_alone_in_except",
+                Replace(NODE, "        pass\n", "        ignored\n"),
+                fails="run.interrupt",
+            ),
             example(
                 "node_set_by_another_case",
                 Replace(NODE, "    node = MyFirstNode()", "    Node_ = MyFirstNode()"),
@@ -636,9 +705,18 @@ KINDS = (
                 "Indent {function} and its lines by 4 more spaces and move them into the class, among "
                 "its methods. Write {written} instead of {name} on this line."
             ),
+            "class_object": msg("Write {written} instead of {name}."),
             "spin": msg("Write rclpy.spin({node}): spin needs the node that was created."),
+            "spin_unnamed": msg(
+                "Give the node that line {line} creates a name: write {written} there. Write "
+                "rclpy.spin(node) on this line."
+            ),
+            "spin_nothing": msg(
+                "spin needs the node that was created: write what has it into the () of spin."
+            ),
         },
         whys={
+            "class_object": ON_CLASS,
             "outside": msg(
                 "The timer calls {function} without arguments. Only a method of an object gets self, "
                 "and {function} is outside of the class."
@@ -649,10 +727,7 @@ KINDS = (
                 "Without self., get_logger is a function that this file imports, and it needs a name. "
                 "The node has a logger of its own."
             ),
-            "class": msg(
-                "{function} works on an object: Python passes the object as self. Nothing is passed "
-                "if the method is called on the class."
-            ),
+            "class": ON_CLASS,
         },
         raised={
             r"TypeError: (?P<function>[\w.]{1,200})\(\) missing \d{1,3} required positional arguments?: (?P<names>'(?P<name>\w{1,120})'.{0,400})": _argument
@@ -664,6 +739,19 @@ KINDS = (
             lines.written,
         ),
         examples=(
+            example(
+                "callback_called_on_its_class",
+                Replace(NODE, "self.timer_callback)", "lambda: MyFirstNode.timer_callback())"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "spin_without_node_that_has_no_name",
+                Replace(NODE, "node = MyFirstNode()", "MyFirstNode()"),
+                Replace(NODE, "rclpy.spin(node)", "rclpy.spin()"),
+                Replace(NODE, "        node.destroy_node()\n", ""),
+                fails="run.starts",
+            ),
             example(
                 "callback_with_self_outside",
                 Replace(NODE, CALLBACK, ""),

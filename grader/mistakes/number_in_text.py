@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import ast
+import io
 import re
+import tokenize
 from dataclasses import replace
 
 from grader.base.i18n.message import Value, joined, msg, say
@@ -69,7 +71,26 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     if added is None or number_first or not _may_be_number(added):
         return None
     name = raised.module.text.code(added)
+    if isinstance(statement, ast.AugAssign) and _is_kept_number(raised, statement):
+        return _kept_and_added(raised, statement, name)
     return raised.finding("str_plus_int", at=statement, name=name, written=f"str({name})")
+
+
+def _is_kept_number(raised: Raised, statement: ast.AugAssign) -> bool:
+    """Whether += adds a number to an attribute that no line sets to a text of other signs."""
+    name = dotted(statement.target)
+    if not name.startswith("self.") or not _is_literal(statement.value):
+        return False
+    sets = [n for n in raised.module.nodes if isinstance(n, ast.Assign) and name in targets_of(n)]
+    texts = [n.value.value for n in sets if isinstance(n.value, ast.Constant)]
+    return not any(isinstance(text, str) and not text.strip().isdigit() for text in texts)
+
+
+def _kept_and_added(raised: Raised, statement: ast.AugAssign, added: str) -> RecognisedMistake:
+    name, code = dotted(statement.target), raised.module.text.code(statement)
+    params = {"name": code, "written": f"{name} = int({name}) + {added}"}
+    found = raised.finding("str_plus_int", at=statement, params=params)
+    return replace(found, words={**found.words, "attribute": name}, variant="kept_text")
 
 
 def _kept_as_text(raised: Raised, statement: ast.stmt | None) -> RecognisedMistake | None:
@@ -169,13 +190,14 @@ def _f_prefix(suspect: Suspect) -> RecognisedMistake | None:
     module, code = source.module_of(string), source.module_of(string).text.code(string)
     values = re.findall(r"\{([^{}!:=]{1,80})[!:=]?[^{}]{0,20}\}", suspect.text)
     if all(is_readable(source, module, source.function_around(string), v) for v in values):
-        if code[:1] not in ("'", '"'):
+        if code[:1] not in ("'", '"') or _is_joined(code):
             return _f_of_part(suspect, string)
         found = suspect.finding("f_prefix", string, name=code, written=f"f{code}")
         return replace(found, variant="written" if len(code) <= MOST_CODE else "")
     given = _given(suspect, string)
     function = source.function_around(given) if given is not None else None
-    if given is None or code[:1] not in ("'", '"') or len(code) > MOST_CODE:
+    plain = code[:1] in ("'", '"') and not _is_joined(code)
+    if given is None or not plain or len(code) > MOST_CODE:
         return None
     if not all(is_readable(source, source.module_of(given), function, v) for v in values):
         return None
@@ -198,6 +220,15 @@ def _double_braces(suspect: Suspect) -> RecognisedMistake | None:
             finding = suspect.finding("counter_in_text", string, name=found[1], written=written)
             return replace(finding, variant="doubled_at")
     return None
+
+
+def _is_joined(code: str) -> bool:
+    """Whether the code of a string consists of several strings beside each other."""
+    rows = io.StringIO(f"({code})").readline
+    try:
+        return sum(t.type == tokenize.STRING for t in tokenize.generate_tokens(rows)) > 1
+    except (tokenize.TokenError, SyntaxError):
+        return True
 
 
 def _f_of_part(suspect: Suspect, string: ast.Constant) -> RecognisedMistake | None:
@@ -605,6 +636,12 @@ KINDS = (
         fixed_by=(node_log.number_as_text, lines.written),
         examples=(
             example(
+                "counter_starts_as_str_of_a_number",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = str(0)"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+            example(
                 "int_for_str",
                 Replace(NODE, "str(self.counter_)", "int(self.counter_)"),
                 fails="run.output",
@@ -757,6 +794,15 @@ KINDS = (
         behind={"run.wrong_text": _f_prefix},
         fixed_by=tuple(map(node_log.right_text, (node_log.f_prefix, lines.written))),
         examples=(
+            example(
+                "f_missing_in_the_second_of_two_strings",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "'Hello '\n            'time: {self.counter_}'",
+                ),
+                fails="run.output",
+            ),
             example(
                 "f_lost_in_a_helper",
                 Replace(

@@ -19,6 +19,7 @@ from grader.package.source.counter import starts_of, targets_of
 from grader.package.source.imported import full_name, imports, name_of_node
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, last_part, module_name, own_name
+from grader.package.source.node_here import node_here
 from grader.package.source.place import function_at, statement_at
 
 NO_BASE = (
@@ -151,23 +152,33 @@ def _not_spun(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         if given is None or dotted(given) in variables:
             continue
         code = raised.module.text.code(given)
-        node = variables[0] if len(variables) == 1 else "node"
-        if variables and not any(_is_seen_by(raised, call, name) for name in variables):
-            return None  # (a variable of another function)
+        node = node_here(raised.source, raised.module, raised.line)
+        if not node and not isinstance(given, ast.Constant):
+            return None  # (what it is has to be followed)
+        if not node:
+            return replace(raised.finding("spin_of_other", at=call), variant="no_variable")
         return raised.finding("spin_of_other", at=call, name=code, written=node)
     return None
 
 
-def _is_seen_by(raised: Raised, call: ast.Call, name: str) -> bool:
-    """Whether a variable is one of the function that has a call, or of the file."""
-    function = raised.source.function_around(call)
-    inside = list(ast.walk(function)) if function is not None else []
-    passed = any(isinstance(n, ast.arg) and n.arg == name for n in inside)
-    return (
-        "." in name
-        or passed
-        or any(name in targets_of(n) for n in (*inside, *raised.module.tree.body))
-    )
+def _executor_spun(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """rclpy.spin gets an executor that has the node."""
+    del match
+    calls = [(call, name) for call, name in raised.source.calls if raised.module.has(call)]
+    kept = {
+        dotted(call.func.value)
+        for call, name in calls
+        if isinstance(call.func, ast.Attribute) and call.func.attr == "add_node"
+    }
+    for call, name in calls:
+        alone = len(call.args) == 1 and not call.keywords and raised.line in lines_of(call)
+        if name == "rclpy.spin" and alone and dotted(call.args[0]) in kept:
+            text = raised.module.text
+            params = {"name": text.code(call), "written": f"{text.code(call.args[0])}.spin()"}
+            return replace(
+                raised.finding("spin_of_other", at=call, params=params), variant="executor"
+            )
+    return None
 
 
 def _spin_with_more(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -414,7 +425,8 @@ def _not_a_number(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     init = raised.source.method("__init__")
     for part in ast.walk(statement) if statement is not None else ():
         name = dotted(part)
-        if not name.startswith("self.") or name.count(".") != 1:
+        part_of = isinstance(raised.module.parents.get(part), ast.Subscript | ast.Attribute)
+        if not name.startswith("self.") or name.count(".") != 1 or part_of:
             continue
         set_here = [n for n in ast.walk(init) if isinstance(n, ast.Assign)] if init else []
         starts = [n for n in set_here if name in targets_of(n)]
@@ -500,18 +512,48 @@ KINDS = (
         "spin_of_other",
         "spin",
         msg("rclpy.spin gets something that is not the node"),
-        msg("spin needs the node that was created, not its name."),
+        msg("spin needs the node that was created."),
         INSTEAD,
         links.EXECUTORS,
+        fixes={
+            "no_variable": msg(
+                "spin needs a name for the node: write node = before the call that creates the node, and "
+                "node into the () of spin."
+            )
+        },
         whys={
+            "executor": msg(
+                "rclpy.spin takes a node. An executor that has the node spins it with its own method."
+            ),
             "second": msg(
                 "rclpy.spin takes the node. A second value is an executor, not a period: "
                 "the timer has the period."
-            )
+            ),
         },
-        raised={NOT_A_NODE: _not_spun, NOT_AN_EXECUTOR: _spin_with_more},
+        raised={
+            NOT_A_NODE: _not_spun,
+            NOT_AN_EXECUTOR: _spin_with_more,
+            r"'\w{0,120}Executor' object has no attribute '\w{1,120}'": _executor_spun,
+        },
         fixed_by=(lines.written,),
         examples=(
+            example(
+                "spin_of_an_executor_with_the_node",
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)",
+                    "        executor = rclpy.executors.SingleThreadedExecutor()\n"
+                    "        executor.add_node(node)\n        rclpy.spin(executor)",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "spin_of_name_of_a_node_without_variable",
+                Replace(NODE, "node = MyFirstNode()", "MyFirstNode()"),
+                Replace(NODE, "rclpy.spin(node)", "rclpy.spin('my_first_node')"),
+                Replace(NODE, "        node.destroy_node()\n", ""),
+                fails="run.starts",
+            ),
             example(
                 "spin_of_name",
                 Replace(NODE, "rclpy.spin(node)", "rclpy.spin('my_first_node')"),

@@ -17,7 +17,7 @@ from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, own_name
 from grader.package.source.place import function_at, method_above, statement_at
-from grader.package.source.scopes import has_self, visible_names
+from grader.package.source.scopes import bindings, has_self, visible_names
 
 NODE_METHODS = (
     *("create_timer", "get_logger", "get_clock", "get_name", "create_publisher", "destroy_node"),
@@ -51,7 +51,12 @@ def _quotes(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name = match["name"]
     places = node_scope.names_as_text(raised.module, name)
     of_class = {target for c in raised.module.classes for s in c.body for target in targets_of(s)}
-    if not places or name in of_class:
+    if name in of_class:
+        return None
+    if not places and name == raised.assignment.node_name and name not in raised.module.names:
+        found = raised.finding("quotes_missing", name=name, written=repr(name))
+        return replace(found, variant="written")
+    if not places:
         return None
     found = raised.finding("quotes_missing", at=places[0], name=name)
     return replace(found, variant="guard") if name == "__main__" else found
@@ -135,7 +140,32 @@ def _self_in_function(raised: Raised) -> RecognisedMistake:
     if kept is not None:
         return kept
     found = raised.finding("self_outside", name=variables[0] if variables else "")
-    return replace(found, variant="variable") if len(variables) == 1 else found
+    known = set(variables) <= visible_names(raised.module, raised.line, "self")
+    if len(variables) != 1 or not known:
+        return _given_self(raised) or found
+    below = [b for b in bindings(raised.module, variables[0]) if b.line > (raised.line or 0)]
+    if len(below) != len(bindings(raised.module, variables[0])):
+        return replace(found, variant="variable")
+    words = {**found.words, "line": str(below[0].line)}
+    return replace(found, variant="variable_below", words=words)
+
+
+def _given_self(raised: Raised) -> RecognisedMistake | None:
+    """A function outside of the class uses self, and only methods call it."""
+    function = function_at(raised.module, raised.line)
+    if function is None or raised.module.functions.get(function.name) is not function:
+        return None
+    uses = [n for n in raised.module.nodes if isinstance(n, ast.Name) and n.id == function.name]
+    around = [function_at(raised.module, use.lineno) for use in uses]
+    called = [isinstance(raised.module.parents.get(use), ast.Call) for use in uses]
+    own = [s for c in raised.source.family for s in c.body]
+    inside = all(isinstance(f, Function) and f in own and has_self(f) for f in around)
+    if not uses or not inside or not all(called) or function.args.posonlyargs:
+        return None
+    lines = ", ".join(str(row) for row in sorted({use.lineno for use in uses}))
+    words = {"function": function.name, "lines": lines}
+    found = raised.finding("self_outside", at=function, name=function.name)
+    return replace(found, variant="given", words={**found.words, **words})
 
 
 def _kept_as_attribute(raised: Raised) -> RecognisedMistake | None:
@@ -250,10 +280,20 @@ KINDS = (
         msg("Without quotes, {name} is the name of a variable, and there is no such variable."),
         msg("Write super().__init__('{node_name}')."),
         links.PYTHON_STRINGS,
-        fixes={"guard": msg("Write: if __name__ == '__main__':")},
+        fixes={
+            "guard": msg("Write: if __name__ == '__main__':"),
+            "written": msg("Write {written} instead of {name}."),
+        },
         raised={NAME_ERROR: _quotes},
-        fixed_by=(node_scope.quotes,),
+        fixed_by=(node_scope.quotes, lines.written),
         examples=(
+            example(
+                "node_name_without_quotes_in_an_argument",
+                Replace(NODE, "def __init__(self)", "def __init__(self, name)"),
+                Replace(NODE, "__init__('my_first_node')", "__init__(name)"),
+                Replace(NODE, "node = MyFirstNode()", "node = MyFirstNode(my_first_node)"),
+                fails="run.starts",
+            ),
             example(
                 "node_name_without_quotes",
                 Replace(NODE, "'my_first_node'", "my_first_node"),
@@ -308,6 +348,14 @@ KINDS = (
                 "Indent the line as far as the other lines of {name}, the method above it."
             ),
             "variable": msg("Write {name} instead of self."),
+            "variable_below": msg(
+                "Write {name} instead of self, and move this line below line {line}, which creates the "
+                "node."
+            ),
+            "given": msg(
+                "Give it the node: write self as the first parameter of {function} in this line, and self "
+                "as the first value in each call of {function} (line {lines})."
+            ),
             "function": msg("Write {written} instead of {name}: the function belongs to no class."),
             "attribute": msg(
                 "Use a variable: give {attribute} its first value on a line above def {function}, in "
@@ -338,6 +386,21 @@ KINDS = (
                     "    self.counter_ = 0\n\n    def __init__(self):\n",
                 ),
                 fails="run.starts",
+            ),
+            example(
+                "self_in_a_function_that_methods_call",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "def say(text):\n    self.get_logger().info(text)\n\n\nclass MyFirstNode",
+                ),
+                Replace(
+                    NODE,
+                    "        self.get_logger().info('Hello time: ' + str(self.counter_))\n",
+                    "        say('Hello time: ' + str(self.counter_))\n",
+                ),
+                fails="run.output",
+                blocks=DEAD,
             ),
             example(
                 "self_in_main",
@@ -401,7 +464,10 @@ KINDS = (
         "timer",
         msg("The callback is outside of the class"),
         msg("A function at the margin is not a method of the class, so self does not have it."),
-        msg("Indent def {name}(self): and its lines by 4 spaces, below the class."),
+        msg(
+            "Put def {name}(self): and its lines at the end of the class, indented by 4 more spaces "
+            "than now."
+        ),
         raised={OWN_ATTRIBUTE: _callback_outside},
         fixed_by=(node_scope.into_class,),
         examples=(

@@ -7,12 +7,13 @@ import re
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
-from grader.mistakes import links
+from grader.mistakes import links, stop_in_branch
 from grader.mistakes.example import NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_executor, node_life
 from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import placeholder_values
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.mistakes.stop_in_branch import in_branch
 from grader.package.edit.tree import Edit, Replace, Write
 from grader.package.source.counter import targets_of
 from grader.package.source.endless import Loop, idle_loop
@@ -210,7 +211,20 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
         if method == "add_node" and before in executors(suspect):
             found = suspect.finding("spin_missing", call, name=before)
             return replace(found, variant="executor")
-    return suspect.finding("spin_missing", suspect.place_of_function)
+    return _unnamed(suspect) or suspect.finding("spin_missing", suspect.place_of_function)
+
+
+def _unnamed(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the only line that creates a node, and gives it no name."""
+    source, main = suspect.source, suspect.function
+    made = [n for n in (ast.walk(main) if main is not None else ()) if isinstance(n, ast.Expr)]
+    made = [n for n in made if isinstance(n.value, ast.Call) and source.is_node_class(n.value.func)]
+    if main is None or len(made) != 1 or source.node_variables:
+        return None
+    code = source.module_of(main).text.code(made[0])
+    found = suspect.finding("spin_missing", made[0])
+    words = {**found.words, "name": code, "written": f"node = {code}"}
+    return replace(found, words=words, variant="unnamed")
 
 
 def _sleep_loop(suspect: Suspect) -> RecognisedMistake | None:
@@ -338,11 +352,18 @@ def _exits(suspect: Suspect) -> RecognisedMistake | None:
             around = module.parents.get(statement) if statement is not None else None
             alone = isinstance(around, ast.If) and around.body == [statement] and not around.orelse
             found = suspect.finding("exits", node, name=called or raised)
+            branch = in_branch(suspect.source, module, statement)
+            if branch is not None:
+                return replace(found, variant=branch[0], words={**found.words, **branch[1]})
             return replace(found, variant="if" if alone else "")
     return None
 
 
 IMPORT = Replace(NODE, "import rclpy\nfrom", "import threading\nimport time\nimport rclpy\nfrom")
+STEPS = """\
+        self.get_logger().info('Hello time: ' + str(self.counter_))
+        self.counter_ += 1
+"""
 SPINS = """\
     try:
         rclpy.spin(node)
@@ -692,6 +713,9 @@ KINDS = (
                 "node. Leave only {function}() outside."
             ),
             "executor": msg("Write {name}.spin() below this line."),
+            "unnamed": msg(
+                "Write {written} instead of {name} on this line, and below it: rclpy.spin(node)"
+            ),
             "loop": msg("Write rclpy.spin({node}) instead of this loop."),
             "loop_above": msg("Delete this loop: line {line} waits and calls the callbacks."),
         },
@@ -709,6 +733,12 @@ KINDS = (
                 fails="run.spins",
                 blocks=("run.output", *SILENT),
                 note="the timer is there, and nothing calls it",
+            ),
+            example(
+                "node_without_name_not_spun",
+                Replace(NODE, "node = MyFirstNode()", "MyFirstNode()"),
+                Replace(NODE, SPINS, "    rclpy.shutdown()\n"),
+                fails="run.starts",
             ),
             example(
                 "executor_not_spun",
@@ -775,11 +805,40 @@ KINDS = (
         msg("{name} ends the program; a node runs until Ctrl+C."),
         msg("Delete this line."),
         links.EXECUTORS,
-        fixes={"if": msg("Delete this line and the if above it.")},
+        fixes={"if": msg("Delete this line and the if above it."), **stop_in_branch.FIXES},
         behind={"run.ended_early": _exits},
-        fixed_by=(lines.deleted,),
+        fixed_by=(stop_in_branch.without_stop,),
         deletes=("",),
         examples=(
+            example(
+                "exit_in_the_if_of_an_else_that_logs",
+                Replace(
+                    NODE,
+                    STEPS,
+                    "        if self.counter_ == 3:\n"
+                    "            self.get_logger().debug('the end')\n"
+                    "            raise SystemExit\n"
+                    "        else:\n"
+                    "            self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                    "        self.counter_ += 1\n",
+                ),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+            example(
+                "exit_in_elif",
+                Replace(
+                    NODE,
+                    "self.counter_ += 1",
+                    "self.counter_ += 1\n"
+                    "        if self.counter_ < 0:\n"
+                    "            pass\n"
+                    "        elif self.counter_ == 3:\n"
+                    "            raise SystemExit",
+                ),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
             example(
                 "three_then_exit",
                 Replace(

@@ -7,14 +7,17 @@ import re
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
-from grader.mistakes import links
+from grader.mistakes import links, stop_in_branch
 from grader.mistakes.example import NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_scope, node_timer
+from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.order import attribute_needed_early
 from grader.mistakes.recognised import NAME_ERROR, OWN_ATTRIBUTE, Raised, RecognisedMistake, Suspect
 from grader.mistakes.scope import creates_timer
+from grader.mistakes.stop_in_branch import in_branch
 from grader.mistakes.timer_period import TIMER
+from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.endless import calls_of_methods, endless_loop
@@ -53,6 +56,12 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
         if len(logging) == 1:
             found = replace(found, words={**found.words, "callback": logging[0]})
     loop = endless_loop(suspect.source, callback) if callback is not None else None
+    bodies = [s for c in suspect.source.family for s in c.body]
+    no_init = not any(isinstance(s, Function) and s.name == "__init__" for s in bodies)
+    variables = suspect.source.node_variables
+    if loop is None and suspect.source.node_class is not None and no_init and len(variables) == 1:
+        words = {**found.words, "node": min(variables)}
+        return replace(found, words=words, variant="no_init")
     if loop is None:
         return found
     return replace(found, words={**found.words, "line": str(loop.lineno)}, variant="loop")
@@ -149,12 +158,22 @@ def _with_line(suspect: Suspect, call: ast.Call, name: str) -> RecognisedMistake
     if not isinstance(statement, ast.Expr):
         return replace(found, variant="other", words={**found.words, "name": f"{name}()"})
     block, around = block_of(module, statement), module.parents.get(statement)
+    branch = in_branch(suspect.source, module, statement)
+    if branch is not None:
+        return replace(found, variant=branch[0], words={**found.words, **branch[1]})
     if len(block) > 1:
         return replace(found, variant="destroyed" if destroyed else "line")
     alone = isinstance(around, ast.If) and around.body == block and not around.orelse
     if destroyed and not alone:
         return replace(found, variant="destroyed_alone")
     return replace(found, variant="if" if alone else "alone")
+
+
+def _without_cancel(case: Case) -> Files | None:
+    """Delete the line that stops a timer which another line creates."""
+    node, line = case.node, case.finding.line
+    made = node.calls_of("create_timer") if node is not None else []
+    return stop_in_branch.without_stop(case) if all(call.lineno != line for call in made) else None
 
 
 def _not_started(suspect: Suspect) -> RecognisedMistake | None:
@@ -230,6 +249,7 @@ def _by_hand(suspect: Suspect) -> RecognisedMistake | None:
     for call, name in calls_in(init) if init else ():
         if name in names:
             found = suspect.finding("called_by_hand", call)
+            found = replace(found, words={**found.words, "callback": last_part(name)})
             made = [t.call for t in source.timers if t.callback and dotted(t.callback) == name]
             around = source.function_around(made[0])
             if len(made) == 1 and around is not None and around is source.callback:
@@ -280,6 +300,10 @@ KINDS = (
         },
         fixes={
             "by_hand": msg("Write {written} instead of {name}."),
+            "no_init": msg(
+                "Write on a line of its own below the one that creates the node: "
+                "{node}.create_timer({period}, {node}.{callback})"
+            ),
             "loop": msg(
                 "Write in __init__: self.create_timer({period}, self.{callback}) In {callback}, delete "
                 "the loop of line {line} and the sleep in it, and indent its other lines as far as the "
@@ -296,6 +320,20 @@ KINDS = (
                 ),
                 fails="run.output",
                 also={"run.period": "run.by_hand"},
+            ),
+            example(
+                "timer_missing_in_a_class_without_init",
+                Replace(
+                    NODE,
+                    "    def __init__(self):\n"
+                    "        super().__init__('my_first_node')\n"
+                    "        self.counter_ = 0\n"
+                    "        self.create_timer(1.0, self.timer_callback)\n",
+                    "    counter_ = 0\n",
+                ),
+                Replace(NODE, "node = MyFirstNode()", "node = MyFirstNode('my_first_node')"),
+                fails="run.output",
+                blocks=SILENT,
             ),
             example(
                 "timer_missing",
@@ -322,9 +360,10 @@ KINDS = (
             "if": msg("Delete this line and the if above it."),
             "alone": msg("Write pass instead of this line."),
             "other": msg("Remove {name} from this line."),
+            **stop_in_branch.FIXES,
         },
         behind={"run.no_lines": _cancelled, "run.stops": _stopped},
-        fixed_by=(node_timer.cancelled, node_timer.without_cancel),
+        fixed_by=(node_timer.cancelled, _without_cancel),
         examples=(
             example(
                 "timer_cancelled",
@@ -335,6 +374,25 @@ KINDS = (
                 ),
                 fails="run.output",
                 blocks=SILENT,
+            ),
+            example(
+                "cancel_in_the_if_of_an_else_that_logs",
+                Replace(
+                    NODE,
+                    "self.create_timer(1.0, self.timer_callback)",
+                    "self.timer_ = self.create_timer(1.0, self.timer_callback)",
+                ),
+                Replace(
+                    NODE,
+                    "        self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                    "        self.counter_ += 1\n",
+                    "        if self.counter_ >= 3:\n"
+                    "            self.timer_.cancel()\n"
+                    "        else:\n"
+                    "            self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                    "            self.counter_ += 1\n",
+                ),
+                fails="run.output",
             ),
             example(
                 "three_then_silence",
@@ -469,6 +527,7 @@ KINDS = (
         raised={OWN_ATTRIBUTE: _by_hand_early},
         behind={"run.by_hand": _by_hand},
         fixed_by=(node_timer.by_hand,),
+        deletes=("",),
         examples=(
             example(
                 "called_by_hand_before_counter",

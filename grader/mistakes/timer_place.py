@@ -150,6 +150,8 @@ def _second(suspect: Suspect, timers: list[Timer]) -> RecognisedMistake:
     words = {**found.words, "line": kept.call.lineno}
     names = {last_part(name) for name in targets_of(statement)}
     kept_statement = next((n for n in module.around(kept.call) if isinstance(n, ast.stmt)), None)
+    if kept_statement is statement:
+        return found
     names -= {last_part(name) for name in targets_of(kept_statement)} if kept_statement else set()
     uses = {
         n.lineno

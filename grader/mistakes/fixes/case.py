@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from grader.course.assignment import Assignment
+from grader.mistakes.fixes.placed import is_misplaced
 from grader.package.edit.files import Files
 from grader.package.edit.text import SourceText, Splice, read_source
 from grader.package.source.module import Module
@@ -88,8 +89,15 @@ class Case:
         return self.node.module_at(self.finding.file) if self.node is not None else None
 
     def changed(self, module: Module, *splices: Splice) -> Files | None:
-        """Return the files after changes to a module; None if Python cannot parse the result."""
-        return self.with_data(module.path, module.edited(splices)) if splices else None
+        """Return the files after changes to a module.
+
+        None if Python cannot parse the result, or does not run a new line of it.
+        """
+        new = module.edited(splices) if splices else None
+        old = self.files.data(module.path)
+        if new is not None and old is not None and is_misplaced(old, new):
+            return None
+        return self.with_data(module.path, new)
 
     def with_data(self, path: str, data: bytes | None) -> Files | None:
         """Return the files with one replaced; None if `data` is None or equal to the old bytes."""

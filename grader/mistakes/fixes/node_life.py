@@ -340,6 +340,8 @@ def own_init(case: Case) -> Files | None:
     call = node.super_init if node is not None else None
     if node is None or call is None or not dotted(call.func).endswith("Node.__init__"):
         return None
+    if call.args and dotted(call.args[0]) == "self":
+        return None  # (super() would get self as the name)
     module = node.module_of(call)
     return case.changed(module, module.text.swap(call.func, "super().__init__"))
 
@@ -360,6 +362,8 @@ def spin(case: Case) -> Files | None:
     if not isinstance(target, ast.Name):
         return None
     spun = [s for s in ast.walk(main) if isinstance(s, ast.Expr) and _spins(s)]
+    if not spun and any(s.lineno == made[0].end_lineno for s in main.body if s is not made[0]):
+        return None  # (a line below would come after what else is on this one)
     if not spun and not any(_spins(each.tree) for each in node.modules):
         return case.changed(module, _spin_added(module, main, made[0], f"rclpy.spin({target.id})"))
     wrong = [

@@ -63,7 +63,8 @@ def variable(case: Case) -> Files | None:
         return None
     own = [n for n in ast.walk(function) if isinstance(n, ast.Name)]
     uses = [n for n in own if n.id == "self"]
-    known = any(n.id == variables[0] and isinstance(n.ctx, ast.Store) for n in own)
+    sets = [n for n in own if n.id == variables[0] and isinstance(n.ctx, ast.Store)]
+    known = any(n.lineno < min((u.lineno for u in uses), default=0) for n in sets)
     if (
         function in node.own_methods
         or not known

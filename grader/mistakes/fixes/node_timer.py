@@ -6,7 +6,6 @@ import ast
 from dataclasses import dataclass
 
 from grader.base.nearest import nearest
-from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
@@ -368,13 +367,6 @@ def cancelled(case: Case) -> Files | None:
     module = node.module_of(timer)
     text = module.text
     return case.changed(module, Splice(text.span(timer)[1], text.span(cancels[0])[1], ""))
-
-
-def without_cancel(case: Case) -> Files | None:
-    """Delete the line that stops a timer which another line creates."""
-    node, line = case.node, case.finding.line
-    made = node.calls_of("create_timer") if node is not None else []
-    return lines.deleted(case) if all(call.lineno != line for call in made) else None
 
 
 def started(case: Case) -> Files | None:
