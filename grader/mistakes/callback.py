@@ -13,7 +13,7 @@ from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import node_timer
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
-from grader.package.edit.tree import Replace, Write
+from grader.package.edit.tree import Replace
 from grader.package.source.endless import goes_on
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
@@ -154,24 +154,6 @@ KINDS = (
             example(
                 "callback_without_self",
                 Replace(NODE, "def timer_callback(self)", "def timer_callback()"),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-            example(
-                "method_of_an_object_without_self",
-                Write(
-                    "my_robot_controller/clicker.py",
-                    "class Clicker:\n    clicks = -1\n\n"
-                    "    def click():\n        self.clicks += 1\n        return self.clicks\n",
-                ),
-                Replace(
-                    NODE,
-                    "import rclpy\n",
-                    "import rclpy\n\nfrom my_robot_controller.clicker import Clicker\n",
-                ),
-                Replace(NODE, "self.counter_ = 0", "self.clicker = Clicker()"),
-                Replace(NODE, "str(self.counter_)", "str(self.clicker.click())"),
-                Replace(NODE, "        self.counter_ += 1\n", ""),
                 fails="run.output",
                 blocks=DEAD,
             ),

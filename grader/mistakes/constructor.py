@@ -146,6 +146,8 @@ def _init_not_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake 
     """The class of an object has no __init__; a method with nearly this name sets the attribute."""
     name = match["name"]
     for own in (c for c in raised.module.classes if c.name == match["type"] and not c.bases):
+        if own.decorator_list:
+            continue  # (a dataclass has an __init__ of its own: node.post_init_name)
         methods = {m.name: m for m in own.body if isinstance(m, ast.FunctionDef)}
         near = "" if "__init__" in methods else nearest("__init__", methods, cutoff=0.8)
         sets = [

@@ -153,12 +153,23 @@ def _not_spun(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
             continue
         code = raised.module.text.code(given)
         node = node_here(raised.source, raised.module, raised.line)
+        if node and not _is_seen_by(raised, call, node):
+            return None  # (a variable of another function)
         if not node and not isinstance(given, ast.Constant):
             return None  # (what it is has to be followed)
         if not node:
             return replace(raised.finding("spin_of_other", at=call), variant="no_variable")
         return raised.finding("spin_of_other", at=call, name=code, written=node)
     return None
+
+
+def _is_seen_by(raised: Raised, call: ast.Call, name: str) -> bool:
+    """Whether a name is known in the function that has a call, or in the file."""
+    function = raised.source.function_around(call)
+    inside = list(ast.walk(function)) if function is not None else []
+    passed = any(isinstance(n, ast.arg) and n.arg == name for n in inside)
+    known = (targets_of(n) for n in (*inside, *raised.module.tree.body))
+    return "." in name or passed or any(name in names for names in known)
 
 
 def _executor_spun(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:

@@ -17,7 +17,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.own_calls import DATACLASS
 from grader.mistakes.recognised import OWN_ATTRIBUTE, Raised, RecognisedMistake, on_line
 from grader.mistakes.scope import NODE_METHODS
-from grader.package.edit.tree import Replace
+from grader.package.edit.tree import Replace, Write
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, last_part
@@ -282,6 +282,24 @@ KINDS = (
         raised={TAKES_NONE: on_line(_no_self)},
         fixed_by=(lines.written,),
         examples=(
+            example(
+                "method_of_an_object_without_self",
+                Write(
+                    "my_robot_controller/clicker.py",
+                    "class Clicker:\n    clicks = -1\n\n"
+                    "    def click():\n        self.clicks += 1\n        return self.clicks\n",
+                ),
+                Replace(
+                    NODE,
+                    "import rclpy\n",
+                    "import rclpy\n\nfrom my_robot_controller.clicker import Clicker\n",
+                ),
+                Replace(NODE, "self.counter_ = 0", "self.clicker = Clicker()"),
+                Replace(NODE, "str(self.counter_)", "str(self.clicker.click())"),
+                Replace(NODE, "        self.counter_ += 1\n", ""),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "method_of_a_helper_without_self",
                 *WITH_HELPER,
