@@ -116,6 +116,7 @@ def test_the_time_after_which_a_node_ends_is_read(text: str, seconds: float) -> 
         ("n = n + 1\nwhile n < 2 * 20:\n    rclpy.spin_once(node)", 40),
         ("LAST = 25\nself.n += 1\nif node.n >= LAST:\n    quit()", 25),
         ("self.n = (self.n + 1) % 60", 60),
+        ("self.n = (self.n + 1) & 0x1F", 31),
         ("self.n += 1\nif self.n == 3600:\n    rclpy.shutdown()", 0),
         ("self.n += 1\nif self.other == 30:\n    rclpy.shutdown()", 0),
     ],

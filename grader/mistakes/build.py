@@ -832,7 +832,9 @@ KINDS = (
                 "The code of a node is in setup.py. Move it to {path}, and write setup.py again as "
                 "ros2 pkg create makes it."
             ),
-            "guard": msg("Write {wanted} instead of {name}, then build again."),
+            **dict.fromkeys(
+                ("guard", "named"), msg("Write {wanted} instead of {name}, then build again.")
+            ),
             "entries_list": msg(
                 "entry_points is a dict: the name of a group, and the list of its entries. Write "
                 "{{'console_scripts': before the [, and }} after the ]. Then build again."
@@ -875,6 +877,10 @@ KINDS = (
                 "colcon runs setup.py to install the package into the workspace's install folder, "
                 "the only place where ros2 run looks. The lines of a function run only if it is "
                 "called."
+            ),
+            "named": msg(
+                "This line names the function {name}, and does not call it, so setup() in it is not "
+                "called and nothing is installed."
             ),
             "guard": msg(
                 "colcon runs setup.py, and then __name__ is '__main__'. With another text the "
@@ -924,6 +930,13 @@ KINDS = (
                 Replace(
                     SETUP, "    },\n)\n", "    },\n)\n\n\nif __name__ == 'main':\n    main()\n"
                 ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
+                "function_around_setup_only_named",
+                Replace(SETUP, "\nsetup(\n", "\ndef install():\n  setup(\n"),
+                Replace(SETUP, "    },\n)\n", "    },\n)\n\n\ninstall\n"),
                 fails="build.colcon",
                 blocks=("entry_point.mapping",),
             ),

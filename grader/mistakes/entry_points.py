@@ -996,8 +996,8 @@ KINDS = (
         fix=msg("Write the entry into setup.py's entry_points, under console_scripts: '{wanted}',"),
         fixes={
             "made": msg(
-                "Write the entry itself instead of the code that makes it: '{wanted}'. Or correct the "
-                "values from which that code makes it. Then build again."
+                "Write the entry itself instead of the code that makes it: '{wanted}'. Or change that "
+                "code, so that it makes this entry. Then build again."
             ),
             "twice": msg("Delete this call of setup()."),
             "replaced": msg(

@@ -12,6 +12,7 @@ from grader.package.source.node_modules import node_modules
 from grader.package.source.period import number_in
 from grader.package.source.real_time import CLOCKS
 
+WRAPS = ast.Mod | ast.BitAnd  # after which a count begins anew
 MOST_COUNT = 60
 """Larger numbers that a count is compared with are not waited for."""
 WAITS = ("Timer", "alarm", "setitimer", "sleep")
@@ -49,7 +50,7 @@ def _limits(module: Module) -> Iterator[float]:
             counted |= {name for target in node.targets if (name := dotted(target)) in inside}
     counted = {last_part(name) for name in counted} - {""}
     for node in module.nodes:
-        divides = isinstance(node, ast.BinOp | ast.AugAssign) and isinstance(node.op, ast.Mod)
+        divides = isinstance(node, ast.BinOp | ast.AugAssign) and isinstance(node.op, WRAPS)
         if divides or isinstance(node, ast.Compare):
             parts = [part for part in ast.walk(node) if isinstance(part, ast.expr)]
             if counted & {last_part(dotted(part)) for part in parts}:

@@ -368,7 +368,23 @@ def _never_called(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
             guard = _wrong_guard(reader, statement)
             if guard is not None:
                 return guard
+    named = _named_function(reader)
+    if named is not None:
+        return named
     return _entries_form(reader) or _of_value(refused_value(reader.module, reader.call))
+
+
+def _named_function(reader: _Reader) -> SetupFault | None:
+    """A line names the function that calls setup(), without its brackets."""
+    for node in ast.walk(reader.module.tree):
+        if not isinstance(node, ast.Expr) or not isinstance(node.value, ast.Name):
+            continue
+        name = node.value.id
+        function = reader.module.functions.get(name)
+        if function is not None and reader.call in ast.walk(function):
+            swap = reader.module.text.swap(node, f"{name}()")
+            return reader.fault("named", node, swap, name=name, wanted=f"{name}()")
+    return None
 
 
 def _calls_setup(reader: _Reader, statement: ast.If) -> bool:
