@@ -142,6 +142,7 @@ from grader.mistakes import (
     which_node,
     worked_out,
     wrong_object,
+    zero_or,
 )
 from grader.mistakes.example import Example
 from grader.mistakes.fixes.case import Finding, Fix
@@ -250,6 +251,7 @@ CATALOGUE: Mapping[str, Kind] = MappingProxyType(
             odd_characters,
             worked_out,
             counter_variable,
+            zero_or,
             text_calls,
             format_fields,
             template_places,

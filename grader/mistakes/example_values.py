@@ -599,6 +599,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "name": "partial(self.tick('a'))",
         "written": "partial(self.tick, 'a')",
     },
+    "node.zero_is_false": {"name": "self.n or ''", "written": "self.n"},
     "node.waits_for_spin": {"name": "pause()", "written": "rclpy.spin(node)"},
     "node.any_change": {"name": "self.n = 1 - self.n", "written": "self.n += 1"},
     "node.environment": {"name": "os.environ['PERIOD']", "variable": "PERIOD"},

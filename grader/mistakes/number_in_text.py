@@ -386,6 +386,8 @@ def _without_number(suspect: Suspect) -> RecognisedMistake | None:
     without = suspect.output.text.replace("{n}", "").split()
     if suspect.text.split() != without and not _constant_text(suspect):
         return None
+    if any(suspect.output.line(k) in suspect.transcript for k in (1, 2)):
+        return None  # (other lines have the number)
     found = suspect.finding("text_without_number", _place_of_text(suspect))
     if NUMBER_ALONE.search(suspect.transcript):
         return replace(found, variant="parts")

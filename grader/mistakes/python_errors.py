@@ -15,7 +15,7 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.base.shown import shown
 from grader.mistakes import links
-from grader.mistakes.example import DEAD, LOG, LOG_LINE, NODE, example
+from grader.mistakes.example import BODY_OF_MAIN, DEAD, LOG, LOG_LINE, NODE, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.format_fields import text_of
@@ -61,6 +61,11 @@ def _none_attribute(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
     code = raised.module.text.code(used[0]) if len(used) == 1 else ""
     if not code or "\n" in code or len(code) > MOST_CODE:
         return None
+    owner = used[0].value if isinstance(used[0], ast.Attribute) else None
+    if owner is not None and code.endswith(".executor") and match["name"] in ("spin", "spin_once"):
+        call, node = raised.module.text.code(used[0]), raised.module.text.code(owner)
+        params = {"name": f"{call}.{match['name']}()", "written": f"rclpy.{match['name']}({node})"}
+        return replace(raised.finding("none_used", params=params), variant="executor")
     found = raised.finding("none_used", name=code)
     function = _gives_nothing(raised, used[0])
     if function is None:
@@ -317,6 +322,11 @@ def _not_for_with(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     items = [i for n in _on_line(raised) if isinstance(n, ast.With) for i in n.items]
     named = [i for i in items if dotted(i.context_expr) and i.optional_vars is None]
     alone = len(items) == len(named) == 1
+    made = [i.context_expr for i in items if isinstance(i.context_expr, ast.Call)]
+    function = raised.module.functions.get(dotted(made[0].func)) if len(made) == 1 else None
+    if match["first"] == "generator" and function is not None and not function.decorator_list:
+        found = raised.finding("not_for_with", at=function, name=function.name)
+        return replace(found, variant="generator")
     return _told("not_for_with", "name" if alone else "")(raised, match)
 
 
@@ -460,11 +470,16 @@ KINDS = (
             "below": msg(
                 "{name} is None until line {line} runs, and line {line} is below this line."
             ),
+            "executor": msg(
+                "A new node has no executor yet: this attribute is None until something spins the node. "
+                "rclpy.spin gives it one."
+            ),
             "uncalled": msg(
                 "{name} is None until line {line} runs. That line is in {function}, which nothing calls."
             ),
         },
         fixes={
+            "executor": msg("Write {written} instead of {name}."),
             "changes_list": msg("Write only {written} instead of {name}."),
             "below": msg("Move this line below line {line}."),
             "uncalled": msg(
@@ -504,6 +519,11 @@ KINDS = (
                     "        self.period = 1.0\n"
                     "        self.create_timer(",
                 ),
+                fails="run.starts",
+            ),
+            example(
+                "executor_of_a_new_node",
+                Replace(NODE, "rclpy.spin(node)", "node.executor.spin()"),
                 fails="run.starts",
             ),
             example(
@@ -989,12 +1009,37 @@ KINDS = (
                 on_line(_not_for_with)
             )
         },
-        fixes={
-            "name": msg(
-                "Delete the line of the with, and indent the lines of its block as far as that line."
+        whys={
+            "generator": msg(
+                "A function with yield gives a generator, and with cannot use that. @contextmanager makes "
+                "of it what with needs: the lines before yield run at the start of the block, and those "
+                "behind it at its end."
             )
         },
+        fixes={
+            "generator": msg(
+                "Write @contextmanager on the line above def {name}, and at the top of the file: from "
+                "contextlib import contextmanager"
+            ),
+            "name": msg(
+                "Delete the line of the with, and indent the lines of its block as far as that line."
+            ),
+        },
         examples=(
+            example(
+                "generator_in_with",
+                Replace(
+                    NODE,
+                    "\n\ndef main(",
+                    "\n\ndef session(args):\n    rclpy.init(args=args)\n    yield\n    rclpy.try_shutdown()\n\n\ndef main(",
+                ),
+                Replace(
+                    NODE,
+                    BODY_OF_MAIN,
+                    "    with session(args):\n        rclpy.spin(MyFirstNode())\n",
+                ),
+                fails="run.starts",
+            ),
             example(
                 "node_in_with",
                 Replace(

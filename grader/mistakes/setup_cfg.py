@@ -188,7 +188,9 @@ KINDS = (
         title=msg("setup.cfg installs executables where ros2 run does not look"),
         why=OTHER_PLACE,
         whys={
-            **dict.fromkeys(("key", "heading", "section", "swapped", "one_line"), TWO_SECTIONS),
+            **dict.fromkeys(
+                ("key", "heading", "joined", "section", "swapped", "one_line"), TWO_SECTIONS
+            ),
             **dict.fromkeys(("misspelt", "line"), OTHER_KEY),
             "indented": msg(
                 "In setup.cfg, a line that begins with a space continues the line above. So this "
@@ -251,6 +253,10 @@ KINDS = (
             "key": msg("Write below [{section}]: {key}={wanted}, then build again."),
             "misspelt": msg("Write {key} instead of {close} in this line, then build again."),
             "line": msg("Write {key}={wanted} in place of this line, then build again."),
+            "joined": msg(
+                "Write [develop] in place of this line, with only script_dir={wanted} below it. Below that, "
+                "write [install], and below it install_scripts={wanted}. Then build again."
+            ),
             "heading": msg("Write [{section}] instead of [{close}], then build again."),
             "section": msg(
                 "Add two lines: [{section}] and below it {key}={wanted}. Then build again."
@@ -265,6 +271,19 @@ KINDS = (
         examples=(
             example(
                 "setup_cfg_empty", Write(CFG, ""), fails="package.setup_cfg", blocks=UNINSTALLED
+            ),
+            example(
+                "setup_cfg_one_heading_for_both",
+                Write(
+                    CFG,
+                    (
+                        "[develop, install]\n"
+                        "script_dir=$base/lib/my_robot_controller\n"
+                        "install_scripts=$base/lib/my_robot_controller\n"
+                    ),
+                ),
+                fails="package.setup_cfg",
+                blocks=UNINSTALLED,
             ),
             example(
                 "setup_cfg_quotes",

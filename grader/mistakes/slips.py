@@ -511,6 +511,10 @@ SIGNS = {
         "No function around this one gives a value to a variable {wanted}. Compare the name, letter "
         "by letter, with the line above that sets the variable."
     ),
+    "nonlocal_of_file": msg(
+        "nonlocal is for a variable of a function around this one. A variable of the file needs global. "
+        "Write: {wanted}"
+    ),
     "nonlocal": msg(
         "nonlocal is for a function inside a function. Write self. before the name of a variable "
         "of the node, and global for a variable of the file."

@@ -308,7 +308,26 @@ def _nowhere(suspect: Suspect) -> RecognisedMistake | None:
     named = any(isinstance(n, ast.Attribute) and n.attr == "spin" for n in suspect.source.all_nodes)
     if named:
         return _loop_above(suspect)
-    return _idle(suspect) or _missing(suspect)
+    return _loop_of_calls(suspect) or _idle(suspect) or _missing(suspect)
+
+
+def _loop_of_calls(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a while loop of main that only calls a method of the node, which logs."""
+    source, main = suspect.source, suspect.function
+    variables = source.node_variables
+    for loop in ast.walk(main) if main is not None and not source.timers else ():
+        if not isinstance(loop, ast.While) or len(loop.body) != 1:
+            continue
+        statement = loop.body[0]
+        called = dotted(statement.value.func) if isinstance(statement, ast.Expr) and isinstance(
+            statement.value, ast.Call) else ""  # fmt: skip
+        owner, _, name = called.rpartition(".")
+        method = source.methods.get(name)
+        if owner in variables and method is not None and source.logs(method):
+            found = suspect.finding("sleep_loop", loop)
+            words = {**found.words, "node": owner, "method": name}
+            return replace(found, variant="calls", words=words)
+    return None
 
 
 def _loop_above(suspect: Suspect) -> RecognisedMistake | None:
@@ -461,6 +480,11 @@ KINDS = (
         whys={"beside": BESIDE_SPIN, "threaded": BESIDE_SPIN},
         fixes={
             "in_method": IN_METHOD,
+            "calls": msg(
+                "Write {node}.create_timer({period}, {node}.{method}) on a line above this loop, and "
+                "rclpy.spin({node}) in place of the whole loop. Then delete the line of {method} that "
+                "waits: the timer keeps the time."
+            ),
             "function": INTO_FUNCTION,
             "threaded": msg(
                 "Put what the loop does into a method, and call it with a timer that __init__ "
@@ -477,6 +501,17 @@ KINDS = (
         },
         behind={"run.never_spins": _sleep_loop},
         examples=(
+            example(
+                "loop_calls_what_waits_elsewhere",
+                *_loop(LOOPS.replace("            time.sleep(1.0)\n", "")),
+                Replace(
+                    NODE, "\n\nclass", "\n\ndef delay(ms):\n    time.sleep(ms / 1000)\n\n\nclass"
+                ),
+                Replace(
+                    NODE, "self.get_logger().info", "delay(1000)\n        self.get_logger().info"
+                ),
+                fails="run.spins",
+            ),
             example(
                 "sleep_loop",
                 *_loop(),

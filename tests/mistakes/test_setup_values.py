@@ -61,6 +61,7 @@ def _check(name: str, check: str, tmp_path: Path) -> tuple[CheckResult, str]:
         ("modules_of_two_entries_exchanged", "entry_point.mapping", "'test_node", "and in line 26: 'second ="),
         ("dependencies_in_a_tag_of_their_own", "package.manifest", "<dependencies>", "keep what is between"),
         ("function_around_setup_only_named", "build.colcon", "install", "Write install() instead"),
+        ("setup_cfg_one_heading_for_both", "package.setup_cfg", "[develop, install]", "Below that, write [install]"),
         ("entry_points_as_a_set", "build.colcon", "entry_points={", "'console_scripts': ['test_node"),
         ("entry_points_as_list_in_the_settings", "build.colcon", "entry_points=[", "before the ["),
         ("package_name_of_a_path", "build.colcon", "sys.argv[1]", "package_name = 'my_robot"),

@@ -252,6 +252,8 @@ TYPED = [
      "try:\n    a()\nexcept (K, E) as e:\n    pass\n"),
     ("f(1.0, lambda self.g(2))\n", "lambda_colon", 1, "f(1.0, lambda: self.g(2))\n"),
     ("self.t = f(1.0, self.\n\na = 1\n", "value_half", 1, ""),
+    ("n = 0\ndef f():\n    def g():\n        nonlocal n\n        n += 1\n", "nonlocal_of_file", 4,
+     "n = 0\ndef f():\n    def g():\n        global n\n        n += 1\n"),
     ("f(lambda: (g(a.b), a.b := 1))\n", "walrus_in_lambda", 1, ""),
     ("class A:\n    \"\"Hello there\"\"\n    b = 1\n", "docstring_quotes", 2,
      'class A:\n    """Hello there"""\n    b = 1\n'),

@@ -11,6 +11,7 @@ from grader.package.edit.text import Splice, indent_of
 from grader.package.source.broken_python import MOST_TRIES, Broken, Slip
 from grader.package.source.python import can_parse
 from grader.package.source.slip_arguments import unnamed_argument
+from grader.package.source.slip_forms import as_written
 
 Look = Callable[[Broken], Slip | None]
 PLACE = r"[A-Za-z_][\w.]{0,120}"
@@ -418,6 +419,10 @@ def _unbound(text: Broken) -> Slip | None:
     if match is None or outer < 2:
         return None
     shown = text.source.line(text.number).strip()
+    if re.search(rf"^{match['name']}[ \t]*(?::[^=\n]*)?=(?!=)", text.code.text, re.M):
+        word = text.line.index("nonlocal")
+        splice = text.within(word, word + len("nonlocal"), "global")
+        return as_written(text, "nonlocal_of_file", splice)
     return Slip("signs", "nonlocal_unbound", text.number, shown, match["name"])
 
 

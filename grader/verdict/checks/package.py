@@ -392,7 +392,10 @@ def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) 
         variant, close = "section", nearest(section, cfg.sections)
         said = say("there is no section [{section}]", section=section) + there_is(close)
         actual = with_difference(said, close, section)
-        if close and close in cfg.lines:
+        if close and all(name in close for name in KEYS):
+            line = cfg.lines.get(close, line)
+            variant, actual = "joined", say("one heading, [{close}], for two sections", close=close)
+        elif close and close in cfg.lines:
             line, variant = cfg.lines[close], "heading"
         elif not close and not any(name in cfg.sections for name in KEYS):
             variant = "sections"
