@@ -57,6 +57,8 @@ def setting(case: Case) -> Files | None:
         return _swapped(case, text)
     if behind_heading(text.text, section):
         return _broken_line(case, text)
+    if (joined := _joined(case, cfg, text)) is not None:
+        return joined
     change = _change(cfg, text, section, f"{KEYS[section]}={wanted(case.package)}")
     return case.with_data(FILE, text.spliced([change])) if change else None
 
@@ -90,6 +92,22 @@ def _broken_line(case: Case, text: SourceText) -> Files | None:
         splices += [Splice(*ends, text.newline)] if match is not None else []
     new = text.spliced(splices) if splices else None
     return case.with_data(FILE, new) if new and _is_read(new) else None
+
+
+def _joined(case: Case, cfg: SetupCfg, text: SourceText) -> Files | None:
+    """Write two sections in place of one whose heading names both."""
+    names = [name for name in cfg.sections if all(section in name for section in KEYS)]
+    start = cfg.lines.get(names[0], 0) if len(names) == 1 else 0
+    if not start or set(cfg.sections[names[0]]) - set(KEYS.values()):
+        return None
+    last = start
+    while last < len(text.lines) and text.line(last + 1).strip()[:1] not in ("", "["):
+        last += 1
+    rows = [(f"[{section}]", f"{key}={wanted(case.package)}") for section, key in KEYS.items()]
+    new = text.newline.join(row for pair in rows for row in pair)
+    return case.with_data(
+        FILE, text.spliced([Splice(text.start_of(start), text.end_of(last), new)])
+    )
 
 
 def _swapped(case: Case, text: SourceText) -> Files | None:
