@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 UNFINISHED = re.compile(
     r"cannot import name '(?P<name>\w{1,120})' from partially initialized module "
     r"'(?P<module>[\w.]{1,200})'"
-    r"|partially initialized module '(?P<of>[\w.]{1,200})' has no attribute '(?P<attribute>\w{1,120})'"
+    r"|partially initialized module '(?P<of>[\w.]{1,200})'"
+    # Python 3.13 names the file as well
+    r"(?: from '[^']{1,500}')? has no attribute '(?P<attribute>\w{1,120})'"
 )
 
 

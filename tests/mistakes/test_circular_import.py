@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from grader.verdict.circular import UNFINISHED
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.recorded import mark
@@ -29,3 +30,22 @@ def test_both_lines_are_named(name: str, fix: str, tmp_path: Path) -> None:
     assert failed.rationale.startswith("Line ")
     assert f" of {NODE} imports {HELPER}" in failed.rationale
     assert failed.fix.startswith(fix)
+
+
+@pytest.mark.parametrize(
+    "file",
+    [
+        pytest.param("", id="to 3.12"),
+        pytest.param(
+            " from '/home/student/ros2_ws/build/my_package/my_node.py'", id="from 3.13 on"
+        ),
+    ],
+)
+def test_the_message_of_every_python_is_known(file: str) -> None:
+    message = (
+        f"partially initialized module 'my_package.my_node'{file} has no attribute 'HELLO' "
+        "(most likely due to a circular import)"
+    )
+    match = UNFINISHED.search(message)
+    assert match is not None
+    assert (match["of"], match["attribute"]) == ("my_package.my_node", "HELLO")
