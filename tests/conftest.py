@@ -22,6 +22,14 @@ from grader.sandbox.proof import proven_ros
 
 ROOT = Path(__file__).resolve().parent.parent
 pytest_plugins = ["tests.pages.fixtures"]
+# these mostly wait: for a terminal, a container, a browser, a clock
+WAITING = (
+    "tests/lab/",
+    "tests/docker/",
+    "tests/window/",
+    "tests/test_clock.py",
+    "tests/test_bubblewrap.py",
+)
 
 # A shell ignores SIGINT in background jobs, and all processes that the tests start would inherit it
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -62,3 +70,11 @@ def make_sandbox(ros_jazzy: Ros) -> Callable[[Limits], Sandbox]:
 def sandbox(make_sandbox: Callable[[Limits], Sandbox]) -> Iterator[Sandbox]:
     with make_sandbox(Limits()) as opened:
         yield opened
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with the tests that mostly wait, so that one process waits while the others compute.
+
+    The processes share the tests in their order, and who has none left takes others'.
+    """
+    items.sort(key=lambda item: not item.nodeid.startswith(WAITING))

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 import time
 import tracemalloc
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -104,16 +105,27 @@ def slow(*marks: pytest.MarkDecorator) -> list[object]:
 
 
 @pytest.mark.parametrize(("kind", "name"), slow(pytest.mark.full))
-def test_input_made_to_be_slow_takes_bounded_time(kind: str, name: str) -> None:
+def test_input_made_to_be_slow_or_large_takes_bounded_time_and_memory(kind: str, name: str) -> None:
     TARGETS[name](SEEDS[name])  # (modules loaded by the first call do not count)
     found = HOSTILE[kind]
+    before = restarted_peak()
     begin = time.process_time()
     TARGETS[name](found)
     assert time.process_time() - begin < SECONDS
+    assert peak() - before < MEGABYTES * 1_000_000
 
 
-@pytest.mark.parametrize(("kind", "name"), slow(pytest.mark.full, pytest.mark.long))
+def test_the_peak_is_that_of_the_input() -> None:
+    before = restarted_peak()
+    assert len(b"x" * (MEGABYTES * 2_000_000)) == MEGABYTES * 2_000_000
+    assert peak() - before > MEGABYTES * 1_000_000
+    before = restarted_peak()
+    assert peak() - before < MEGABYTES * 1_000_000
+
+
+@pytest.mark.parametrize(("kind", "name"), slow(pytest.mark.long, pytest.mark.long))
 def test_input_made_to_be_large_needs_little_memory(kind: str, name: str) -> None:
+    """Count every allocation, which takes several times as long as the reading."""
     TARGETS[name](SEEDS[name])
     tracemalloc.start()
     try:
@@ -121,3 +133,15 @@ def test_input_made_to_be_large_needs_little_memory(kind: str, name: str) -> Non
         assert tracemalloc.get_traced_memory()[1] < MEGABYTES * 1_000_000
     finally:
         tracemalloc.stop()
+
+
+def restarted_peak() -> int:
+    """Let the peak of this process' memory start at what it uses now; return that, in bytes."""
+    Path("/proc/self/clear_refs").write_text("5")  # as in proc(5)
+    return peak()
+
+
+def peak() -> int:
+    """Return the peak of this process' resident memory, in bytes."""
+    status = Path("/proc/self/status").read_text()
+    return int(re.findall(r"^VmHWM:\s+(\d+) kB$", status, re.MULTILINE)[0]) * 1024

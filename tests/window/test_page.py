@@ -11,7 +11,7 @@ from playwright.sync_api import Page, expect
 
 from tests.pages.axe import axe_source, violations
 from tests.pages.browser import Open, PageRecord
-from tests.window.programs import OpenWindow, nodes, turtles, until, window
+from tests.window.programs import SECONDS, OpenWindow, nodes, turtles, until, window
 
 pytestmark = [pytest.mark.full, pytest.mark.prefix]
 VIEWS = ("turtle", "graph", "log", "plot", "parameters")
@@ -99,7 +99,8 @@ def test_five_turtles_move_at_thirty_frames_a_second(
 def test_the_graph_follows_within_a_second(visited: PageRecord, ros_env: dict[str, str]) -> None:
     page = visited.page
     look_at(page, "graph")
-    expect(page.locator("#drawing")).to_contain_text("no node yet")
+    # (the nodes of the test before leave the graph after their lease, 20 s, if their goodbye is lost)
+    expect(page.locator("#drawing")).to_contain_text("no node yet", timeout=1000 * SECONDS)
 
     with nodes(ros_env, "talker", "listener", "sensor", "reader"):
         expect(page.locator("g.node")).to_have_count(4)
