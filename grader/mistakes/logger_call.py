@@ -25,12 +25,17 @@ TEXT = "'Hello time: ' + str(self.counter_)"
 
 def _method(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """The logger has no method of this name; one that is misspelt is another mistake."""
-    name = match.groupdict().get("name") or "log"
-    call = node_log_call.call_of(raised.module, raised.line, name)
-    if call is None or nearest(name, (*LOG_METHODS, *OTHERS), cutoff=0.7):
+    call = node_log_call.call_of(raised.module, raised.line, match["name"])
+    if call is None or nearest(match["name"], (*LOG_METHODS, *OTHERS), cutoff=0.7):
         return None
-    found = raised.finding("logger_method", at=call, name=name)
-    return replace(found, variant="log" if name == "log" else "")
+    return raised.finding("logger_method", at=call, name=match["name"])
+
+
+def _no_severity(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """log() of the logger gets the text alone."""
+    del match
+    call = node_log_call.call_of(raised.module, raised.line, "log")
+    return raised.finding("log_severity", at=call, name="log") if call is not None else None
 
 
 def _text_given(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -110,18 +115,9 @@ KINDS = (
         msg("The logger has no method of this name"),
         msg("The methods of the logger that log a line are debug, info, warning, error and fatal."),
         msg("Write .info(…) instead of .{name}(…)."),
-        whys={
-            "log": msg(
-                "The method log of the logger needs a severity as well. The method info logs a "
-                "normal line, and needs only the text."
-            )
-        },
         seen=r"AttributeError: 'RcutilsLogger' object has no attribute "
         r"'(?P<name>print|write|information|message|msg|log_info)'",
-        raised={
-            r"'RcutilsLogger' object has no attribute '(?P<name>\w{1,120})'": _method,
-            r"(?<!\w)log\(\) missing 1 required positional argument: 'severity'": _method,
-        },
+        raised={r"'RcutilsLogger' object has no attribute '(?P<name>\w{1,120})'": _method},
         fixed_by=(node_log_call.info,),
         examples=(
             example(
@@ -141,6 +137,21 @@ KINDS = (
                 fails="run.output",
                 blocks=DEAD,
             ),
+        ),
+    ),
+    _node(
+        "log_severity",
+        "logger",
+        msg("log() gets no severity"),
+        msg(
+            "The method log of the logger needs a severity as well. The method info logs a "
+            "normal line, and needs only the text."
+        ),
+        msg("Write .info(…) instead of .{name}(…)."),
+        seen=r"TypeError: RcutilsLogger\.log\(\) missing 1 required positional argument: 'severity'",
+        raised={r"(?<!\w)log\(\) missing 1 required positional argument: 'severity'": _no_severity},
+        fixed_by=(node_log_call.info,),
+        examples=(
             example(
                 "logger_log",
                 Replace(NODE, "get_logger().info(", "get_logger().log("),

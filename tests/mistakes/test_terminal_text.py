@@ -120,6 +120,9 @@ SHOWN = {
     "node.step_is_text": ["TypeError: unsupported operand type(s) for +=: 'int' and 'str'"],
     "node.not_callable": ["TypeError: 'int' object is not callable"],
     "node.logger_method": ["AttributeError: 'RcutilsLogger' object has no attribute 'print'"],
+    "node.log_severity": [
+        "TypeError: RcutilsLogger.log() missing 1 required positional argument: 'severity'"
+    ],
     "node.get_logger_arguments": [
         "TypeError: Node.get_logger() takes 1 positional argument but 2 were given"
     ],
