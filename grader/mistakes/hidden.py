@@ -346,6 +346,20 @@ KINDS = (
                 blocks=("run.interrupt", *SILENT),
             ),
             example(
+                "constructor_misspelt_and_hidden",
+                Replace(NODE, "    def __init__(self)", "    def _init_(self)"),
+                Replace(
+                    NODE,
+                    "    rclpy.init(args=args)\n    node = MyFirstNode()\n    try:\n        rclpy.spin(node)\n"
+                    "    except KeyboardInterrupt:\n        pass\n    finally:\n"
+                    "        node.destroy_node()\n        rclpy.try_shutdown()\n",
+                    "    try:\n        rclpy.init(args=args)\n        node = MyFirstNode()\n"
+                    "        rclpy.spin(node)\n        node.destroy_node()\n        rclpy.shutdown()\n"
+                    "    except:\n        pass\n",
+                ),
+                fails="run.starts",
+            ),
+            example(
                 "exit_hidden_in_main",
                 Replace(
                     NODE,

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from grader.base.nearest import nearest
 from grader.package.source.counter import declares, starts_of, targets_of
 from grader.package.source.module import Function, Module
-from grader.package.source.names import called_name, dotted, own_name
+from grader.package.source.names import called_name, dotted, last_part, own_name
 from grader.package.source.node import NodeSource
 
 SIMPLE = ast.Expr | ast.Assign | ast.AugAssign | ast.AnnAssign | ast.Return
@@ -36,6 +36,11 @@ def _errors(source: NodeSource, statement: ast.stmt) -> Iterator[tuple[str, ast.
             given, method = len(node.args) + 1, called_name(node)
             error = f"TypeError: RcutilsLogger.{method}() takes 2 positional arguments but"
             yield f"{error} {given} were given", node
+        elif isinstance(node, ast.Call) and _makes_without_name(source, node):
+            yield (
+                "TypeError: Node.__init__() missing 1 required positional argument: 'node_name'",
+                node,
+            )
         elif isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
             if _is_text(node.left) and _is_number(source, node.right):
                 yield 'TypeError: can only concatenate str (not "int") to str', node
@@ -59,6 +64,15 @@ def _errors(source: NodeSource, statement: ast.stmt) -> Iterator[tuple[str, ast.
                 f"AttributeError: '{source.node_class.name}' object has no attribute '{own}'",
                 target,
             )
+
+
+def _makes_without_name(source: NodeSource, call: ast.Call) -> bool:
+    """Whether a call makes the node, whose class has no constructor, without arguments."""
+    own = source.node_class
+    if own is None or dotted(call.func) != own.name or call.args or call.keywords:
+        return False
+    plain = [last_part(dotted(base)) for base in own.bases] == ["Node"] and not own.keywords
+    return plain and not own.decorator_list and "__init__" not in source.methods
 
 
 def is_never_set(source: NodeSource, attribute: str) -> bool:
