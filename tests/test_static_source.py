@@ -372,6 +372,8 @@ def test_unknown_exec_bits_cost_what_the_assignment_says(bench: Bench) -> None:
         ("# !/usr/bin/env python3\n", "wrong_shebang"),
         (" #!/usr/bin/env python3\n", "wrong_shebang"),
         ("#!/usr/bin/env python3 -u\n", "wrong_shebang"),
+        ("#!/usr/bin/python3 -w\n", "wrong_shebang"),
+        ("#!/usr/bin/env -S python3 -uw\n", "wrong_shebang"),
         ("#!/home/jane/miniconda3/bin/python3\n", "wrong_shebang"),
     ],
 )

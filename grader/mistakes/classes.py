@@ -199,6 +199,19 @@ def _replaced(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+def _text_replaced(suspect: Suspect) -> RecognisedMistake | None:
+    """The line that came is from the second definition of a method, of which the first one logs too."""
+    source, place = suspect.source, suspect.place
+    for name in dict.fromkeys(method.name for method in source.own_methods):
+        found = _definitions(source.own_methods, name)
+        if len(found) < 2 or place is None or place.line is None:
+            continue
+        inside = found[-1].lineno <= place.line <= (found[-1].end_lineno or found[-1].lineno)
+        if inside and place.file == source.module_of(found[-1]).path and source.logs(found[-2]):
+            return suspect.finding("method_twice", found[-1], name=name, line=found[-2].lineno)
+    return None
+
+
 def _start_replaced(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A second __init__ does not set what the first one sets."""
     found = _definitions(raised.source.own_methods, "__init__")
@@ -430,7 +443,11 @@ KINDS = (
             "in line {line}), and delete the other."
         ),
         raised={PRIVATE: _super_replaced, OWN_ATTRIBUTE: _start_replaced},
-        behind={"run.no_lines": _replaced, "run.constant_counter": _replaced},
+        behind={
+            "run.no_lines": _replaced,
+            "run.constant_counter": _replaced,
+            "run.wrong_text": _text_replaced,
+        },
         examples=(
             example(
                 "init_defined_twice",
@@ -449,6 +466,16 @@ KINDS = (
                 ),
                 fails="run.output",
                 blocks=SILENT,
+            ),
+            example(
+                "callback_replaced_by_a_trial",
+                Replace(
+                    NODE,
+                    STEP_LINE,
+                    f"{STEP_LINE}\n    def timer_callback(self):\n"
+                    "        self.get_logger().info('Hello')\n",
+                ),
+                fails="run.output",
             ),
             example(
                 "init_twice_without_super",

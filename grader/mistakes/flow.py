@@ -55,6 +55,10 @@ def _loops(suspect: Suspect) -> RecognisedMistake | None:
             found = suspect.finding("loop_in_callback", block, name=word)
             number = block.target if isinstance(block, ast.For) else None
             inside = {dotted(n) for log in suspect.source.logs(block) for n in ast.walk(log)}
+            own = dotted(number) if isinstance(number, ast.Attribute) else ""
+            if own in inside and own in starts_of(suspect.source):
+                words = {**found.words, "number": own}
+                return replace(found, variant="counts_itself", words=words)
             if isinstance(number, ast.Name) and number.id in inside:
                 found = replace(found, variant="counts", words={**found.words, "number": number.id})
                 kept = _counter_of_range(suspect, block)
@@ -418,6 +422,10 @@ KINDS = (
         ),
         msg("Remove this {name}, and indent its lines as far as the {name} is indented now."),
         fixes={
+            "counts_itself": msg(
+                "Remove this {name}, and indent its lines as far as the {name} is indented now. It also "
+                "counted: write {number} += {step} below the line that logs."
+            ),
             "counts_kept": msg(
                 "Remove this {name}, and indent its lines as far as the {name} is indented now. "
                 "Without it there is no {number}: log {kept} instead, which counts already."
@@ -430,7 +438,7 @@ KINDS = (
             ),
         },
         behind={"run.twice": _loops, "run.wrong_step": _loops},
-        fixed_by=(lines.unwrapped, node_loops.counted_by_calls),
+        fixed_by=(node_loops.counted_by_calls, lines.unwrapped),
         examples=(
             example(
                 "loop_logs_its_number",
@@ -440,6 +448,15 @@ KINDS = (
                     LOG_LINE + STEP_LINE,
                     "        for i in range(10):\n"
                     "            self.get_logger().info('Hello time: ' + str(i))\n",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "loop_counts_the_counter",
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    f"        for self.counter_ in range(0, 100):\n    {LOG_LINE}",
                 ),
                 fails="run.output",
             ),

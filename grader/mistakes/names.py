@@ -15,7 +15,7 @@ from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.alike import meant_by
 from grader.mistakes.constructor import lines_of
-from grader.mistakes.example import DEAD, NODE, example
+from grader.mistakes.example import DEAD, NODE, STEP_LINE, example
 from grader.mistakes.fixes import lines, node_brackets, node_constructor, node_life, rename
 from grader.mistakes.imports import IMPORTS, RCLPY
 from grader.mistakes.kind import Family
@@ -58,6 +58,24 @@ ON_CLASS = msg(
 )
 
 
+NOTEBOOK = "get_ipython"
+BLOCK_ENDS = (
+    *(
+        "end",
+        "fi",
+        "done",
+        "esac",
+        "wend",
+        "endif",
+        "endfor",
+        "endwhile",
+        "endfunction",
+        "endclass",
+    ),
+    *("end_if", "end_for", "end_while", "end_function"),
+)
+"""Words that end a block in MATLAB, shell, Basic, structured text and others."""
+
 OF_ROS = ("spin", "spin_once", *NODE_METHODS)
 """Calls of ROS: an error that comes from inside of them is not about their own brackets."""
 
@@ -66,10 +84,9 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     name = match["name"]
     statement = statement_at(raised.module, raised.line)
     if isinstance(statement, ast.Expr) and dotted(statement.value) == name:
-        word = nearest(name.lower(), ALONE, cutoff=0.7)
-        if word:
-            return _instead(raised.finding("name_unknown", name=name, close=word, written=word))
-        return replace(raised.finding("name_unknown", name=name), variant="alone")
+        return _alone(raised, name)
+    if name == NOTEBOOK:
+        return replace(raised.finding("name_unknown", name=name), variant="notebook")
     if (joined := _joined(raised, name)) is not None:
         return joined
     if name in TYPES and (types := _as_type(raised, name)) is not None:
@@ -104,6 +121,18 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return replace(found, variant="cut", words={**found.words, "written": whole[0]})
     found = raised.finding("name_unknown", name=name, close=close)
     return _instead(found) if close and nearest(name, [close], cutoff=MISSPELT) else found
+
+
+def _alone(raised: Raised, name: str) -> RecognisedMistake:
+    """The name is the whole statement: a misspelt word, the end of a block, or a slip."""
+    word = nearest(name.lower(), ALONE, cutoff=0.7)
+    if word:
+        return _instead(raised.finding("name_unknown", name=name, close=word, written=word))
+    found = raised.finding("name_unknown", name=name)
+    if name.lower() not in BLOCK_ENDS:
+        return replace(found, variant="alone")
+    rows = ", ".join(str(row) for row in lines.rows_with_only(raised.module, name))
+    return replace(found, variant="block_end", words={**found.words, "lines": rows})
 
 
 def _period(raised: Raised, name: str) -> RecognisedMistake:
@@ -484,6 +513,14 @@ KINDS = (
                 "Delete this line if it was typed by accident: it contains only {name}, which "
                 "nothing defines."
             ),
+            "block_end": msg(
+                "Delete each line that contains only {name} (lines: {lines}): Python has no word that "
+                "ends a block."
+            ),
+            "notebook": msg(
+                "Delete this line, and every other line that calls {name}(): the node does not need "
+                "them."
+            ),
             "period": msg("Write the period in seconds instead of {name}: {written}"),
             "period_named": msg(
                 "Give {name} its value on a line of its own below the imports: {name} = {written}"
@@ -515,11 +552,19 @@ KINDS = (
                 ),
             ),
             "type": msg("{name} is a type of other programming languages. Python has no {name}."),
+            "block_end": msg(
+                "Other languages end a block with {name}. In Python, the indentation alone shows where "
+                "a block ends, so {name} is a name here, and nothing defines it."
+            ),
+            "notebook": msg(
+                "This line was exported from a Jupyter notebook, where it was a command with % or !. "
+                "Only inside a notebook is there a {name}."
+            ),
         },
         seen=r"NameError: name '(?P<name>\w{1,120})' is not defined",
         raised={NAME_ERROR: _undefined},
-        fixed_by=(lines.written, rename.variable, lines.deleted_name),
-        deletes=("alone",),
+        fixed_by=(lines.written, rename.variable, lines.deleted_name, lines.without_notebook),
+        deletes=("alone", "block_end", "notebook"),
         examples=(
             example(
                 "period_named_twice_and_unknown",
@@ -528,6 +573,22 @@ KINDS = (
                     NODE,
                     "self.counter_ = 0",
                     "self.counter_ = 0\n        self.get_logger().debug(f'{PERIOD} s')",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "end_of_other_languages",
+                Replace(NODE, STEP_LINE, f"{STEP_LINE}    end\n"),
+                Replace(NODE, "    def timer_callback", "    end\n\n    def timer_callback"),
+                fails="run.starts",
+            ),
+            example(
+                "lines_of_a_notebook",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "get_ipython().run_line_magic('load_ext', 'autoreload')\n"
+                    "get_ipython().system('pwd')\n\nimport rclpy\nfrom",
                 ),
                 fails="run.starts",
             ),

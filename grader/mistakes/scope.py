@@ -199,8 +199,8 @@ def _main_in_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
         above = [*(d.lineno for d in around.decorator_list), around.lineno, *above]
     if above:
         mistake = raised.finding("main_in_class", at=found)
-        rows = ", ".join(map(str, above))
-        return replace(mistake, variant="head", words={**mistake.words, "lines": rows})
+        head = ", ".join(raised.source.entry.line(row).strip() for row in above)
+        return replace(mistake, variant="head", words={**mistake.words, "head": head})
     if not uses:
         return raised.finding("main_in_class", at=found)
     code = raised.source.entry.text.code(uses[0])
@@ -429,10 +429,10 @@ KINDS = (
         },
         fixes={
             "head": msg(
-                "Make a function of its own of it: delete what stands above this def only for a method "
-                "(the lines {lines}), and move def {function}(…) and all of its lines to the left, so "
-                "that def begins at the margin. Leave self or cls out of its brackets, if one is there. "
-                "Where a line calls it through the class, write only {function}()."
+                "Make a function of its own of it: delete {head} above this def, and move def "
+                "{function}(…) and all of its lines to the left, so that def begins at the margin. Leave "
+                "self or cls out of its brackets, if one is there. Where a line calls it through the "
+                "class, write only {function}()."
             ),
             "used": msg(
                 "Move def {function}(…) and all of its lines to the left by the same number of "
@@ -443,6 +443,12 @@ KINDS = (
         fixed_by=(node_scope.at_margin,),
         examples=(
             example("main_in_class", Replace(NODE, MAIN, IN_CLASS), fails="run.starts"),
+            example(
+                "main_as_a_static_method",
+                Replace(NODE, MAIN, IN_CLASS.replace("    def ", "    @staticmethod\n    def ", 1)),
+                Replace(NODE, "\n    main()\n", "\n    MyFirstNode.main()\n"),
+                fails="run.starts",
+            ),
             example(
                 "main_in_a_class_of_its_own",
                 Replace(

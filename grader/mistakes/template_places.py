@@ -23,6 +23,7 @@ from grader.package.source.place import function_at, statement_at
 
 PLACE = re.compile(r"\$(?:\{(\w{1,80})\}|(\w{1,80}))")
 ANY_PLACE = re.compile(r"\{\w{0,80}\}|\$\{?\w{1,80}\}?|%\w|<\w{1,80}>|\[\w{1,80}\]")
+DOLLAR = re.compile(r"\$\{[^{}\n]{1,200}\}")
 FILLS = ("substitute", "safe_substitute")
 IMPORTS = "import rclpy\nfrom"
 TEXT = "'Hello time: ' + str(self.counter_)"
@@ -98,6 +99,17 @@ def _replaced(suspect: Suspect) -> RecognisedMistake | None:
     return suspect.finding("replaced_nothing", old, name=name, written=written)
 
 
+def _dollar(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the f-string whose braces have a $ before them, which is in the text that came."""
+    logged = [node for part in parts_of_callback(suspect.source) for node in ast.walk(part)]
+    for text in (node for node in logged if isinstance(node, ast.JoinedStr)):
+        code = suspect.source.module_of(text).text.code(text)
+        found = DOLLAR.findall(code)
+        if len(found) == 1 and code.count("$") == 1 and "$" in suspect.text:
+            return suspect.finding("dollar", text, name=found[0], written=found[0][1:])
+    return None
+
+
 def _overwritten(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a line that keeps the filled text in the attribute that had the places."""
     for function in parts_of_callback(suspect.source):
@@ -153,6 +165,25 @@ def _kept_apart(case: Case) -> Files | None:
 
 _node = Family("node", links.PYTHON_STRINGS)
 KINDS = (
+    _node(
+        "dollar",
+        "text",
+        msg("An f-string has a $ before its braces"),
+        msg(
+            "In an f-string, the braces alone stand for a value. ${{…}} is the form of other languages, "
+            "such as JavaScript: here the $ is a part of the text."
+        ),
+        msg("Write {written} instead of {name}, without the $."),
+        behind={"run.wrong_text": _dollar},
+        fixed_by=(lines.written,),
+        examples=(
+            example(
+                "dollar_in_f_string",
+                Replace(NODE, TEXT, "f'Hello time: ${self.counter_}'"),
+                fails="run.output",
+            ),
+        ),
+    ),
     _node(
         "template_place",
         "text",

@@ -86,9 +86,14 @@ def _call_swapped(raised: Raised, timer: ast.Call) -> RecognisedMistake:
     if len(timer.args) != 2 or timer.keywords or "\n" in code:
         return raised.finding("timer_arguments_swapped")
     first, second = map(text.code, timer.args)
-    written = f"{text.code(timer.func)}({second}, {first})"
+    value = getattr(timer.args[1], "value", None)
+    wanted = raised.assignment.output.period
+    long = isinstance(value, int | float) and value >= LONG > wanted
+    written = f"{text.code(timer.func)}({wanted if long else second}, {first})"
     found = raised.finding("timer_arguments_swapped", at=timer, name=code, written=written)
-    return replace(found, variant="call")
+    if not long:
+        return replace(found, variant="call")
+    return replace(found, variant="milliseconds", words={**found.words, "value": second})
 
 
 def _given_swapped(raised: Raised, timer: ast.Call) -> RecognisedMistake | None:
@@ -213,7 +218,12 @@ def _milliseconds(suspect: Suspect) -> RecognisedMistake | None:
     if not isinstance(number, int | float) or not number >= LONG > suspect.output.period:
         return None
     found = suspect.finding("period_milliseconds", value, written=f"{number:g}")
-    return found if number < MICRO else replace(found, variant="large")
+    variant = "" if number < MICRO else "large"
+    if value is not None and value.lineno not in lines_of(timers[0].call):
+        name = suspect.source.module_of(value).text.code(value)
+        found = replace(found, words={**found.words, "name": name})
+        variant = f"{variant}_there".lstrip("_")
+    return replace(found, variant=variant)
 
 
 def _far_too_long(suspect: Suspect) -> RecognisedMistake | None:
@@ -356,9 +366,15 @@ KINDS = (
             "given": msg(
                 "{method} takes {parameters} in this order, and passes them on to create_timer. This "
                 "call gives them in the other order."
-            )
+            ),
+            "milliseconds": msg(
+                "create_timer takes the period first, then the callback. The period is in seconds: "
+                "{value} is {value} seconds."
+            ),
         },
-        fixes=dict.fromkeys(("given", "call"), msg("Write {written} instead of {name}.")),
+        fixes=dict.fromkeys(
+            ("given", "call", "milliseconds"), msg("Write {written} instead of {name}.")
+        ),
         seen=r"float\(\) argument must be a string or a real number, not '(?:method|function)'",
         raised={
             REAL_NUMBER: _swapped,
@@ -366,6 +382,11 @@ KINDS = (
         },
         fixed_by=(lines.written, node_timer.arguments),
         examples=(
+            example(
+                "timer_arguments_of_set_interval",
+                Replace(NODE, "(1.0, self.timer_callback)", "(self.timer_callback, 1000)"),
+                fails="run.starts",
+            ),
             example(
                 "timer_arguments_swapped_for_a_method",
                 Replace(
@@ -497,12 +518,17 @@ KINDS = (
         msg("The period is not written in seconds"),
         msg("create_timer takes seconds, not milliseconds: {written} is {written} seconds."),
         TIMER,
-        whys={
-            "large": msg(
+        whys=dict.fromkeys(
+            ("large", "large_there"),
+            msg(
                 "create_timer takes seconds, not micro- or nanoseconds: {written} is {written} "
                 "seconds, many days or years."
-            )
-        },
+            ),
+        ),
+        fixes=dict.fromkeys(
+            ("there", "large_there"),
+            msg("Write {period} instead of {name} on this line: it is the period of the timer."),
+        ),
         behind={"run.no_lines": _milliseconds},
         fixed_by=(node_timer.period,),
         examples=(

@@ -61,11 +61,37 @@ def _is_text(statement: ast.stmt) -> bool:
 
 
 def deleted_name(case: Case) -> Files | None:
-    """Delete a line that contains only a name that nothing defines."""
+    """Delete the lines that contain only a name that nothing defines."""
     found = _statement(case)
     value = found[1].value if found is not None and isinstance(found[1], ast.Expr) else None
-    alone = isinstance(value, ast.Name) and value.id == case.finding.params.get("name")
-    return deleted(case) if alone else None
+    name = str(case.finding.params.get("name", ""))
+    if case.module is None or not isinstance(value, ast.Name) or value.id != name:
+        return None
+    text = case.module.text
+    rows = [row for row in rows_with_only(case.module, name) if text.line(row).strip() == name]
+    return case.changed(case.module, *map(text.without, rows)) if len(rows) > 1 else deleted(case)
+
+
+def rows_with_only(module: Module, name: str) -> list[int]:
+    """Return the lines whose statement is only a name."""
+    statements = [n for n in module.nodes if isinstance(n, ast.Expr)]
+    return sorted(
+        s.lineno for s in statements if isinstance(s.value, ast.Name) and s.value.id == name
+    )
+
+
+def without_notebook(case: Case) -> Files | None:
+    """Delete the commands of a notebook: the lines at the margin that begin with get_ipython()."""
+    module, name = case.module, case.finding.params.get("name")
+    if module is None or name != "get_ipython":
+        return None
+    rows = [
+        row
+        for s in module.tree.body
+        if isinstance(s, ast.Expr) and module.text.code(s).startswith("get_ipython()")
+        for row in range(s.lineno, (s.end_lineno or s.lineno) + 1)
+    ]
+    return case.changed(module, *map(module.text.without, rows)) if rows else None
 
 
 def unwrapped(case: Case) -> Files | None:
@@ -80,7 +106,11 @@ def unwrapped(case: Case) -> Files | None:
     if first == block.lineno or module.text.line(first - 1).strip() == "":
         return None
     bound = (
-        {n.id for n in ast.walk(block.target) if isinstance(n, ast.Name)}
+        {
+            n.id
+            for n in ast.walk(block.target)
+            if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
+        }
         if isinstance(block, ast.For)
         else set()
     )

@@ -11,7 +11,7 @@ from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.endless import Loop, calls_of_methods, goes_on, sleeps_in
 from grader.package.source.module import Function, Module
-from grader.package.source.names import calls_in, last_part, own_name
+from grader.package.source.names import calls_in, dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS, NodeSource
 from grader.package.source.place import block_of, function_at
 
@@ -130,6 +130,12 @@ def counted_by_calls(case: Case) -> Files | None:
     if found is None or node is None or init is None:
         return None
     module, loop, _ = found
+    own = dotted(loop.target) if isinstance(loop, ast.For) else ""
+    if own.startswith("self."):
+        row = loop.body[-1].end_lineno or loop.lineno
+        step = f"{indent_of(module.text.line(row))}{own} += {case.assignment.output.step}"
+        made = case.changed(module, module.text.before(row + 1, step))
+        return lines.unwrapped(replace(case, files=made)) if made is not None else None
     number = (
         loop.target.id if isinstance(loop, ast.For) and isinstance(loop.target, ast.Name) else ""
     )

@@ -93,12 +93,17 @@ def at_margin(case: Case) -> Files | None:
     module = node.entry
     if block_of(module, found)[-1] is not found:
         return None
-    first = min([found.lineno, *(d.lineno for d in found.decorator_list)])
+    above = found.decorator_list
+    if any(dotted(d) not in ("staticmethod", "classmethod") for d in above):
+        return None
+    first = min([found.lineno, *(d.lineno for d in above)])
     uses = uses_of_class(node, found.name)
     if any(first <= use.lineno <= (found.end_lineno or first) for use in uses):
         return None
     named = [module.text.swap(use, found.name) for use in uses]
-    return _shifted(case, module, (first, found.end_lineno or first), "", *named)
+    for_methods = [module.text.without(d.lineno) for d in above]
+    last = found.end_lineno or found.lineno
+    return _shifted(case, module, (found.lineno, last), "", *named, *for_methods)
 
 
 def uses_of_class(source: NodeSource, function: str) -> list[ast.Attribute]:

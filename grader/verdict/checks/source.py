@@ -49,6 +49,8 @@ PYTHON3 = re.compile(
     rb"#![ \t]{0,9}(?:/usr/bin/env[ \t]{1,9}(?:-S[ \t]{1,9})?|/usr/bin/|/bin/|/usr/local/bin/)"
     rb"python3(?:\.\d{1,2})?(?P<rest>[ \t][^\r\n]{0,200})?"
 )
+OPTIONS = "bBdEhiIOPqsStuvVx?RJ"
+"""Python's options of one letter without a value, as `python3 --help` lists them, and those it ignores."""
 
 
 @check("source.node_file", stage=INTAKE, depends=["package.found"])
@@ -424,11 +426,23 @@ def shebang(evidence: Evidence) -> Passed:
     if match is not None:
         rest = match["rest"] or b""
         through_env = b"/env" in first and b"-S" not in first
-        if not (rest.strip() and through_env):
+        if not (rest.strip() and through_env) and not _unknown_option(rest):
             return Passed(actual=_of(evidence, path, shown(first.decode("utf-8", "replace"))))
     if document_of(file.data) is not None:
         raise Blocked(by="source.node_file")
     raise _no_shebang(evidence, path, file.data, first)
+
+
+def _unknown_option(rest: bytes) -> str:
+    """Return the first option behind python3 in a shebang that Python does not have, or ""."""
+    for word in rest.split():
+        if not word.startswith(b"-") or word.startswith(b"--") or word[1:2] in b"cmWX":
+            break
+        signs = word[1:].decode("ascii", "replace")
+        unknown = next((sign for sign in signs if sign not in OPTIONS), "")
+        if unknown:
+            return f"-{unknown}"
+    return ""
 
 
 def _beside_empty(evidence: Evidence, path: str) -> str:
@@ -457,9 +471,7 @@ def _no_shebang(evidence: Evidence, path: str, data: bytes, first: bytes) -> Fai
         if b"\n" not in data:
             actual = say("the lines end with CR alone: Linux takes the whole file for one line")
     elif first[:2] == b"#!":
-        mistake, actual = "source.wrong_shebang", with_difference(text, text, SHEBANG)
-        if PYTHON3.fullmatch(first):
-            actual = say("{text}: env takes everything after it as one program name", text=text)
+        mistake, actual = "source.wrong_shebang", _wrong_shebang(text, first)
     elif later:
         mistake, line = "source.shebang_not_first", later[0]
         actual = say("the shebang is on line {line}; line 1 is: {text}", line=line, text=text)
@@ -482,6 +494,17 @@ def _no_shebang(evidence: Evidence, path: str, data: bytes, first: bytes) -> Fai
         variant=variant if mistake == "source.crlf" or variant == "first_sign" else "",
         words=words,
     )
+
+
+def _wrong_shebang(text: str, first: bytes) -> str:
+    """Say what is wrong with a shebang; `text` is how it is shown."""
+    match = PYTHON3.fullmatch(first)
+    if match is None:
+        return with_difference(text, text, SHEBANG)
+    option = _unknown_option(match["rest"] or b"")
+    if option:
+        return say("{text}: python3 has no option {name}", text=text, name=option)
+    return say("{text}: env takes everything after it as one program name", text=text)
 
 
 def _pasted_above(data: bytes, slip: Slip | None, later: list[int]) -> Pasted | Slip | None:
