@@ -25,6 +25,7 @@ from grader.package.source.place import block_of, statement_at
 NO_ROS = (
     r"'NoneType' object does not support the context manager protocol|AttributeError: __enter__"
     r"|NotInitializedException|context is (?:not valid|invalid)|InvalidHandle"
+    r"|Context must be initialized"  # on kilted
 )
 NO_CONTEXT = (
     r"'NoneType' object does not support the context manager protocol|AttributeError: __enter__"

@@ -19,6 +19,7 @@ from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 
 NOT_INITIALIZED = r"NotInitializedException"
+NOT_READY = r"Context must be initialized"  # of rclpy on kilted
 NODES_MADE = msg("rclpy.init() connects the program to ROS; no node can be created before it.")
 
 
@@ -189,7 +190,7 @@ KINDS = (
         links.RCLPY,
         fixes={"not_called": msg("Write () after rclpy.init: without them it is not called.")},
         seen=r"NotInitializedException",
-        raised={NOT_INITIALIZED: _init_missing, NO_CONTEXT: _without_init},
+        raised={NOT_INITIALIZED: _init_missing, f"{NO_CONTEXT}|{NOT_READY}": _without_init},
         fixed_by=(node_life.called_init, node_life.rclpy_init),
         examples=(
             example(

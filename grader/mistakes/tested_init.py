@@ -74,8 +74,8 @@ KINDS = (
         "start",
         msg("A condition asks what rclpy.init() gives back"),
         msg(
-            "rclpy.init() always gives back None, and an error of it is an exception. So the condition "
-            "{name} says nothing about it."
+            "What rclpy.init() gives back does not tell whether it worked: an error of it is an "
+            "exception. So the condition {name} says nothing about it."
         ),
         msg("Write only {written} in place of the if (lines {line} to {last})."),
         fixes={
@@ -97,6 +97,8 @@ KINDS = (
                     "    if not rclpy.init(args=args):\n        return 1\n",
                 ),
                 fails="run.starts",
+                right_from="kilted",
+                note="rclpy.init() gives back an object from kilted on, which counts as true",
             ),
         ),
     ),
