@@ -99,6 +99,22 @@ def test_a_build_type_outside_makes_no_cpp_package(bench: Bench) -> None:
     assert "<export>" in found.fix
 
 
+@pytest.mark.parametrize(
+    ("depends", "advice"),
+    [
+        ("  <exec_depend>rospy</exec_depend>\n", "Write rclpy instead."),
+        (
+            DEPEND + "  <build_depend>rospy</build_depend>\n  <exec_depend>rospy</exec_depend>\n",
+            "Delete each line with rospy: the package depends on rclpy already.",
+        ),
+    ],
+)
+def test_a_dependency_of_ros_1_is_replaced_once(depends: str, advice: str, bench: Bench) -> None:
+    bench.write("package.xml", FILES["package.xml"].replace(DEPEND, depends))
+    found = bench.passes(package.manifest)
+    assert [text for text in found.advice if str(text).endswith(advice)]
+
+
 def test_a_misnamed_manifest_is_the_place(bench: Bench) -> None:
     (bench.root / "package.xml").rename(bench.root / "Package.xml")
     found = bench.fails(package.manifest)

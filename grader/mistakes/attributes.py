@@ -228,8 +228,7 @@ def _without_value(raised: Raised, name: str, close: str) -> RecognisedMistake:
         return replace(found, variant="helper", words=words)
     start = node_names.start_of_other_name(raised.source, close)
     if start is not None:
-        found = raised.finding("attribute_not_set", at=start, name=close, close=name)
-        return replace(found, variant="start")
+        return raised.finding("attribute_other_name", at=start, name=close, close=name)
     counts = node_names.counts(raised.source, name)
     here = class_of(raised.module, function_at(raised.module, raised.line))
     if not close and here is not None and not _has_init(raised, here[0]):
@@ -643,6 +642,32 @@ KINDS = (
         ),
     ),
     _node(
+        "attribute_other_name",
+        "counter",
+        msg("__init__ sets an attribute under another name than the other lines read"),
+        msg(
+            "This line sets self.{name}, and the other lines use self.{close}, which no line sets. For "
+            "Python, names that differ in one letter, or in upper and lower case, are two names."
+        ),
+        msg("Write self.{close} on that line: the other lines use this name, not self.{name}."),
+        links.PYTHON_CLASSES,
+        fixed_by=(node_names.close_attribute,),
+        examples=(
+            example(
+                "counter_of_other_name",
+                Replace(NODE, "self.counter_ = 0", "self.counter = 0"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "counter_set_with_a_capital",
+                Replace(NODE, "self.counter_ = 0", "self.Counter_ = 0"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
         "attribute_not_set",
         "counter",
         msg("An attribute is read that __init__ did not set"),
@@ -651,9 +676,6 @@ KINDS = (
         links.PYTHON_CLASSES,
         close=msg("Write self.{close} instead of self.{name}."),
         fixes={
-            "start": msg(
-                "Write self.{close} on that line: the other lines use this name, not self.{name}."
-            ),
             "annotated": msg("Write {written} instead of {name}."),
             "private": msg(
                 "Write {written} instead of {name} in all lines of both classes: one underscore is enough."
@@ -883,12 +905,6 @@ KINDS = (
             example(
                 "counter_without_self",
                 Replace(NODE, "self.counter_ = 0", "counter_ = 0"),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-            example(
-                "counter_of_other_name",
-                Replace(NODE, "self.counter_ = 0", "self.counter = 0"),
                 fails="run.output",
                 blocks=DEAD,
             ),

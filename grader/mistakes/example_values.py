@@ -362,6 +362,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.other_node_spun": {"name": "helper", "written": "node"},
     "node.two_timers": {"line": "12", "lines": "20", "loop": "for", "maker": "start"},
     "node.attribute_not_set": BARE_COUNTER,
+    "node.attribute_other_name": {"name": "Counter", "close": "counter"},
     "node.comment_sign": {"name": "start", "sign": "%"},
     "node.define_comment": {"name": "#define PERIOD 1.0", "written": "PERIOD = 1.0"},
     "node.type_first": {

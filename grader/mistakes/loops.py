@@ -235,6 +235,23 @@ KINDS = (
                 fails="run.spins",
             ),
             example(
+                "while_with_a_rate_in_method_of_constructor",
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    f"        while rclpy.ok():\n    {LOG_LINE}    {STEP_LINE}"
+                    "            self.rate.sleep()\n",
+                ),
+                Replace(
+                    NODE,
+                    TIMER_LINE,
+                    "        self.rate = self.create_rate(1)\n        self.timer_callback()\n",
+                ),
+                fails="run.spins",
+                also={"run.output": "node.rate_sleep"},
+                blocks=("run.period",),
+            ),
+            example(
                 "while_logs_in_constructor",
                 IMPORT,
                 Replace(

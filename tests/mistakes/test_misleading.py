@@ -146,22 +146,24 @@ def test_self_in_main_is_told_from_a_line_below_a_method() -> None:
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "variant", "fix"),
+    ("old", "new", "kind", "fix"),
     [
-        ("self.counter_ = 0", "self.counter = 0", "start", "Write self.counter_ on that line"),
-        ("self.counter_ += 1", "self.counter_ = self.counter + 1", "close",
+        ("self.counter_ = 0", "self.counter = 0", "node.attribute_other_name",
+         "Write self.counter_ on that line"),
+        ("self.counter_ += 1", "self.counter_ = self.counter + 1", "node.attribute_not_set",
          "Write self.counter_ instead of self.counter."),
     ],
 )  # fmt: skip
 def test_the_name_that_differs_from_all_others_is_the_one_to_correct(
-    old: str, new: str, variant: str, fix: str
+    old: str, new: str, kind: str, fix: str
 ) -> None:
     text = changed(old, new)
-    name, at = ("counter_", LOG.strip()) if variant == "start" else ("counter", new)
+    other = kind == "node.attribute_other_name"
+    name, at = ("counter_", LOG.strip()) if other else ("counter", new)
     error = f"AttributeError: 'MyFirstNode' object has no attribute '{name}'"
     found = raised(error, text, line_of(text, at))
     assert found is not None
-    assert (found.kind, found.variant) == ("node.attribute_not_set", variant)
+    assert (found.kind, found.variant) == (kind, "close")
     assert found.params["close"] == "counter_"
     values = {**found.params, **found.words}
     assert str(CATALOGUE[found.kind].fix_text(values, found.variant)).startswith(fix)

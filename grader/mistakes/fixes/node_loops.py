@@ -113,7 +113,9 @@ def _without_sleep(case: Case, path: str, name: str) -> Files | None:
     if node is None or method is None:
         return None
     module, splices = node.module_at(path), []
-    for call in sleeps_in(node, method):
+    calls = [n for n in ast.walk(method) if isinstance(n, ast.Call)]
+    of_rates = [c for c in calls if last_part(dotted(c.func)) == "sleep"]
+    for call in {*sleeps_in(node, method), *of_rates}:
         statement = module.parents.get(call)
         if not isinstance(statement, ast.Expr) or len(block_of(module, statement)) == 1:
             return None

@@ -465,6 +465,14 @@ def _of_ros_1(names: Mapping[str, int]) -> list[str]:
     """Return advice on dependencies that only ROS 1 has."""
     return [
         say(
+            "package.xml, line {line}: '{name}' belongs to ROS 1. Delete each line with {name}: the "
+            "package depends on {wanted} already.",
+            line=names[name],
+            name=name,
+            wanted=wanted,
+        )
+        if wanted in names
+        else say(
             "package.xml, line {line}: '{name}' belongs to ROS 1. Write {wanted} instead.",
             line=names[name],
             name=name,
