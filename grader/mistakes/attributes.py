@@ -651,7 +651,7 @@ KINDS = (
         ),
         msg("Write self.{close} on that line: the other lines use this name, not self.{name}."),
         links.PYTHON_CLASSES,
-        fixed_by=(node_names.close_attribute,),
+        fixed_by=(node_names.close_attribute, node_names.counter),
         examples=(
             example(
                 "counter_of_other_name",
