@@ -58,7 +58,6 @@ ON_CLASS = msg(
 )
 
 
-NOTEBOOK = "get_ipython"
 BLOCK_ENDS = (
     *(
         "end",
@@ -85,7 +84,7 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     statement = statement_at(raised.module, raised.line)
     if isinstance(statement, ast.Expr) and dotted(statement.value) == name:
         return _alone(raised, name)
-    if name == NOTEBOOK:
+    if name == lines.NOTEBOOK:
         return replace(raised.finding("name_unknown", name=name), variant="notebook")
     if (joined := _joined(raised, name)) is not None:
         return joined

@@ -13,6 +13,7 @@ from grader.package.source.imported import imports
 from grader.package.source.module import Module
 from grader.package.source.place import block_of
 
+NOTEBOOK = "get_ipython"  # the function that only a Jupyter notebook has
 BLOCKS = ast.For | ast.While | ast.If
 
 
@@ -83,12 +84,12 @@ def rows_with_only(module: Module, name: str) -> list[int]:
 def without_notebook(case: Case) -> Files | None:
     """Delete the commands of a notebook: the lines at the margin that begin with get_ipython()."""
     module, name = case.module, case.finding.params.get("name")
-    if module is None or name != "get_ipython":
+    if module is None or name != NOTEBOOK:
         return None
     rows = [
         row
         for s in module.tree.body
-        if isinstance(s, ast.Expr) and module.text.code(s).startswith("get_ipython()")
+        if isinstance(s, ast.Expr) and module.text.code(s).startswith(f"{NOTEBOOK}()")
         for row in range(s.lineno, (s.end_lineno or s.lineno) + 1)
     ]
     return case.changed(module, *map(module.text.without, rows)) if rows else None
