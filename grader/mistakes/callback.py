@@ -9,6 +9,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.base.shown import shown
 from grader.mistakes import links
+from grader.mistakes.classes import MISSING_ARGUMENT
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import node_timer
 from grader.mistakes.kind import Family
@@ -207,9 +208,7 @@ KINDS = (
         },
         seen=r"TypeError: [\w.]{0,200}\(\) missing \d{1,3} required positional arguments?: "
         r"'(?P<name>\w{1,120})'",
-        raised={
-            r"\.(?P<function>\w{1,120})\(\) missing \d{1,3} required positional arguments?: '(?P<name>\w{1,120})'": _parameter
-        },
+        raised={MISSING_ARGUMENT: _parameter},
         fixed_by=(node_timer.callback_self,),
         examples=(
             example(

@@ -26,11 +26,16 @@ from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import LOG_METHODS, NodeSource
+from grader.package.source.parameters import needed_besides_self
 from grader.package.source.place import function_at
 
 TIMER = "        self.create_timer(1.0, self.timer_callback)\n"
 NEEDED = ("create_timer", "__init__", *LOG_METHODS)
 """What a method must call, or else no line comes."""
+MISSING_ARGUMENT = (
+    r"\.(?P<function>\w{1,120})\(\) missing \d{1,3} required positional arguments?: "
+    r"'(?P<name>\w{1,120})'"
+)
 CALLED_ON_CLASS = (
     r"TypeError: (?P<method>(?:\w{1,120}\.)?\w{1,120})\(\) missing 1 required positional "
     r"argument: 'self'"
@@ -167,10 +172,6 @@ def _not_called(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
-def _definitions(methods: list[ast.FunctionDef], name: str) -> list[ast.FunctionDef]:
-    return [m for m in methods if m.name == name and not m.decorator_list]
-
-
 def _uses(function: Function) -> set[str]:
     """Return what a function calls and assigns to."""
     called = {last_part(name) for _, name in calls_in(function)}
@@ -191,30 +192,41 @@ def _lost(source: NodeSource, replaced: list[ast.FunctionDef]) -> set[str]:
 
 def _replaced(suspect: Suspect) -> RecognisedMistake | None:
     """A second definition of a method lacks what the first one does."""
-    source = suspect.source
-    for name in dict.fromkeys(method.name for method in source.own_methods):
-        found = _definitions(source.own_methods, name)
-        if len(found) > 1 and _lost(source, found[:-1]):
-            return suspect.finding("method_twice", found[-1], name=name, line=found[-2].lineno)
+    for found in node_classes.defined_twice(suspect.source):
+        if _lost(suspect.source, found[:-1]):
+            return _second(suspect, found)
     return None
+
+
+def _second(suspect: Suspect, found: list[ast.FunctionDef]) -> RecognisedMistake:
+    return suspect.finding("method_twice", found[-1], name=found[-1].name, line=found[-2].lineno)
 
 
 def _text_replaced(suspect: Suspect) -> RecognisedMistake | None:
     """The line that came is from the second definition of a method, of which the first one logs too."""
     source, place = suspect.source, suspect.place
-    for name in dict.fromkeys(method.name for method in source.own_methods):
-        found = _definitions(source.own_methods, name)
-        if len(found) < 2 or place is None or place.line is None:
+    for found in node_classes.defined_twice(source):
+        if place is None or place.line is None:
             continue
         inside = found[-1].lineno <= place.line <= (found[-1].end_lineno or found[-1].lineno)
         if inside and place.file == source.module_of(found[-1]).path and source.logs(found[-2]):
-            return suspect.finding("method_twice", found[-1], name=name, line=found[-2].lineno)
+            return _second(suspect, found)
     return None
+
+
+def _overloaded(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The method that is called without arguments is replaced by one that needs some."""
+    found = node_classes.definitions(raised.source.own_methods, match["function"])
+    if len(found) < 2 or needed_besides_self(found[-2]) or match["name"] == "self":
+        return None
+    params = {"name": found[-1].name, "line": str(found[-2].lineno), "given": match["name"]}
+    mistake = raised.finding("method_twice", at=found[-1], params=params)
+    return replace(mistake, variant="overloaded")
 
 
 def _start_replaced(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A second __init__ does not set what the first one sets."""
-    found = _definitions(raised.source.own_methods, "__init__")
+    found = node_classes.definitions(raised.source.own_methods, "__init__")
     if len(found) < 2 or not of_self(raised, match):
         return None
     written = f"self.{match['name']}"
@@ -227,7 +239,7 @@ def _start_replaced(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
 def _super_replaced(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A second __init__ does not call super().__init__, and the first one does."""
     del match
-    found = _definitions(raised.source.own_methods, "__init__")
+    found = node_classes.definitions(raised.source.own_methods, "__init__")
     calls = [any(name == "super().__init__" for _, name in calls_in(init)) for init in found]
     if len(found) < 2 or calls[-1] or not any(calls):
         return None
@@ -442,12 +454,30 @@ KINDS = (
             "Keep one def {name}: move the lines that you need from one to the other (the first is "
             "in line {line}), and delete the other."
         ),
-        raised={PRIVATE: _super_replaced, OWN_ATTRIBUTE: _start_replaced},
+        whys={
+            "overloaded": msg(
+                "A class has one method of each name, whatever its parameters: Python does not "
+                "overload methods. The second def {name}, with {given}, replaces the first one, "
+                "which then never runs."
+            ),
+        },
+        fixes={
+            "overloaded": msg(
+                "Give the second def {name} another name, and write that name wherever it is "
+                "called with a value. The def {name}(self) in line {line} stays."
+            ),
+        },
+        raised={
+            PRIVATE: _super_replaced,
+            OWN_ATTRIBUTE: _start_replaced,
+            MISSING_ARGUMENT: _overloaded,
+        },
         behind={
             "run.no_lines": _replaced,
             "run.constant_counter": _replaced,
             "run.wrong_text": _text_replaced,
         },
+        fixed_by=(node_classes.second_renamed,),
         examples=(
             example(
                 "init_defined_twice",
@@ -476,6 +506,18 @@ KINDS = (
                     "        self.get_logger().info('Hello')\n",
                 ),
                 fails="run.output",
+            ),
+            example(
+                "callback_overloaded",
+                Replace(
+                    NODE,
+                    "self.get_logger().info('Hello time: ' + str(self.counter_))",
+                    "self.timer_callback('Hello time: ')\n\n"
+                    "    def timer_callback(self, text):\n"
+                    "        self.get_logger().info(text + str(self.counter_))",
+                ),
+                fails="run.output",
+                blocks=DEAD,
             ),
             example(
                 "init_twice_without_super",

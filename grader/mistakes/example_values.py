@@ -288,7 +288,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.init_underscores": {"name": "_init_", "attribute": "counter", "type": "Counter"},
     "node.method_misspelt": {"name": "creat_timer"},
     "node.class_twice": {"name": "MyNode", "line": "12"},
-    "node.method_twice": {"name": "__init__", "line": "12"},
+    "node.method_twice": {"name": "say_hello", "line": "12", "given": "text"},
     "node.variable_for_self": {"name": "node"},
     "node.callback_of_class": {"name": "MyNode.callback", "method": "callback"},
     "node.plain_node": {"name": "Node", "made": "MyNode"},

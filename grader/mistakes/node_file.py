@@ -263,6 +263,10 @@ KINDS = (
                 "Its name must be exactly __init__.py, with two underscores on both sides. "
                 "Rename it, then build again. In the package's folder, run: mv {there} {path}"
             ),
+            "ending": msg(
+                "An editor or a file manager has added {form} to its name, and may not show this "
+                "ending. Rename it, then build again. In the package's folder, run: mv {there} {path}"
+            ),
             "blank": msg(
                 "There is a blank at the beginning or the end of its name. Rename it, then build "
                 "again. In the package's folder, run: mv {there} {path}"
@@ -284,6 +288,11 @@ KINDS = (
             example(
                 "init_with_single_underscores",
                 Move(INIT, f"{INNER}/_init_.py"),
+                fails="run.starts",
+            ),
+            example(
+                "init_saved_as_text",
+                Move(INIT, f"{INNER}/__init__.py.txt"),
                 fails="run.starts",
             ),
             example(

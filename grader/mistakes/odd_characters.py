@@ -23,10 +23,12 @@ from grader.package.source.odd_characters import (
     BrokenText,
     OddSign,
     broken_texts,
+    joined,
     odd_signs,
     plain,
     plain_text,
     strings_with,
+    typed,
 )
 
 LONGEST = 120  # characters of a piece of code that a text shows
@@ -37,7 +39,7 @@ def _odd_sign(suspect: Suspect) -> RecognisedMistake | None:
     head, tail = suspect.output.text.split("{n}")
     signs = odd_signs(suspect.text)
     came = plain_text(suspect.text)
-    if not signs or not (head + tail).isascii() or not came.startswith(head):
+    if not signs or not (head + tail).isascii() or not joined(came).startswith(joined(head)):
         return None
     found = strings_with(suspect.source, {sign.sign for sign in signs})
     if not found:
@@ -45,8 +47,9 @@ def _odd_sign(suspect: Suspect) -> RecognisedMistake | None:
     module, node = found[0]
     mistake = suspect.finding("odd_character", node, code=signs[0].code)
     words: dict[str, Value] = {**mistake.words, **_words(signs[0])}
-    code = plain_text(module.text.code(node))
-    if len(signs) == 1 or len(code) > LONGEST:
+    code = typed(module.text.code(node), head)
+    alone = len(signs) == 1 and came.startswith(head)
+    if alone or len(code) > LONGEST:
         return replace(mistake, words=words, variant=signs[0].sort)
     several = f"{signs[0].sort}_and_more"
     return replace(mistake, words={**words, "written": code}, variant=several)
@@ -70,11 +73,11 @@ def _typed_again(case: Case) -> Files | None:
     module, name = case.module, str(case.finding.params.get("code", ""))
     if node is None or module is None or not name:
         return None
-    text, splices = module.text, []
+    head, text, splices = case.assignment.output.text.partition("{n}")[0], module.text, []
     for found, string in strings_with(node, set(text.text) - set(map(chr, range(128)))):
         start, end = text.span(string)
         if found is module and string.lineno == case.finding.line:
-            splices.append(Splice(start, end, plain_text(text.text[start:end])))
+            splices.append(Splice(start, end, typed(text.text[start:end], head)))
     return case.changed(module, *splices)
 
 
@@ -181,6 +184,10 @@ KINDS = (
                 "Delete what is between {before} and {after} in this line, one character more than "
                 "you see, and type it again."
             ),
+            "letter_and_more": msg(
+                "Set the keyboard to English, delete the whole text between the quotes and type it "
+                "again, not copied: {written}"
+            ),
             "letter": msg(
                 "Set the keyboard to English, delete the word {name} in this line and type it again "
                 "with the {letter} of the keyboard."
@@ -202,6 +209,11 @@ KINDS = (
             example(
                 "wide_colon_in_text",
                 Replace(NODE, "'Hello time: '", "'Hello time\uff1a '"),
+                fails="run.output",
+            ),
+            example(
+                "wide_colon_without_blank",
+                Replace(NODE, "'Hello time: '", "'Hello time\uff1a'"),
                 fails="run.output",
             ),
         ),

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import Message, joined, reworded, say
-from grader.base.nearest import compared, meant, nearest
+from grader.base.nearest import compared, meant
 from grader.base.shown import shown
 from grader.course.assignment import OWN
 from grader.mistakes.catalogue import CATALOGUE, RANK
@@ -19,7 +19,7 @@ from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.whole_block import rest_of_block
 from grader.package.edit.text import read_source
 from grader.package.source.module import Module
-from grader.package.source.names import calls_in, last_part
+from grader.package.source.names import SPINS, calls_in, last_part, misnamed_init
 from grader.package.source.place import place_of, statement_at
 from grader.package.source.setup_packages import packages_of
 from grader.report.model import Mistake, Where
@@ -39,7 +39,6 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 RAISES = ("run.died_at_start", "run.ended_early", "run.error_at_stop")
-SPINS = ("spin", "spin_once", "spin_until_future_complete")
 NOT_PARSED = re.compile(r"(?:Syntax|Indentation|Tab)Error\b")
 SHORTEST = 3  # characters of a source line that is worth showing
 
@@ -210,13 +209,18 @@ def _not_installed(error: str, evidence: Evidence) -> RecognisedMistake | None:
 
 def _no_init(package: str, init: str, evidence: Evidence) -> RecognisedMistake:
     """Return that there is no __init__.py, with the file that has nearly this name."""
-    close = nearest("__init__.py", names_in(evidence, package), cutoff=0.75)
-    there = f"{package}/{shown(close)}"
+    close = misnamed_init(names_in(evidence, package))
+    there, ending = f"{package}/{shown(close)}", close.removeprefix("__init__.py")
+    variant = "misnamed" if close else ""
+    if close.strip() != close:
+        variant = "blank"
+    elif ending.startswith(".") and ending != close:
+        variant = "ending"
     return RecognisedMistake(
         kind="source.no_init_file",
         params={"there": there} if close else {},
-        words={"path": init, "there": shlex.quote(there)},
-        variant="blank" if close.strip() != close else "misnamed" if close else "",
+        words={"path": init, "there": shlex.quote(there), "form": ending},
+        variant=variant,
         where=Where(file=there if close else init),
     )
 

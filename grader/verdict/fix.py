@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
-from grader.base.i18n.translator import SOURCE
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import SOURCE, Translator
 from grader.course.assignment import Assignment
 from grader.mistakes.catalogue import fixes_for
 from grader.mistakes.fixes import layout, manifest, setup_cfg, syntax
@@ -21,13 +22,13 @@ MOST_STEPS = 30
 """The most fixes of one package: each mistake needs one, and a package has 17 checks."""
 MOST_PATCH = 50_000
 """Bytes of a diff in a report: twice the size of a diff that changes all lines of an exercise."""
-ADVISED: tuple[Fix, ...] = (
-    manifest.dependencies,
-    manifest.depend,
-    layout.init_file,
-    setup_cfg.dashes,
+ADVISED: tuple[tuple[str, Fix], ...] = (
+    ("package.manifest", manifest.dependencies),
+    ("package.manifest", manifest.depend),
+    ("source.node_file", layout.init_file),
+    ("package.setup_cfg", setup_cfg.dashes),
 )
-"""Fixes of what costs no points by itself, or only when the node runs."""
+"""Fixes of what costs no points by itself, or only when the node runs: the check that advises it."""
 Judge = Callable[[Files], list[Finding]]
 
 
@@ -82,9 +83,13 @@ def fix_files(
     if only:
         return fix_all(old, assignment, judge)
     # (no static check fails because of a setup.py that Python cannot read, so fix it first)
-    readable = syntax.setup_py(Case(old, Finding("", ""), assignment)) or old
-    plan = fix_all(readable, assignment, judge)
-    return _advised(replace(plan, old=old), assignment, judge)
+    readable = syntax.setup_py(Case(old, Finding("", ""), assignment))
+    plan = fix_all(readable or old, assignment, judge)
+    if readable is not None:
+        said = Translator(lang)(say("Python cannot read setup.py"))
+        unread = Finding("build.colcon", "", file="setup.py", actual=said)
+        plan = replace(plan, fixed=(unread, *plan.fixed))
+    return _advised(replace(plan, old=old), assignment, judge, lang)
 
 
 def fix_all(files: Files, assignment: Assignment, judge: Judge) -> FixPlan:
@@ -151,11 +156,16 @@ def first_fix(case: Case, fixes: Iterable[Fix]) -> Files | None:
     return next(iter(_tries(case, fixes)), None)
 
 
-def _advised(plan: FixPlan, assignment: Assignment, judge: Judge) -> FixPlan:
-    files, left = plan.new, list(plan.left)
-    for attempt in ADVISED:
+def _advised(plan: FixPlan, assignment: Assignment, judge: Judge, lang: str) -> FixPlan:
+    files, left, fixed = plan.new, list(plan.left), list(plan.fixed)
+    said = Translator(lang)(say("the advice on this check"))
+    for check, attempt in ADVISED:
         case = Case(files, Finding("", ""), assignment)
         new = attempt(case)
         if new is not None and _no_worse(left, judge(new), case):
+            changed = [
+                path for path, file in new.by_path.items() if files.by_path.get(path) != file
+            ]
+            fixed.append(Finding(check, "", file=changed[0], actual=said))
             files = new
-    return replace(plan, new=files)
+    return replace(plan, new=files, fixed=tuple(fixed))

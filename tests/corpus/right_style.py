@@ -123,6 +123,7 @@ STYLE = (
     right("imported_as", _node("import rclpy\nfrom", "import rclpy as ros\nfrom"),
           _node("rclpy.init(", "ros.init("), _node("rclpy.spin(", "ros.spin("),
           _node("rclpy.try_shutdown(", "ros.try_shutdown(")),
+    right("catches_exception", _node("except KeyboardInterrupt:", "except Exception:")),
     right("super_of_python_2", _node(SUPER, "super(MyFirstNode, self).__init__('my_first_node')")),
     right("base_named", _node(SUPER, "Node.__init__(self, 'my_first_node')")),
     right("name_by_keyword", _node(SUPER, "super().__init__(node_name='my_first_node')")),

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from grader.package.edit.tree import Crlf, Write
+from grader.mistakes.example import INIT, SETUP
+from grader.package.edit.tree import Crlf, Edit, Move, Replace, Write
 from grader.verdict.fix import patch_for
 from grader.verdict.static import static_results
 from tests.corpus.broken import BROKEN
@@ -129,6 +130,25 @@ def test_several_mistakes_at_once_are_all_fixed(tmp_path: Path) -> None:
         *("package.manifest", "package.marker", "package.setup_cfg", "source.exec_bit"),
         *("source.shebang", "entry_point.mapping"),
     }
+
+
+@pytest.mark.parametrize(
+    ("edit", "check", "file"),
+    [
+        (Replace(SETUP, "version='0.0.0',", "version='0.0.0'"), "build.colcon", SETUP),
+        (Move(INIT, f"{INIT}.txt"), "source.node_file", INIT),
+        (
+            Replace("setup.cfg", "install_scripts", "install-scripts"),
+            "package.setup_cfg",
+            "setup.cfg",
+        ),
+    ],
+)
+def test_a_fix_without_a_failed_check_is_listed(
+    edit: Edit, check: str, file: str, tmp_path: Path
+) -> None:
+    plan = plan_of(write(Package(name="one", edits=(edit,)), tmp_path))
+    assert [(finding.check, finding.file) for finding in plan.fixed] == [(check, file)]
 
 
 def test_a_right_package_is_left_unchanged(tmp_path: Path) -> None:

@@ -8,9 +8,10 @@ import pytest
 
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
+from tests.corpus.right import RIGHT
 from tests.recorded import mark
 
-BY_NAME = {package.name: package for package in BROKEN}
+BY_NAME = {package.name: package for package in (*BROKEN, *RIGHT)}
 
 
 @pytest.mark.parametrize(
@@ -23,3 +24,9 @@ def test_a_traceback_from_outside_of_the_try_is_explained(
     (check,) = (check for check in report.checks if check.id == "run.interrupt")
     assert check.status == "passed"
     assert ([f"comes from line {line}:" in text for text in check.advice] == [True]) == bool(line)
+
+
+def test_an_except_of_exception_is_named(tmp_path: Path) -> None:
+    report = mark(write(BY_NAME["catches_exception"], tmp_path))
+    (check,) = (check for check in report.checks if check.id == "run.interrupt")
+    assert any("in line 20 does not catch Ctrl+C" in text for text in check.advice)

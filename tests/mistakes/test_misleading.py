@@ -60,6 +60,23 @@ def test_an_error_in_a_finally_is_not_taken_for_the_cause(bench: Bench) -> None:
     assert found.where.line == line_of(text, "= zero")
 
 
+def test_a_misspelt_except_does_not_hide_the_error_before_it(bench: Bench) -> None:
+    text = changed("def timer_callback(self)", "def timer_callback(self, event)")
+    text = text.replace("except KeyboardInterrupt:", "except KeyboardInterupt:")
+    cause = (
+        "TypeError: MyFirstNode.timer_callback() missing 1 required positional argument: 'event'"
+    )
+    line = line_of(text, "except")
+    in_except = TRACEBACK.format(line=line, error="NameError: name 'KeyboardInterupt'").replace(
+        "NameError", "    except KeyboardInterupt:\nNameError"
+    )
+    spun = TRACEBACK.format(line=line_of(text, "rclpy.spin"), error=cause)
+    found = diagnose(
+        failed("run.ended_early"), evidence(bench, text, HANDLING.join((spun, in_except)))
+    )
+    assert found.mistakes[0].id == "node.callback_parameter"
+
+
 def test_an_error_of_ones_own_while_ctrl_c_is_handled_stays_the_cause(bench: Bench) -> None:
     text = changed("        node.destroy_node()\n", "        count += 1\n")
     error = UNBOUND.replace("node", "count")

@@ -8,7 +8,7 @@ from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import EXECUTABLE, Files
 from grader.package.source.documents import script_of
-from grader.package.source.names import module_name
+from grader.package.source.names import misnamed_init, module_name
 from grader.package.source.python import has_no_code
 from grader.package.source.setup_scripts import scripts_line
 
@@ -147,9 +147,9 @@ def init_file(case: Case) -> Files | None:
     path = f"{case.package}/__init__.py"
     if path in case.files.by_path or case.files.file(case.node_path) is None:
         return None
-    there = str(case.finding.params.get("there", ""))
-    if case.files.file(there) is not None:
-        return case.files.with_move(there, path)
+    there = misnamed_init(case.files.names_in(case.package))
+    if there:
+        return case.files.with_move(f"{case.package}/{there}", path)
     return case.with_data(path, b"")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator
 
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
@@ -10,6 +11,7 @@ from grader.package.edit.text import Splice
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
 from grader.package.source.node import NodeSource
+from grader.package.source.parameters import needed_besides_self
 
 
 def has_self(function: Function) -> bool:
@@ -32,6 +34,43 @@ def own_object(case: Case) -> Files | None:
     if any(not isinstance(n.ctx, ast.Load) or module.text.code(n) != name for n in inside):
         return None
     return case.changed(module, *(module.text.swap(n, "self") for n in inside))
+
+
+def definitions(methods: list[ast.FunctionDef], name: str) -> list[ast.FunctionDef]:
+    """Return the methods of a name that no decorator changes, in their order."""
+    return [m for m in methods if m.name == name and not m.decorator_list]
+
+
+def defined_twice(source: NodeSource) -> Iterator[list[ast.FunctionDef]]:
+    """Yield the definitions of each method that is defined more than once."""
+    for name in dict.fromkeys(method.name for method in source.own_methods):
+        found = definitions(source.own_methods, name)
+        if len(found) > 1:
+            yield found
+
+
+def second_renamed(case: Case) -> Files | None:
+    """Give the second of two overloaded methods a name of its own, also where it is called."""
+    node, module = case.node, case.module
+    twice = list(defined_twice(node)) if node is not None else []
+    if module is None or len(twice) != 1 or len(twice[0]) != 2:
+        return None
+    first, second = twice[0]
+    given = [argument.arg for argument in needed_besides_self(second)]
+    calls = [
+        c
+        for c in module.nodes
+        if isinstance(c, ast.Call) and dotted(c.func) == f"self.{first.name}"
+    ]
+    with_values = [c for c in calls if c.args or c.keywords]
+    if needed_besides_self(first) or not given or not with_values or not module.has(second):
+        return None
+    new, text = f"{second.name}_{given[0]}", module.text
+    start = text.span(second)[0] + len("def ")
+    if not text.text.startswith(second.name, start) or new in text.text:
+        return None
+    of_def = Splice(start, start + len(second.name), new)
+    return case.changed(module, of_def, *(text.swap(c.func, f"self.{new}") for c in with_values))
 
 
 def called_base(found: ast.ClassDef) -> ast.Call | None:

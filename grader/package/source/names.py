@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+
+from grader.base.nearest import nearest
 
 LONGEST_NAME = 20  # names, dots and calls; longer ones are ignored
+SPINS = ("spin", "spin_once", "spin_until_future_complete")
 
 
 def dotted(named: ast.AST) -> str:
@@ -24,6 +27,11 @@ def dotted(named: ast.AST) -> str:
         else:
             break
     return ""
+
+
+def misnamed_init(names: Iterable[str]) -> str:
+    """Return the file whose name is nearly `__init__.py`; "" if there is none."""
+    return nearest("__init__.py", names, cutoff=0.75)
 
 
 def last_part(name: str) -> str:

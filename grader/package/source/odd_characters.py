@@ -36,6 +36,20 @@ def plain_text(text: str) -> str:
     return "".join(map(plain, text))
 
 
+def joined(text: str) -> str:
+    """Return a text without its blanks."""
+    return "".join(text.split())
+
+
+def typed(code: str, head: str) -> str:
+    """Return a string's code with the characters of an English keyboard, and the blanks of `head`.
+
+    Some characters of other keyboards are as wide as one and a blank, so the blank is often missing.
+    """
+    letters = r"\s*".join(map(re.escape, joined(head)))
+    return re.sub(rf"{letters}\s*" if letters else r"(?!)", lambda _: head, plain_text(code))
+
+
 @dataclass(frozen=True)
 class OddSign:
     """A character: of which sort, and the words beside it.

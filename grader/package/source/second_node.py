@@ -7,9 +7,7 @@ from dataclasses import dataclass
 
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
-from grader.package.source.names import calls_in, dotted, last_part
-
-SPINS = ("spin", "spin_once", "spin_until_future_complete")
+from grader.package.source.names import SPINS, calls_in, dotted, last_part
 
 
 @dataclass(frozen=True)

@@ -6,12 +6,11 @@ import ast
 from collections.abc import Iterator
 
 from grader.package.source.module import Function, Module
-from grader.package.source.names import called_name, calls_in, last_part
+from grader.package.source.names import SPINS, called_name, calls_in, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of
 
 LATER = ("signal", "on_shutdown", "register")
-SPINS = ("spin", "spin_once", "spin_until_future_complete")
 
 
 def after_spin(source: NodeSource) -> list[ast.stmt]:

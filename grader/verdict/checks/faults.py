@@ -28,6 +28,10 @@ SUGGESTION = re.compile(r"\. Did you (?:mean|forget)\b.*")
 ABORTED = re.compile(r"Assertion `\w+\(field\)' failed")
 FRAME = re.compile(r'File "[^"\n]*/([^"/\n]+/[^"/\n]+\.py)", line (\d+)')
 CALL = re.compile(r'^ +File "([^"\n]+)", line (\d+)(?:, in (.+))?$', re.MULTILINE)
+EXCEPT = re.compile(
+    r'^ +File "[^"\n]+", line \d+.*\n +except\b.*\n(?: +[~^]+\n)?\w*Error: ', re.MULTILINE
+)
+"""The end of a traceback that was raised in an `except` line itself."""
 TRACEBACK = "Traceback (most recent call last):"
 CHAINED = (HANDLING, "The above exception was the direct cause of the following exception:")
 
@@ -180,7 +184,8 @@ def _with_cause(text: str) -> str:
     """Return a transcript up to the exception that made a later one.
 
     If creating the node fails, a `finally` that uses the variable of the node raises
-    UnboundLocalError as well; if nothing sets the variable, it raises the same NameError again.
+    UnboundLocalError as well; if nothing sets the variable, it raises the same NameError again. A
+    misspelt name in an `except` is looked up, and raises NameError, only after an exception.
     """
     for _ in range(MOST_CAUSES):
         before, handling, after = text.rpartition(HANDLING)
@@ -188,6 +193,7 @@ def _with_cause(text: str) -> str:
         stopped = cause.rpartition(".")[2].startswith(("KeyboardInterrupt", "ExternalShutdown"))
         second, _ = python_error(after, "")
         follows = second.startswith("UnboundLocalError") or second == cause
+        follows |= EXCEPT.search(after) is not None
         if not handling or not cause or stopped or not follows:
             break
         text = before

@@ -8,14 +8,14 @@ import shlex
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
-from grader.base.nearest import nearest, with_difference
+from grader.base.nearest import with_difference
 from grader.base.shown import shown
 from grader.mistakes.hints import hints
 from grader.mistakes.slips import description, words_of
 from grader.package.edit.text import read_source
 from grader.package.source.broken_python import Slip
 from grader.package.source.documents import code_cells, document_of
-from grader.package.source.names import module_name
+from grader.package.source.names import misnamed_init, module_name
 from grader.package.source.newer_python import SINCE, first_difference, with_older_quotes
 from grader.package.source.numbers_above import numbers_above
 from grader.package.source.pasted import WHOLE_LINES, Pasted, pasted_in
@@ -91,7 +91,7 @@ def node_file(evidence: Evidence) -> Passed:
     advice = hints(parsed.tree, evidence.assignment.function)
     inner = evidence.assignment.folder
     if evidence.submission.file(f"{inner}/__init__.py") is None:
-        no_init = _no_init(inner, nearest("__init__.py", names_in(evidence, inner), cutoff=0.75))
+        no_init = _no_init(inner, misnamed_init(names_in(evidence, inner)))
         advice.insert(0, no_init)
     other = _other_version(evidence, path)
     if other:

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import joined, say
 from grader.base.shown import shown
 from grader.package.source.command_line import reads_command_line
-from grader.package.source.names import last_part
+from grader.package.source.names import SPINS, calls_in, dotted, last_part
 from grader.package.source.newer_python import with_older_quotes
+from grader.package.source.node import NodeSource
 from grader.package.source.place import place_of
 from grader.package.source.python import PythonFault, parse_python
 from grader.verdict.checks.actual_node import actual_path
@@ -205,16 +206,37 @@ def _catches_interrupt(evidence: Evidence) -> bool:
     return any("KeyboardInterrupt" in ast.unparse(named) for named in types)
 
 
-def _uncaught(evidence: Evidence) -> str:
+def _too_narrow(source: NodeSource) -> int | None:
+    """Return the line of an `except Exception` around rclpy.spin."""
+    for tried in source.all_nodes:
+        if not isinstance(tried, ast.Try):
+            continue
+        calls = [name for statement in tried.body for _, name in calls_in(statement)]
+        for handler in tried.handlers if any(last_part(n) in SPINS for n in calls) else ():
+            if handler.type is not None and dotted(handler.type) == "Exception":
+                return handler.lineno
+    return None
+
+
+def _uncaught(source: NodeSource | None) -> list[str]:
     """Return what avoids the traceback of a node that does not catch Ctrl+C."""
-    source = source_of_node(evidence)
-    if source is not None and any(name == "rclpy.shutdown" for _, name in source.calls):
-        return say(
-            "try: … except KeyboardInterrupt: pass around rclpy.spin avoids the traceback. Write "
-            "rclpy.try_shutdown() instead of rclpy.shutdown() then: after Ctrl+C, ROS has already "
-            "shut down."
+    line = _too_narrow(source) if source is not None else None
+    advice = (
+        say("try: … except KeyboardInterrupt: pass around rclpy.spin avoids the traceback.")
+        if line is None
+        else say(
+            "except Exception in line {line} does not catch Ctrl+C: in Python, KeyboardInterrupt is "
+            "not an Exception. Write except KeyboardInterrupt: there to avoid the traceback.",
+            line=line,
         )
-    return say("try: … except KeyboardInterrupt: pass around rclpy.spin avoids the traceback.")
+    )
+    if source is None or all(name != "rclpy.shutdown" for _, name in source.calls):
+        return [advice]
+    other = say(
+        "After Ctrl+C, ROS has already shut down: with except KeyboardInterrupt, write "
+        "rclpy.try_shutdown() instead of rclpy.shutdown()."
+    )
+    return [advice, other]
 
 
 def _outside_of_try(evidence: Evidence) -> list[str]:
@@ -263,7 +285,7 @@ def interrupt(evidence: Evidence) -> Passed:
     )
     if run.status in (0, 130, 254) or run.signal == 2:
         bare = run.status == 254 and not _catches_interrupt(evidence)
-        advice = [_uncaught(evidence)] if bare else _outside_of_try(evidence)
+        advice = _uncaught(source_of_node(evidence)) if bare else _outside_of_try(evidence)
         return Passed(actual=actual, advice=advice)
     if run.status is not None and run.status > SIGNALLED:
         crashed = say(
