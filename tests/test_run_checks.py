@@ -275,6 +275,31 @@ def test_the_call_that_logs_the_count_logs_another_text(bench: Bench) -> None:
     assert caught.value.words["line"] == "Hello time: 1"
 
 
+@pytest.mark.parametrize(
+    ("text", "first", "advised"),
+    [
+        ("Bonjour: {}", 1, True),
+        ("Bonjour: {}", 0, False),
+        ("Bonjour {} of 10", 1, False),
+        ("Bonjour: {}.5", 1, False),
+    ],
+)
+def test_a_wrong_start_is_told_beside_another_text(
+    bench: Bench, text: str, first: int, advised: bool
+) -> None:
+    run = counted()
+    run.watch.events[:] = [
+        replace(event, text=text.format(first + k), n=None)
+        for k, event in enumerate(run.watch.events)
+    ]
+    with pytest.raises(Failed) as caught:
+        ask(counts, bench, run)
+    assert caught.value.mistake.id == "run.wrong_text"
+    assert [f"has to be 0, and it is {first}" in str(a) for a in caught.value.advice] == (
+        [True] if advised else []
+    )
+
+
 def test_other_lines_beside_the_count_cost_nothing(bench: Bench) -> None:
     run = counted()
     beside = [replace(event, text="working", n=None) for event in run.watch.events]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
 SILENT = 2.5  # of the longest time between two lines, after which none is to come
 FOLLOWED = ("run.constant_counter", "run.wrong_start", "run.wrong_step")
 MISSED = 1.5  # periods after the last line, when the next one should have come
+NUMBER = re.compile(r"-?\d+(?:[.,:]\d+)*")
 
 
 class Counts(Parameters, Count):
@@ -113,7 +115,11 @@ def _line_by_line(evidence: Evidence, wanted: Count, expected: str) -> Passed:
             params={"text": other.text[:200]},
             variant="lines" if made else "",
             words={**words(evidence), "lines": made} if made else words(evidence),
-            advice=[*_changes_nothing(evidence), *_begins_again(evidence)],
+            advice=[
+                *_changes_nothing(evidence),
+                *_other_start(events, wanted),
+                *_begins_again(evidence),
+            ],
         )
     mistake, text = _count_fault(run, wanted, numbers)
     if mistake == "run.twice":
@@ -176,6 +182,23 @@ def _ends_later(evidence: Evidence) -> list[Message]:
             code=code,
             line=call.lineno,
             spin=spin,
+        )
+    ]
+
+
+def _other_start(events: list[Event], wanted: Count) -> list[Message]:
+    """Return advice on the first number of lines that have another text, if that is wrong too."""
+    numbers = NUMBER.findall(events[0].text)
+    if events[0].n is not None or len(numbers) != 1 or not numbers[0].isdecimal():
+        return []
+    if int(numbers[0]) == wanted.start:
+        return []
+    return [
+        say(
+            "The number of the first line is wrong too: it has to be {start}, and it is {n}. Look at "
+            "the counter's first value, and at whether it changes before or after the log line.",
+            start=wanted.start,
+            n=numbers[0],
         )
     ]
 
