@@ -17,11 +17,11 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.endless import goes_on, sleeps_in
 from grader.package.source.module import Function
-from grader.package.source.names import called_name, dotted, last_part
+from grader.package.source.names import SPINS, called_name, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of
 from grader.package.source.thread_timers import row_ranges
-from grader.package.source.until_ctrl_c import SPINS, after_spin, parts_until_ctrl_c
+from grader.package.source.until_ctrl_c import after_spin, parts_until_ctrl_c
 
 LONG = 3.0  # seconds; after a shorter sleep the program has ended when it is looked at
 FOREVER = ("wait", "pause")
