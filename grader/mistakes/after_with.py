@@ -142,7 +142,9 @@ def _below_executor(
         "indented": str(block.body[0].lineno),
         "below": str(last.end_lineno or last.lineno),
     }
-    return replace(found, words=words, variant="" if next_one else "moved")
+    in_try = isinstance(module.parents.get(module.parents.get(spin, spin)), ast.Try)
+    variant = "" if next_one else "in_try" if in_try else "moved"
+    return replace(found, words=words, variant=variant)
 
 
 def _executors_of(block: ast.With, known: set[str]) -> list[str]:
@@ -237,7 +239,11 @@ KINDS = (
             "moved": msg(
                 "Move this line into the block of the with: below line {below}, indented as far as "
                 "line {indented}."
-            )
+            ),
+            "in_try": msg(
+                "The with belongs in this try. Cut lines {line} to {below}, paste them above this line, "
+                "and indent them by 4 spaces. Then indent this line by 4 spaces too."
+            ),
         },
         behind={"run.exits_at_once": _executor_ended},
         deletes=("moved",),

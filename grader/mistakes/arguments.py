@@ -35,7 +35,7 @@ ROS_1 = {
     "logfatal": "self.get_logger().fatal(…)",
     "Publisher": "self.create_publisher(…)",
     "Subscriber": "self.create_subscription(…)",
-    "Timer": "self.create_timer(…)",
+    "Timer": "self.create_timer(seconds, callback)",
     "Rate": "self.create_timer(…)",
     "Service": "self.create_service(…)",
     "get_param": "self.get_parameter(…)",
@@ -478,9 +478,12 @@ KINDS = (
     _node(
         "timer_arguments_many",
         "timer",
-        msg("create_timer gets too many arguments"),
-        msg("create_timer takes the period first, then the callback. Commas separate arguments."),
-        msg("Write create_timer({period}, self.{callback})"),
+        msg("create_timer gets more than a period and a callback"),
+        msg(
+            "create_timer takes the period first, then the callback. Commas separate arguments. A "
+            "third argument would be a callback group."
+        ),
+        msg("Write self.create_timer({period}, self.{callback})"),
         fixes={
             "comma": msg(
                 "Write {written} instead of {name}: a decimal number has a point in Python. With "
@@ -646,13 +649,13 @@ KINDS = (
         "keyword_unknown",
         "callback",
         msg("A call names a parameter that the function does not have"),
-        msg("name=value in a call works only for the names in the function's definition."),
+        msg("name=value in a call works only for names that the function knows."),
         msg(
             "Look up the parameters of {function}: write the right name instead of {name}, or remove {name}=…"
         ),
         links.PYTHON_ERRORS,
         fixes={
-            "timer": msg("Write create_timer({period}, self.{callback})"),
+            "timer": msg("Write self.create_timer({period}, self.{callback})"),
             "written": msg("Write {written} instead of {name} in this call."),
             "timer_names": msg(
                 "The first parameters of create_timer are timer_period_sec and callback. Write one of "

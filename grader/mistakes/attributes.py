@@ -22,7 +22,7 @@ from grader.mistakes.recognised import OWN_ATTRIBUTE, Raised, RecognisedMistake,
 from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import starts_of, targets_of
+from grader.package.source.counter import logged_counter, starts_of, targets_of
 from grader.package.source.imported import imports
 from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, last_part, own_name
@@ -161,6 +161,22 @@ def _is_node_method(part: ast.AST) -> TypeGuard[ast.Attribute]:
     return isinstance(part, ast.Attribute) and part.attr in NODE_METHODS
 
 
+def _counts_instead(raised: Raised, name: str) -> str:
+    """Return the number that is logged and never counted, if the line only counts another one."""
+    source, statement = raised.source, statement_at(raised.module, raised.line)
+    counts = isinstance(statement, ast.AugAssign) and dotted(statement.target) == f"self.{name}"
+    uses = [
+        n for n in source.own_nodes if isinstance(n, ast.Attribute) and dotted(n) == f"self.{name}"
+    ]
+    shown = logged_counter(source)
+    logged = shown[1].removeprefix("self.") if shown is not None else ""
+    start = starts_of(source).get(f"self.{logged}")
+    counted = {t for n in source.own_nodes if isinstance(n, ast.AugAssign) for t in targets_of(n)}
+    if not counts or len(uses) != 1 or start is None or f"self.{logged}" in counted:
+        return ""
+    return logged if start.value == raised.assignment.output.start else ""
+
+
 def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if not of_self(raised, match) or match["name"] in raised.module.functions:
         return None
@@ -168,6 +184,7 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if private is not None:
         return private
     name, close = match["name"], _close_attribute(raised, match["name"])
+    close = close or _counts_instead(raised, name)
     owner = class_of(raised.module, function_at(raised.module, raised.line))
     held = raised.source.held_node
     helper = owner is not None and not owner[0].bases
@@ -688,7 +705,10 @@ KINDS = (
                 "Write self.{parameter} = {parameter} in the __init__ of {type}, and "
                 "self.{parameter}.{name} instead of self.{name}."
             ),
-            "held": msg("Write {written} instead of {name}."),
+            "held": msg(
+                "Write {written} instead of {name}. Do the same wherever self. stands before another "
+                "method of the node."
+            ),
             "dot": msg("A dot is missing. Write {written} instead of {name}."),
             "period": msg(
                 "Write the period in seconds instead of self.{name}: {written}. Or write self.{name} "
@@ -716,17 +736,17 @@ KINDS = (
                 "{name}."
             ),
             "set_by_uncalled": msg(
-                "Write self.{method}() in __init__, before the line that creates the timer, or move "
-                "line {lines} to __init__."
+                "Write self.{method}() in __init__, before the line that creates the timer. Or move "
+                "line {lines} there, and delete def {method} if nothing is left in it."
             ),
             "initialiser": msg("Write {written} instead of {name}."),
             "no_init": msg(
-                "The class {type} has no __init__. Give it a first value in the class: write {name} = "
-                "{start} above the first def of {type}, indented like that def."
+                "The class {type} has no __init__. Give self.{name} a first value in the class: write "
+                "{name} = {start} above the first def of {type}, indented like that def."
             ),
             "no_init_value": msg(
-                "The class {type} has no __init__. Give it a first value in the class: write {name} = "
-                "and the value that it has at the beginning above the first def of {type}, indented "
+                "The class {type} has no __init__. Give self.{name} a first value in the class: write "
+                "{name} = and the value that it has at the beginning above the first def of {type}, indented "
                 "like that def."
             ),
             "helper": msg("Write {written} instead of {name}, here and in the other lines."),
@@ -909,6 +929,12 @@ KINDS = (
                 blocks=DEAD,
             ),
             example(
+                "another_counter_is_raised",
+                Replace(NODE, "self.counter_ += 1", "self.i += 1"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+            example(
                 "counter_misspelt_in_step",
                 Replace(NODE, "self.counter_ += 1", "self.counter_ = self.counter + 1"),
                 fails="run.output",
@@ -920,10 +946,7 @@ KINDS = (
         "attribute_unknown",
         "callback",
         msg("An object has no attribute with that name"),
-        msg(
-            "{name} is read from an object behind a dot, and the object on this line has nothing "
-            "with this name."
-        ),
+        msg("The object before the dot has no such attribute: {name}"),
         msg(
             "Look up what this object can do: in the documentation of its class, or in the class if "
             "it is your own. There may be another name for {name}, or no such thing. Or another "

@@ -48,8 +48,9 @@ DELETE_ALL = msg(
     "again."
 )
 CONFIG = msg(
-    "Write both sections in setup.cfg: [develop] with script_dir=$base/lib/{package} and "
-    "[install] with install_scripts=$base/lib/{package}, then build again."
+    "Write both sections in setup.cfg, each with one line only: [develop] with "
+    "script_dir=$base/lib/{package} and [install] with install_scripts=$base/lib/{package}. Then build "
+    "again."
 )
 
 
@@ -113,7 +114,7 @@ REFUSED = {
 FORMS = ("pair_open", "pair_swapped", "absolute", "folder_absolute", "py_modules", "py_modules_too")
 NOT_ACCEPTED = msg(
     "colcon runs setup.py to install the package into the workspace's install folder. The "
-    "build stops at a value of setup() that it cannot use."
+    "build stops at a value of setup(), or of setup.cfg, that it cannot use."
 )
 
 
@@ -245,9 +246,13 @@ KINDS = (
             "not_called": msg(
                 "{name} is a function and must be called. Write: {wanted}, then build again."
             ),
+            "not_called_open": msg(
+                "{name} is a function, and must be called with ( ) and what it needs in them, such as "
+                "glob('launch/*.py'). Write the call, then build again."
+            ),
             "comma_behind": msg(
-                "The comma at the end of this line makes {name} a tuple, not a text. Write: "
-                "{wanted}, then build again."
+                "The comma at the end of this line makes {name} a tuple, not a text. Delete the comma, so "
+                "that the line ends with the quote. Then build again."
             ),
             "list_in_list": msg(
                 "find_packages() returns a list already. Write: {wanted}, without the square "
@@ -829,8 +834,8 @@ KINDS = (
         ),
         fixes={
             "node": msg(
-                "The code of a node is in setup.py. Move it to {path}, and write setup.py again as "
-                "ros2 pkg create makes it."
+                "The code of a node is in setup.py. Delete it there, or move it to {path} if that file does "
+                "not have the node yet. setup.py has only what ros2 pkg create writes into it."
             ),
             **dict.fromkeys(
                 ("guard", "named"), msg("Write {wanted} instead of {name}, then build again.")
@@ -1028,8 +1033,8 @@ KINDS = (
         ),
         fixes={
             "node": msg(
-                "The code of a node is in setup.py, and the build runs it. Move it to {path}, and "
-                "write setup.py again as ros2 pkg create makes it. Then build again."
+                "The code of a node is in setup.py, and the build runs it. Delete it there, or move it to "
+                "{path} if that file does not have the node yet. Then build again."
             ),
         },
         examples=(
@@ -1075,8 +1080,9 @@ KINDS = (
             ),
             **SOURCE_FOLDERS,
             "no_copy": msg(
-                "data_files in setup.py lists {name}, and the package has no such file (a folder is "
-                "none). Delete it from data_files, or create the file, then build again."
+                "data_files in setup.py lists {name}, and the package has no file of this name; a folder "
+                "cannot be listed, only the files in it. Delete it from data_files, or create the file, "
+                "then build again."
             ),
             "no_files": msg(
                 "Each line of data_files is a folder and a list of files. Write: {wanted}, then "
@@ -1161,8 +1167,8 @@ KINDS = (
         "no_exec_bit",
         msg("The installed executable lost its exec bit"),
         msg(
-            "Remove the code in setup.py that clears the exec bit, then build again. colcon "
-            "itself writes the file with mode 0755."
+            "Remove the code in setup.py that clears the exec bit, then build again. The "
+            "build itself writes the file with mode 0755."
         ),
         examples=(
             example(

@@ -118,8 +118,7 @@ KINDS = (
         "timer",
         msg("A call is written as an assignment"),
         msg(
-            "With =, this line calls nothing: it gives {method} a value, which replaces the "
-            "function of that name. A function is called by its name and, directly behind it, the "
+            "With =, this line does not call {method}, but tries to replace it with a value. A function is called by its name and, directly behind it, the "
             "brackets."
         ),
         msg("Remove the = sign. Write {written} instead of {name}"),

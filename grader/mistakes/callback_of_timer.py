@@ -34,7 +34,7 @@ WORDS = ("timer", "callback", "on", "log", "hello", "say", "count", "counter", "
 """Words that names of callbacks have; of two names, one with fewer of them is misspelt."""
 CALLED = msg(
     "create_timer takes the period in seconds and the callback itself, and calls it later. With () "
-    "after its name the callback runs now, and its result (None) is passed instead."
+    "after its name this line calls the callback now, and passes its result (None) instead, if it has one."
 )
 
 KEPT = msg(
@@ -339,8 +339,10 @@ KINDS = (
     _node(
         "callback_without_self_dot",
         "timer",
-        msg("self. is missing before the callback"),
-        msg("A method is reached through its object: self.name."),
+        msg("The object is missing before the callback"),
+        msg(
+            "A method is reached through its object: self.name in the class, the node's variable outside."
+        ),
         TIMER,
         links.PYTHON_CLASSES,
         fixes={"outside": msg("Write {written} instead of {name}: there is no self here.")},

@@ -24,7 +24,8 @@ KINDS = (
         ),
         msg(
             "Move {name} from {path} to {there}, and delete the import of {path} here. If {path} "
-            "needs {name} too, import it there, on line {line}. Then only {path} imports {there}."
+            "needs {name} too, import it there, on line {line}. Then only {path} imports {there}. If "
+            "this file reads {name} with a module and a dot before it, write {name} alone."
         ),
         fixes={
             "third": msg(

@@ -104,7 +104,7 @@ KINDS = (
         "class",
         msg("A private name is used outside of its class"),
         msg("A name that begins with two underscores is known only inside of the class."),
-        msg("Write {written} instead of {name} in line {lines}."),
+        msg("Write {written} instead of {name} (lines: {lines})."),
         whys={
             "other": msg(
                 "A name that begins with two underscores belongs to the class whose lines use it: "

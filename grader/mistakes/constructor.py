@@ -10,7 +10,7 @@ from grader.base.i18n.message import msg, say
 from grader.base.nearest import nearest
 from grader.base.shown import shown
 from grader.mistakes import links
-from grader.mistakes.example import BODY_OF_MAIN, DEAD, NODE, example
+from grader.mistakes.example import BODY_OF_MAIN, DEAD, NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_life, node_scope, node_words
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
@@ -22,7 +22,10 @@ from grader.mistakes.recognised import (
     RecognisedMistake,
     Suspect,
     always,
+    first_found,
+    of_self,
 )
+from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
 from grader.package.edit.tree import Replace, Write
@@ -113,6 +116,24 @@ def _init_of_other(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
     return None
 
 
+def _plain_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The class that main spins uses the methods of a node, and no class of the file is a node."""
+    found = raised.source.node_class
+    function = function_at(raised.module, raised.line)
+    if found is None or function is None or function not in found.body or found.bases:
+        return None
+    if match["name"] not in NODE_METHODS or raised.source.held_node or not of_self(raised, match):
+        return None
+    bases = [
+        last_part(dotted(b)) for m in raised.source.modules for c in m.classes for b in c.bases
+    ]
+    made = [name for _, name in raised.source.calls if last_part(name) in ("Node", "create_node")]
+    if made or any(base.endswith("Node") for base in bases):
+        return None
+    mistake = _without_node(raised, found)
+    return mistake if mistake.variant else replace(mistake, variant="unnamed")
+
+
 def _without_node(raised: Raised, found: ast.ClassDef) -> RecognisedMistake:
     """Name the class line as it should be, with Node by the name that the file gives it."""
     module = raised.source.module_of(found)
@@ -129,6 +150,44 @@ def _underscores(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
     inside = [m.name for m in methods.values() if _calls_super(m)]
     near = inside[0] if len(inside) == 1 else nearest("__init__", methods, cutoff=0.7)
     return raised.finding("init_underscores", at=methods[near], name=near) if near else None
+
+
+def _never_runs(suspect: Suspect) -> RecognisedMistake | None:
+    """The class has no __init__, but a method with nearly this name that creates the timer."""
+    source, own = suspect.source, suspect.source.node_class
+    methods = {m.name: m for m in source.own_methods}
+    near = "" if "__init__" in methods else nearest("__init__", methods, cutoff=0.7)
+    if (
+        own is None
+        or not near
+        or any(last_part(n) == near for _, n in source.calls if "super" not in n)
+    ):
+        return None
+    if not any(last_part(name) == "create_timer" for _, name in calls_in(methods[near])):
+        return None
+    mistake = suspect.finding("init_underscores", methods[near], name=near, made=own.name)
+    return replace(mistake, variant="silent")
+
+
+def _with_init(case: Case) -> Files | None:
+    """Rename the constructor and its call of super(), and create the node without values."""
+    node, near = case.node, str(case.finding.params.get("name", ""))
+    method = node.method(near) if node is not None and near else None
+    if node is None or method is None or not case.finding.params.get("made"):
+        return None
+    module, text = node.module_of(method), node.module_of(method).text
+    at = text.at(method.lineno, method.col_offset) + len("def ")
+    made = [c for c, _ in node.calls if node.is_node_class(c.func) and (c.args or c.keywords)]
+    if not text.text.startswith(near, at) or not all(map(module.has, made)):
+        return None
+    splices = [Splice(at, at + len(near), "__init__")]
+    for call, name in calls_in(method):
+        if name == f"super().{near}" and isinstance(call.func, ast.Attribute):
+            end = text.span(call.func)[1]
+            splices.append(Splice(end - len(near), end, "__init__"))
+    if len(method.args.args) == 1:
+        splices += [text.swap(call, f"{text.code(call.func)}()") for call in made]
+    return case.changed(module, *splices)
 
 
 def _misspelt_init(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -179,8 +238,10 @@ def _without_name(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     """Return that no name is passed; through the class, the first argument is self."""
     del match
     found, call = raised.finding("super_without_name"), raised.source.super_init
-    if call is None or raised.line not in lines_of(call) or not call.args:
+    if call is None or raised.line not in lines_of(call):
         return found
+    if not call.args:
+        return replace(found, variant="here")
     if not dotted(call.func).endswith("Node.__init__"):
         return found
     if dotted(call.args[0]) == "self":
@@ -426,17 +487,26 @@ KINDS = (
         fixes={
             "import": NOT_IMPORTED,
             "import_called": NOT_IMPORTED,
+            "unnamed": msg(
+                "Write: {written} Then pass the node's name in __init__: super().__init__('{node_name}')"
+            ),
         },
         seen=r"TypeError: object\.__init__\(\) takes exactly one argument",
         raised={
             r"object\.__init__\(\) takes exactly one argument": _not_a_node,
-            OWN_ATTRIBUTE: _init_of_other,
+            OWN_ATTRIBUTE: first_found(_init_of_other, _plain_class),
         },
         fixed_by=(node_life.base_class,),
         examples=(
             example(
                 "not_a_node",
                 Replace(NODE, "class MyFirstNode(Node)", "class MyFirstNode"),
+                fails="run.starts",
+            ),
+            example(
+                "not_a_node_and_super_without_name",
+                Replace(NODE, "class MyFirstNode(Node)", "class MyFirstNode"),
+                Replace(NODE, "super().__init__('my_first_node')", "super().__init__()"),
                 fails="run.starts",
             ),
             example(
@@ -460,15 +530,35 @@ KINDS = (
             "of_object": msg(
                 "Python calls __init__, with two underscores on both sides, when an object of {type} is "
                 "created. A method with another name is not called, so nothing sets {attribute}."
+            ),
+            "silent": msg(
+                "Python calls __init__, with two underscores on both sides, when an object is "
+                "created. A method with another name is not called, so nothing creates the timer."
+            ),
+        },
+        fixes={
+            "silent": msg(
+                "Write __init__ instead of {name} in this line and in super().__init__(…), with two "
+                "underscores on both sides. Where {function} creates the node, write {made}() with nothing in "
+                "the ()."
             )
         },
+        behind={"run.no_lines": _never_runs},
         raised={
             r"TypeError: ": _misspelt_init,
             NO_NODE_NAME: _underscores,
             OWN_ATTRIBUTE: _init_not_called,
         },
-        fixed_by=(node_life.constructor, node_life.constructor_of_object),
+        fixed_by=(_with_init, node_life.constructor, node_life.constructor_of_object),
         examples=(
+            example(
+                "init_never_called",
+                Replace(NODE, "    def __init__(self)", "    def _init_(self)"),
+                Replace(NODE, "super().__init__(", "super()._init_("),
+                Replace(NODE, "node = MyFirstNode()", "node = MyFirstNode('my_first_node')"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
             example(
                 "init_single_underscores",
                 Replace(NODE, "    def __init__(self)", "    def _init_(self)"),
@@ -650,9 +740,12 @@ KINDS = (
         SUPER,
         seen=r"TypeError: Node\.__init__\(\) missing 1 required positional argument: 'node_name'",
         whys={"on_class": ON_CLASS, "on_class_only": ON_CLASS},
-        fixes=dict.fromkeys(
-            ("on_class_only", "self_alone"), msg("Write {written} instead of {name}.")
-        ),
+        fixes={
+            **dict.fromkeys(
+                ("on_class_only", "self_alone"), msg("Write {written} instead of {name}.")
+            ),
+            "here": msg("Pass the name in this line: super().__init__('{node_name}')"),
+        },
         raised={NO_NODE_NAME: _without_name},
         fixed_by=(lines.written, node_life.own_init, node_life.name),
         examples=(
@@ -720,8 +813,8 @@ KINDS = (
         links.NAMES,
         whys={
             "invalid": msg(
-                "ROS does not allow this namespace: it has a character or a form that is none of a "
-                "namespace. The node needs no namespace, its full name is /{node_name}."
+                "ROS does not allow this namespace: it has a character or a form that a "
+                "namespace cannot have. The node needs no namespace, its full name is /{node_name}."
             )
         },
         raised={"InvalidNamespaceException": _namespace_invalid},

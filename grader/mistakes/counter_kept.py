@@ -213,7 +213,7 @@ KINDS = (
         msg("next() is called more than once for a line"),
         msg(
             "Each call of next() takes another number from the iterator. {function} calls {name} more "
-            "than once (line {lines})."
+            "than once (lines: {lines})."
         ),
         msg(
             "Call next() once: write {written} as a line of its own at the start of {function}, and "

@@ -98,7 +98,7 @@ KINDS = (
         why=msg(
             "Without --build-type ament_python, ros2 pkg create makes a C++ package with a "
             "CMakeLists.txt. colcon then runs CMake and never looks at setup.py or at the node. "
-            "{missing} and the other files of a Python package are missing for the same reason."
+            "Files of a Python package, such as {missing}, are missing for the same reason."
         ),
         fix=msg(
             "Create the package again, in the folder above it: mv {package} ~/{package}_old, then "

@@ -96,7 +96,9 @@ KINDS = (
         msg("{object} is a dict. Its entries have their names in square brackets, and in quotes."),
         msg("Write {written} instead of {name}."),
         fixes={
-            "lines": msg("Write {written} instead of {name}. Do the same in line {lines}."),
+            "lines": msg(
+                "Write {written} instead of {name}. Do the same in the other lines: {lines}."
+            ),
             "other_names": msg(
                 "Write {written} instead of {name} in all lines. Do the same for the other names "
                 "after {object} and a dot: {others}."

@@ -317,7 +317,7 @@ KINDS = (
         msg("return ends the function: line {line} comes first, and this line does not run."),
         msg("Move this line to {method}, below line {below}, which logs."),
         fixes={
-            "above": msg("Move this line above line {line}."),
+            "above": msg("Move this line above line {line}, indented as far as that line."),
             "value": msg(
                 "Keep the number before it changes. Write three lines instead of line {line} and this "
                 "line: value = {name}, then {step}, then return value."
@@ -366,8 +366,8 @@ KINDS = (
         msg("Delete this return: a function without it returns at its end."),
         whys={
             "counts": msg(
-                "return ends the function: line {line}, which counts, does not run after this line was "
-                "logged."
+                "return ends the function: line {line}, which counts, does not run if this return comes "
+                "first."
             ),
             "before_init": msg(
                 "rclpy.ok() tells whether rclpy.init() has run in this program, and above that call it is "

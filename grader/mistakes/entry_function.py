@@ -42,7 +42,10 @@ LOOKED_FOR = msg(
 
 
 def _close_function(raised: Raised) -> str:
-    return nearest(raised.assignment.function, raised.source.entry.functions)
+    """Return the function with nearly the required name, or the only one, which starts ROS."""
+    wanted = raised.assignment.function
+    only = node_names.only_starter(raised.source, wanted)
+    return nearest(wanted, raised.source.entry.functions) or (only.name if only is not None else "")
 
 
 def _function_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -128,7 +131,7 @@ def _main_empty(suspect: Suspect) -> RecognisedMistake | None:
     made = source.makes_node() or any(n.endswith("create_node") for _, n in source.calls)
     if source.node_class is None or made:
         return None
-    return suspect.finding("main_empty", suspect.place_of_function)
+    return suspect.finding("main_empty", suspect.place_of_function, name=source.node_class.name)
 
 
 def _waits_first(suspect: Suspect) -> RecognisedMistake | None:
@@ -252,8 +255,9 @@ KINDS = (
             ),
             example(
                 "main_missing",
-                Replace(NODE, "def main(", "def run("),
-                Replace(NODE, "\n    main()\n", "\n    run()\n"),
+                Replace(NODE, MAIN, ""),
+                Replace(NODE, BODY_OF_MAIN, ""),
+                Replace(NODE, "if __name__ == '__main__':\n    main()\n", ""),
                 fails="run.starts",
             ),
         ),
@@ -268,6 +272,12 @@ KINDS = (
         raised={NO_FUNCTION: _function_misspelt},
         fixed_by=(node_names.main,),
         examples=(
+            example(
+                "main_of_another_name",
+                Replace(NODE, "def main(", "def run("),
+                Replace(NODE, "\n    main()\n", "\n    run()\n"),
+                fails="run.starts",
+            ),
             example(
                 "main_misspelt",
                 Replace(NODE, "def main(", "def mein("),
@@ -327,7 +337,7 @@ KINDS = (
             "nothing."
         ),
         msg(
-            "Write in {function}: rclpy.init(args=args), then node = YourClass(), then "
+            "Write in {function}: rclpy.init(args=args), then node = {name}(), then "
             "rclpy.spin(node)."
         ),
         links.NODES,

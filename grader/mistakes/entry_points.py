@@ -132,6 +132,14 @@ NO_PACKAGES = msg(
     "packages= lists the folders to install. Without it, the build stops if it finds several "
     "folders."
 )
+PYPROJECT = """\
+[project]
+name = "my_robot_controller"
+version = "0.0.0"
+
+[project.scripts]
+test_node = "my_robot_controller.my_first_node:main"
+"""
 KINDS = (
     Kind(
         id="setup.missing",
@@ -139,10 +147,16 @@ KINDS = (
         title=msg("There is no setup.py that can be read"),
         why=WHY,
         fix=msg(
-            "Create the package with ros2 pkg create --build-type ament_python: it writes "
-            "setup.py. Then add your entry to console_scripts."
+            "In a new folder, run ros2 pkg create --build-type ament_python {package}, and copy its "
+            "setup.py here. Then add your entry to console_scripts."
         ),
         fixes={
+            "pyproject": msg(
+                "colcon builds this package with setup.py, and does not read the scripts of "
+                "pyproject.toml. In a new folder, run ros2 pkg create --build-type ament_python "
+                "{package}, and copy its setup.py here. Add '{wanted}', to console_scripts, and delete "
+                "the tables [project…] and [build-system] of pyproject.toml."
+            ),
             "inner": msg(
                 "Move it out of the inner folder. In the package's folder, run: mv {there} ."
             ),
@@ -157,6 +171,13 @@ KINDS = (
             example(
                 "setup_with_a_capital_letter",
                 Move(SETUP, "Setup.py"),
+                fails="entry_point.mapping",
+                blocks=UNBUILT,
+            ),
+            example(
+                "setup_replaced_by_pyproject",
+                Delete(SETUP),
+                Write("pyproject.toml", PYPROJECT),
                 fails="entry_point.mapping",
                 blocks=UNBUILT,
             ),
@@ -225,7 +246,18 @@ KINDS = (
         ),
     ),
     _stops("no_name", msg("the name before the '=' is missing")),
-    _stops("no_target", msg("there is nothing after the '='")),
+    _stops(
+        "no_target",
+        msg("there is nothing after the '='"),
+        examples=(
+            example(
+                "entry_cut_after_its_equals_sign",
+                Replace(SETUP, "'test_node = my_robot", "'test_node =',\n            'my_robot"),
+                fails="entry_point.mapping",
+                blocks=UNBUILT,
+            ),
+        ),
+    ),
     _stops("two_equals", msg("there is more than one '='")),
     _stops(
         "slash_in_target",
@@ -805,8 +837,8 @@ KINDS = (
         msg("it leads to a different module"),
         {
             "swapped": msg(
-                "Line {at} has the module that belongs here. If the two are exchanged, write here: "
-                "'{wanted}', and in line {at}: '{other}'. Then build again."
+                "Line {at} has the module that belongs here. Write here: '{wanted}', and then build "
+                "again. If line {at} is meant to start the other module, write there: '{other}'"
             )
         },
         examples=(

@@ -530,8 +530,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.adds_twice": COUNTER,
     "node.other_step": COUNTER,
     "node.counter_multiplied": COUNTER,
-    "node.node_not_kept": {"name": "node", "made": "MyNode"},
-    "node.used_before_set": {"name": "node"},
+    "node.node_not_kept": {"name": "node", "made": "MyNode", "line": "25"},
+    "node.used_before_set": {"name": "node", "at": "25"},
     "node.counter_global": {"name": "counter", "word": "global"},
     "node.spin_in_daemon": {"name": "executor"},
     "node.cleanup_early": {

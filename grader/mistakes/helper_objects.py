@@ -177,7 +177,7 @@ KINDS = (
         msg("Each read of the property changes the number"),
         msg(
             "A property is a method that runs in each read. {name} runs line {line}, which changes the "
-            "number, and {callback} reads it {count} times (line {lines})."
+            "number, and {callback} reads it {count} times (lines: {lines})."
         ),
         msg(
             "Read it once: write {number} = {name} as the first line of {callback}, and {number} instead "

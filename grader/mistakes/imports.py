@@ -157,6 +157,7 @@ def _part_of_module(raised: Raised, name: str) -> RecognisedMistake | None:
     given = next((alias for alias in statement.names if alias.name == name), None)
     used = any(isinstance(n, ast.Name) and n.id == _head(name) for n in raised.module.nodes)
     whole = used and given is not None and not given.asname and module != "rclpy"
+    whole &= not any(isinstance(n, ast.Name) and n.id == last for n in raised.module.nodes)
     new = f"import {module}" if whole else IMPORTS.get(last, f"from {module} import {last}")
     if not whole and given is not None and given.asname:
         new = f"from {module} import {last} as {given.asname}"
@@ -553,9 +554,12 @@ KINDS = (
                 "as if {word} had been replaced by another word everywhere. Their right names, with "
                 "the lines: {others}."
             ),
-            "used": msg("Write {close} instead of {name}, here and in line {lines}."),
+            "used": msg("Write {close} instead of {name}, here and in other lines: {lines}."),
             "unused": msg("Delete this line: {name} is not installed here, and no line uses it."),
-            "class": msg("Write {written}: after a plain import, only modules can be named."),
+            "class": msg(
+                "Write: {written}. After a plain import, only modules can be named; a class comes "
+                "after from … import."
+            ),
         },
         seen=r"ModuleNotFoundError: No module named '(?P<name>(?!rclpy')\w{1,120})'",
         raised={r"No module named '(?P<name>[\w.]{1,200})'": _no_module},
@@ -623,8 +627,8 @@ KINDS = (
             "own_close": OWN_NAME,
             "own_init": OWN_NAME,
             "node": msg(
-                "rclpy.node has the class Node, and no {name}. Your own class can have any name, but "
-                "not the one of ROS."
+                "rclpy.node has the class Node, and no {name}. You choose the name of your own class, but "
+                "not the name of ROS's class."
             ),
             "home": OTHER_HOME,
             "home_too": OTHER_HOME,

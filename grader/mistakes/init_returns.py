@@ -208,7 +208,9 @@ KINDS = (
         fixes={
             "last": msg("Delete this line: {name}"),
             "called": msg("Delete the word return in this line: write {written}"),
-            "plain_several": msg("Write return instead of {name}. Do the same in line {lines}."),
+            "plain_several": msg(
+                "Write return instead of {name}. Do the same in the other lines: {lines}."
+            ),
             "last_several": msg(
                 "Delete this line: {name}. In line {lines}, write return without a value."
             ),

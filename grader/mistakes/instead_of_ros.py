@@ -232,12 +232,12 @@ KINDS = (
         ),
         msg(
             "In __init__, write {written} instead of line {line}. Then delete what belongs to the "
-            "old timer (line {lines}). The node's timer calls {name} again and again."
+            "old timer (lines: {lines}). The node's timer calls {name} again and again."
         ),
         fixes={
             "added": msg(
                 "Write {written} as the last line of __init__. Then delete what belongs to the "
-                "old timer (line {lines}). The node's timer calls {name} again and again."
+                "old timer (lines: {lines}). The node's timer calls {name} again and again."
             ),
             "uncertain": msg(
                 "Write {written} in __init__, once. Then delete everything that creates, sets up "
@@ -385,8 +385,8 @@ KINDS = (
         },
         fixes={
             "ignored": msg(
-                "Delete this line. To end without a traceback, catch KeyboardInterrupt around the "
-                "line that spins: try: above it, and except KeyboardInterrupt: pass below it."
+                "Delete this line. An except KeyboardInterrupt around the line that spins ends the node "
+                "without a traceback."
             ),
             "loop": msg(
                 "Remove signal.signal and its function, and call rclpy.spin({node}) in place of the loop "

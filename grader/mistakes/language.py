@@ -11,10 +11,13 @@ from grader.base.i18n.message import Value, msg
 from grader.mistakes import links
 from grader.mistakes.example import LOG, NODE, SILENT, STEP_LINE, example
 from grader.mistakes.fixes import lines, node_clock
+from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.node_clock import count_of
 from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import as_sum
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.package.edit.files import Files
+from grader.package.edit.text import Splice
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import logged_counter, targets_of
 from grader.package.source.module import Function
@@ -25,13 +28,6 @@ CLOCKS = ("time", "monotonic", "perf_counter", "now", "strftime", "seconds_nanos
 """Functions and methods that return or show a time."""
 MOST_CODE = 80  # characters of a piece of code that a text shows
 MOST_STEPS = 3  # assignments through which a value is followed to the line
-
-
-def _is_async(suspect: Suspect) -> RecognisedMistake | None:
-    function = suspect.function
-    if not isinstance(function, ast.AsyncFunctionDef):
-        return None
-    return suspect.finding("main_async", function, name=function.name)
 
 
 def _of_function(
@@ -60,8 +56,39 @@ def _dataclass(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
         for decorator in found.decorator_list:
             named = decorator.func if isinstance(decorator, ast.Call) else decorator
             if found.name == match["name"] and last_part(dotted(named)) == "dataclass":
-                return raised.finding("class_is_dataclass", at=decorator, name=found.name)
+                mistake = raised.finding("class_is_dataclass", at=decorator, name=found.name)
+                post = [m for m in found.body if getattr(m, "name", "") == "__post_init__"]
+                if not post:
+                    return mistake
+                words = {**mistake.words, "line": str(post[0].lineno)}
+                return replace(mistake, words=words, variant="post_init")
     return None
+
+
+def _plain_class(case: Case) -> Files | None:
+    """Remove @dataclass, and rename its __post_init__, if the class gives all fields a value."""
+    node, module, line = case.node, case.module, case.finding.line
+    owner = node.node_class if node is not None else None
+    post = [s for s in owner.body if isinstance(s, ast.FunctionDef)] if owner is not None else []
+    post = [s for s in post if s.name == "__post_init__"]
+    if (
+        owner is None
+        or module is None
+        or line is None
+        or len(post) != 1
+        or len(post[0].args.args) != 1
+    ):
+        return None
+    fields = [s for s in owner.body if isinstance(s, ast.AnnAssign)]
+    if not all(isinstance(s.value, ast.Constant) for s in fields):
+        return None
+    text = module.text
+    at = text.at(post[0].lineno, post[0].col_offset) + len("def ")
+    if not text.text.startswith("__post_init__", at) or not text.line(line).startswith("@"):
+        return None
+    return case.changed(
+        module, text.without(line), Splice(at, at + len("__post_init__"), "__init__")
+    )
 
 
 def _read_only(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -429,24 +456,6 @@ LOG_COUNT = msg(
 _node = Family("node", links.PYTHON_CLASSES)
 KINDS = (
     _node(
-        "main_async",
-        "spin",
-        msg("The function of the entry point is async, so calling it runs none of its lines"),
-        msg(
-            "Calling an async function only makes a coroutine. ros2 run calls {name} like any "
-            "other function, and nothing runs the coroutine."
-        ),
-        msg("Write def {name} without async, and call it without asyncio.run."),
-        behind={"run.exits_at_once": _is_async},
-        examples=(
-            example(
-                "main_async",
-                Replace(NODE, "def main(args=None)", "async def main(args=None)"),
-                fails="run.starts",
-            ),
-        ),
-    ),
-    _node(
         "callback_yields",
         "callback",
         msg("The callback contains yield"),
@@ -471,6 +480,14 @@ KINDS = (
             "its nodes in a set, which needs the hash."
         ),
         msg("Remove @dataclass, and set the attributes in __init__."),
+        fixes={
+            "post_init": msg(
+                "Delete this line, and write def __init__(self): instead of def __post_init__ in line "
+                "{line}. The values that the class sets above it stay. A name there that only has a "
+                "type gets its value in __init__."
+            )
+        },
+        fixed_by=(_plain_class,),
         raised={r"TypeError: unhashable type: '(?P<name>\w{1,120})'": _dataclass},
         examples=(
             example(
@@ -481,6 +498,22 @@ KINDS = (
                     "from dataclasses import dataclass\n\nimport rclpy\nfrom",
                 ),
                 Replace(NODE, "class MyFirstNode", "@dataclass\nclass MyFirstNode"),
+                fails="run.starts",
+            ),
+            example(
+                "class_is_dataclass_with_post_init",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "from dataclasses import dataclass\n\nimport rclpy\nfrom",
+                ),
+                Replace(NODE, "class MyFirstNode", "@dataclass\nclass MyFirstNode"),
+                Replace(
+                    NODE,
+                    "    def __init__(self):",
+                    "    counter_: int = 0\n\n    def __post_init__(self):",
+                ),
+                Replace(NODE, "        self.counter_ = 0\n", ""),
                 fails="run.starts",
             ),
         ),
@@ -595,7 +628,7 @@ KINDS = (
         "text",
         msg("The text grows each time"),
         msg("+= changes {name} for good: the next callback begins with the longer text."),
-        msg("Leave {name} as it is, and log {name} + {value}."),
+        msg("Delete this line, so that {name} keeps its text, and log {name} + {value}."),
         behind={"run.wrong_text": _grows},
         examples=(
             example(
@@ -726,7 +759,10 @@ KINDS = (
         "counter",
         msg("The callback gets the number as an argument, which never changes"),
         msg("An argument is evaluated once, when the timer is created, and not at each call."),
-        msg("Give the timer the callback alone, and read the counter in the callback."),
+        msg(
+            "Give the timer the callback alone: self.{callback}. Leave only self in its def, and in it "
+            "write the attribute that counts instead of {name}."
+        ),
         whys={
             "lambda": msg(
                 "A default value is evaluated once, when the lambda is made. So each call gets the "
@@ -789,7 +825,10 @@ KINDS = (
             "A class always counts as true: if {name}: does not ask whether the exception came. "
             "try and except do."
         ),
-        msg("Write try: before rclpy.spin({node}), and except {name}: below it."),
+        msg(
+            "Delete this condition with the lines that belong to it. Ctrl+C raises {name}: a try: "
+            "around the line that spins, and except {name}: below it, catches it."
+        ),
         links.PYTHON_ERRORS,
         behind={
             "run.exits_at_once": _condition,

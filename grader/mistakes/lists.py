@@ -159,8 +159,8 @@ KINDS = (
         "counter",
         msg("The counter is not a plain number"),
         msg(
-            "{attribute} is {what}, made in line {line}. A text shows it in its own form, with its "
-            "brackets and points. An integer is shown as the plain number."
+            "{attribute} is {what}, made in line {line}. A text shows it in the form of its type, "
+            "with other signs than digits. An integer is shown as the plain number."
         ),
         INSTEAD,
         links.PYTHON_CLASSES,

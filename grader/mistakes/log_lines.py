@@ -27,7 +27,7 @@ KINDS = (
         "text",
         msg("The log lines come at a different rate"),
         msg("The first argument of create_timer is the period in seconds: 2 Hz is 0.5 s."),
-        msg("Write create_timer({wanted}, …)."),
+        msg("Write self.create_timer({wanted}, …)."),
     ),
     _log(
         "wrong_level",

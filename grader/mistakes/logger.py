@@ -604,8 +604,8 @@ KINDS = (
     _node(
         "logs_twice",
         "logger",
-        msg("The callback logs more than once"),
-        msg("Each call of the logger writes its own line."),
+        msg("The callback writes the line more than once"),
+        msg("Each call of the logger or of print() writes its own line."),
         msg("Keep only one self.get_logger().info(…) in the callback."),
         links.LOGGING,
         fixes={

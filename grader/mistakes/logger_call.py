@@ -113,7 +113,7 @@ KINDS = (
         "logger_method",
         "logger",
         msg("The logger has no method of this name"),
-        msg("The methods of the logger that log a line are debug, info, warning, error and fatal."),
+        msg("The logger has a method for each level: debug, info, warning, error and fatal."),
         msg("Write .info(…) instead of .{name}(…)."),
         seen=r"AttributeError: 'RcutilsLogger' object has no attribute "
         r"'(?P<name>print|write|information|message|msg|log_info)'",

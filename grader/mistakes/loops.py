@@ -88,7 +88,12 @@ def _in_constructor(suspect: Suspect) -> RecognisedMistake | None:
             return replace(found, variant="calls", words={**found.words, "method": only})
         method = source.function_around(loop)
         if call is None or method is None:
-            return found
+            logging = [
+                name for name, m in source.methods.items() if m is not init and source.logs(m)
+            ]
+            if len(logging) != 1:
+                return found
+            return replace(found, variant="calls", words={**found.words, "method": logging[0]})
         words = {**found.words, "method": method.name, "line": str(call.lineno)}
         module = source.module_of(call)
         alone = isinstance(module.parents.get(call), ast.Expr)
@@ -202,12 +207,11 @@ KINDS = (
         ),
         fixes={
             "timer": msg(
-                "Delete this {name} from __init__ and from what __init__ calls: the timer calls "
-                "{callback} in each period."
+                "Delete this {name} with all its lines: the timer calls {callback} in each period."
             ),
             "calls": msg(
-                "Write self.create_timer({period}, self.{method}) instead of this loop: the timer "
-                "calls the method in each period."
+                "Write self.create_timer({period}, self.{method}) instead of this {name} with all its "
+                "lines: the timer calls {method} in each period."
             ),
             "inside": msg(
                 "Write self.create_timer({period}, self.{method}) instead of {code} (line {line}), and "

@@ -162,8 +162,8 @@ KINDS = (
         ),
         fixes={
             "all": msg(
-                "Delete this line. Then move lines {first} to {last} to the left margin: in VS Code, "
-                "select them and press Shift+Tab."
+                "Move lines {first} to {last} to the left margin: in VS Code, select them and press "
+                "Shift+Tab. Then delete this line."
             ),
             "one": msg(
                 "Cut line {first} and paste it above this line, without indentation. The other lines "

@@ -56,7 +56,10 @@ KINDS = (
         title=msg("There is no package.xml"),
         why=NO_MANIFEST,
         whys={"nothing": UNIT},
-        fix=msg("Copy the package.xml that ros2 pkg create makes, and set its <name>."),
+        fix=msg(
+            "In a new folder, run ros2 pkg create --build-type ament_python --dependencies rclpy "
+            "{package}, and copy its package.xml here."
+        ),
         fixes={
             "inner": msg(
                 "Move it out of the inner folder. In the package's folder, run: mv {there} ."
@@ -127,7 +130,8 @@ KINDS = (
         msg("package.xml is not well-formed XML"),
         msg(
             "Look at that line and the line above it, and compare them with a package.xml that ros2 "
-            "pkg create makes: each <tag> needs its </tag>, and & is written &amp;."
+            "pkg create makes: each <tag> needs its </tag>, and & is written &amp;. If you cannot read "
+            "the file in an editor, save it anew as plain text, with the encoding UTF-8."
         ),
         whys={
             "encoding_declared": msg(
@@ -171,8 +175,8 @@ KINDS = (
             ),
             "typed": msg("A sign of a tag in this line is missing or wrong. Write: {wanted}"),
             "typed_lines": msg(
-                "A sign of a tag in this line is missing or wrong, and so in other lines of the file. "
-                "Write here: {wanted} Correct the other lines in the same way."
+                "A sign of a tag is missing or wrong in this line, and in other lines of the file too. "
+                "Correct them all in the same way. Write here: {wanted}"
             ),
             "line_twice": msg(
                 "This line and line {wanted} above it are the same. Delete one of them."
@@ -635,8 +639,8 @@ KINDS = (
                 "variable, correct the value of the variable."
             ),
             "throughout": msg(
-                "Use the name {package} in package.xml, setup.py, setup.cfg and for "
-                "the file in resource/. Your package was marked under its own name."
+                "Use the name {package} in package.xml, setup.py and setup.cfg, for the file in resource/ "
+                "and for the inner folder. Your package was marked under its own name."
             ),
         },
         link=links.PACKAGE,

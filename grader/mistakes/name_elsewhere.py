@@ -272,7 +272,7 @@ KINDS = (
             "Line {line} sets {name} in the class {type}. Functions do not see the names of a class "
             "by themselves, also not the functions of this class."
         ),
-        msg("Write {written} instead of {name} in line {lines}."),
+        msg("Write {written} instead of {name} (lines: {lines})."),
         raised={NAME_ERROR: _in_class},
         fixed_by=(_qualified,),
         examples=(
@@ -303,16 +303,16 @@ KINDS = (
                 "def {function}(…), indented by 4 spaces like the other lines of {function}."
             ),
             "self": msg(
-                "Write {written} instead of {name} in line {lines}: an attribute of self is known "
+                "Write {written} instead of {name} (lines: {lines}): an attribute of self is known "
                 "in all methods of the class."
             ),
             "method": msg(
-                "Write {written} instead of {name} in line {lines}: an attribute of self is known "
+                "Write {written} instead of {name} (lines: {lines}): an attribute of self is known "
                 "in all methods of the class, from the moment when {function} has set it."
             ),
             "parameter": msg(
                 "Write {written} = {name} as a new line in {function}, before the timer is created. "
-                "Write {written} instead of {name} in line {lines}."
+                "Write {written} instead of {name} (lines: {lines})."
             ),
             "def": msg(
                 "Move def {name} (line {line}) and its lines out of {function}, to the left margin "

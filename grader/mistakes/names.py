@@ -44,6 +44,7 @@ TYPES = {
     **dict.fromkeys(("double", "Double"), "float"),
 }
 """Types of other languages, and those of Python."""
+NUMBERS_AND_TEXTS = ("bool", "int", "float", "str")
 
 
 PROPERTY = msg(
@@ -215,6 +216,9 @@ def _as_type(raised: Raised, name: str) -> RecognisedMistake | None:
         getattr(a, "annotation", None) is use or getattr(a, "returns", None) is use
         for a, use in around
     ]
+    called = [isinstance(a, ast.Call) and a.func is use for a, use in around]
+    if uses and all(called) and TYPES[name] in NUMBERS_AND_TEXTS:
+        return raised.finding("name_unknown", name=name, close=TYPES[name])
     if not uses or not all(types):
         return None
     rows = ", ".join(str(row) for row in sorted({use.lineno for use in uses}))
@@ -300,6 +304,8 @@ def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     if match["function"] == "get_logger" and _in_method(raised):
         found = raised.finding("argument_missing", name="get_logger()", written="self.get_logger()")
         return replace(found, variant="logger", words={**found.words, "function": "get_logger"})
+    if match["function"].startswith("RcutilsLogger."):
+        return replace(found, words={**found.words, "function": function}, variant="log")
     foreign = match["function"].partition(".")[0] not in raised.source.known_classes
     timers = [t for t in raised.source.timers if t.callback is not None]
     outside = [t for t in timers if t.callback and dotted(t.callback) == match["function"]]
@@ -441,16 +447,17 @@ def _value_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     calls = [name for _, name in calls_in(statement)] if statement is not None else [""]
     if all(name.startswith("rclpy.") or last_part(name) in OF_ROS for name in calls):
         return _value_passed(raised, match)
-    found = raised.finding("not_callable", type=match["type"])
-    return found if _is_value(raised, calls) else replace(found, variant="open")
+    value = _called_value(raised, calls)
+    found = raised.finding("not_callable", type=match["type"], name=value)
+    return found if value else replace(found, variant="open")
 
 
-def _is_value(raised: Raised, calls: list[str]) -> bool:
-    """Whether the only thing called that no function can be is an attribute of the node."""
+def _called_value(raised: Raised, calls: list[str]) -> str:
+    """Return the only attribute of the node that is called and is no method; "" if there is none."""
     attributes = [own for name in calls if (own := name.removeprefix("self.")) != name]
     source = raised.source
     known = [a for a in attributes if a in source.attributes and a not in source.methods]
-    return len(known) == 1
+    return f"self.{known[0]}" if len(known) == 1 else ""
 
 
 def _value_passed(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -465,7 +472,8 @@ def _value_passed(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
 def _constant_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if not re.search(r"\b(?:None|True|False)\s{0,9}\(", raised.module.line(raised.line)):
         return None
-    return raised.finding("not_callable", type=match["type"])
+    name = {"NoneType": "None", "bool": "True or False"}.get(match["type"], match["type"])
+    return raised.finding("not_callable", type=match["type"], name=name)
 
 
 _node = Family("node", links.FIRST_NODE)
@@ -525,9 +533,9 @@ KINDS = (
                 "Give {name} its value on a line of its own below the imports: {name} = {written}"
             ),
             "instead": msg("Write {close} instead of {name}."),
-            "type": msg("Write {close} instead of {name} in line {lines}."),
+            "type": msg("Write {close} instead of {name} (lines: {lines})."),
             "alias": msg(
-                "The file knows {close} by its own name. Write {close} instead of {name} in line {lines}. Or "
+                "The file knows {close} by its own name. Write {close} instead of {name} (lines: {lines}). Or "
                 "write import {close} as {name} instead of import {close}."
             ),
             "cut": msg(
@@ -539,7 +547,7 @@ KINDS = (
             ),
             "guard_init": msg(
                 "Write {written} instead of {name}, with two underscores before and behind both words. "
-                "Write __init__ so, too, in line {lines}."
+                "Do the same with __init__ (lines: {lines})."
             ),
         },
         whys={
@@ -557,7 +565,7 @@ KINDS = (
             ),
             "notebook": msg(
                 "This line was exported from a Jupyter notebook, where it was a command with % or !. "
-                "Only inside a notebook is there a {name}."
+                "Only IPython and its notebooks have a {name}."
             ),
         },
         seen=r"NameError: name '(?P<name>\w{1,120})' is not defined",
@@ -676,10 +684,14 @@ KINDS = (
         "not_callable",
         "callback",
         msg("A value is called like a function"),
-        msg("() after a name calls it, and only functions can be called."),
-        msg("Remove the () on that line."),
+        msg("() after a name calls it, and a value of this type cannot be called."),
+        msg("Remove the () after {name}: it is a value, and no function."),
         links.PYTHON_ERRORS,
-        whys={"passed": msg("The timer calls what create_timer gets, which must be a method.")},
+        whys={
+            "passed": msg(
+                "The timer calls what create_timer gets, so it must be a method or a function."
+            )
+        },
         fixes={
             "open": msg(
                 "This line calls a value of the type {type}. If the value is meant, remove the () behind "
@@ -728,6 +740,7 @@ KINDS = (
         msg("Write a value for {name} in the () of {function} on this line."),
         links.PYTHON_ERRORS,
         fixes={
+            "log": msg("Write the text in the () of {function} on this line: {sum}"),
             "several": msg("Write a value for each of these in the () of {function}: {name}"),
             "own": msg("Pass a value for {name} where {function} is called."),
             "own_call": msg(
@@ -752,8 +765,8 @@ KINDS = (
                 "self.{method}(…)."
             ),
             "class": msg(
-                "This line uses the class itself. Create an object of it: write () after the name of "
-                "the class where the value comes from."
+                "This line uses the class itself, and not an object of it. Pass the object, if one was "
+                "made before, such as the node. If none was, write () after the name of the class."
             ),
             "value": msg("Pass a value for {name}: write {written} in line {line}."),
             "unused": msg(

@@ -110,8 +110,8 @@ KINDS = (
         msg("Write {written} below this line, indented as far as this line."),
         whys={
             "printed": msg(
-                "print() and the logger only write a text, and return None. So {function} gives "
-                "None to line {line}, which uses its value."
+                "print() and the logger write a text and do not hand it on. {function} has no return, so "
+                "it gives None to line {line}, which uses its value."
             ),
             "some": msg(
                 "{function} returns a value only if the condition in line {at} is true. If it is "

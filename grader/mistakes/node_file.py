@@ -90,7 +90,10 @@ KINDS = (
             "A folder with an __init__.py is a package. Of a package and a file of the same name, "
             "Python imports the package."
         ),
-        fix=msg("Delete the folder {folder}, or give it another name."),
+        fix=msg(
+            "Delete the folder {folder}, or give it another name. Delete the workspace's build/ and "
+            "install/ too: they can still have a copy of it. Then build again."
+        ),
         link=links.FIRST_NODE,
         examples=(
             example(
@@ -116,6 +119,11 @@ KINDS = (
                 "Move the code from {init} into {wanted}, and leave __init__.py empty."
             ),
             "inside": MOVE,
+            "src_layout": msg(
+                "Move the whole folder out of src/. In the package's folder, run: mv src/{inner} . && "
+                "rmdir src. In setup.py, write packages=find_packages(exclude=['test']), without "
+                "where='src' and without package_dir. Then build again."
+            ),
             "scripts": msg(
                 "Move it into the inner folder, and delete {code} from line {line} of setup.py: there is "
                 "no such file then. Then build again. In the package's folder, run: mv {there} {wanted}"
@@ -134,6 +142,7 @@ KINDS = (
         },
         link=links.PACKAGE,
         fixed_by=(
+            layout.out_of_src,
             layout.inner_folder,
             layout.node_file,
             layout.out_of_init,
@@ -183,6 +192,14 @@ KINDS = (
             example(
                 "node_in_package_root",
                 Move(NODE, "my_first_node.py"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "inner_folder_in_src",
+                Move(NODE, f"src/{NODE}"),
+                Move(INIT, f"src/{INIT}"),
+                Replace(SETUP, "find_packages(exclude=['test'])", "find_packages(where='src')"),
                 fails="source.node_file",
                 blocks=UNSTARTED,
             ),

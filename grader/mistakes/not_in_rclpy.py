@@ -157,7 +157,9 @@ KINDS = (
         "not_in_rclpy",
         "start",
         msg("rclpy does not have this name"),
-        msg("{name} is not a name of rclpy: it is in another module, or in another library."),
+        msg(
+            "rclpy has nothing with the name {name}: it belongs to another module, object or library."
+        ),
         msg("Write {written} instead of {name}."),
         whys={
             "caught": msg(

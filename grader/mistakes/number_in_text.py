@@ -9,6 +9,7 @@ import tokenize
 from dataclasses import replace
 
 from grader.base.i18n.message import Value, joined, msg, say
+from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.counted import counter_in, text_added
 from grader.mistakes.example import DEAD, NODE, example
@@ -88,9 +89,26 @@ def _is_kept_number(raised: Raised, statement: ast.AugAssign) -> bool:
 
 def _kept_and_added(raised: Raised, statement: ast.AugAssign, added: str) -> RecognisedMistake:
     name, code = dotted(statement.target), raised.module.text.code(statement)
+    start = _start_as_text(raised, name)
+    if start is not None:
+        return start
     params = {"name": code, "written": f"{name} = int({name}) + {added}"}
     found = raised.finding("str_plus_int", at=statement, params=params)
     return replace(found, words={**found.words, "attribute": name}, variant="kept_text")
+
+
+def _start_as_text(raised: Raised, name: str) -> RecognisedMistake | None:
+    """The only line that sets the counter makes a text of a number: `self.n = str(0)`."""
+    sets = [n for n in raised.module.nodes if isinstance(n, ast.Assign) and name in targets_of(n)]
+    value = sets[0].value if len(sets) == 1 else None
+    if not isinstance(value, ast.Call) or dotted(value.func) != "str" or len(value.args) != 1:
+        return None
+    if not _is_literal(value.args[0]):
+        return None
+    code = raised.module.text.code
+    params = {"name": code(value), "written": code(value.args[0])}
+    found = raised.finding("str_plus_int", at=sets[0], params=params)
+    return replace(found, words={**found.words, "attribute": name}, variant="start_text")
 
 
 def _kept_as_text(raised: Raised, statement: ast.stmt | None) -> RecognisedMistake | None:
@@ -377,7 +395,8 @@ def _no_value(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     for call in ast.walk(statement) if statement is not None else ():
         if isinstance(call, ast.Call) and called_name(call) == "format" and not call.args:
             written = f".format({raised.words['counter']})"
-            return raised.finding("value_forgotten", at=call, name="{}", written=written)
+            found = raised.finding("value_forgotten", at=call, name="{}", written=written)
+            return replace(found, variant="format")
     return None
 
 
@@ -473,6 +492,12 @@ def _form_elsewhere(suspect: Suspect) -> RecognisedMistake | None:
         return None
     piece = found.pop()
     place = Where(file=piece.module.path, line=piece.line)
+    head = suspect.output.text.partition("{n}")[0]
+    texts = [str(getattr(n, "value", "")) for n in suspect.source.own_nodes]
+    if head.endswith(" ") and not any(head in t for t in texts) and head.rstrip() in texts:
+        mistake = suspect.finding("number_format", place, name=piece.name)
+        words = {"form": piece.form, "written": piece.written, "found": shown(head)}
+        return replace(mistake, words={**mistake.words, **words}, variant="form_and_blank")
     mistake = suspect.finding("number_format", place, name=piece.name, written=piece.written)
     return replace(mistake, words={**mistake.words, "form": piece.form}, variant="form")
 
@@ -615,6 +640,9 @@ KINDS = (
             "kept_text": msg(
                 "{attribute} is a string here: Python's + joins a string only with another one."
             ),
+            "start_text": msg(
+                "{attribute} is a string here: Python's + joins a string only with another one."
+            ),
             "summed": msg(
                 "sum() begins with the number 0 and adds each part to it, so it cannot add a string."
             ),
@@ -624,6 +652,7 @@ KINDS = (
             "kept_text": msg(
                 "Write {written} instead of {name}: int() makes a number of the string."
             ),
+            "start_text": msg("Write {written} instead of {name}: a counter is a number."),
             "summed": msg(
                 "{name} gets a string. To join strings, use ''.join() instead of sum(): all its parts "
                 "must be strings, and str() makes one of a number. To add numbers, give sum() only "
@@ -846,7 +875,7 @@ KINDS = (
     _node(
         "value_forgotten",
         "text",
-        msg("The text shows the place of a value instead of the value"),
+        msg("A place for a value in the text gets no value"),
         msg("Python replaces {name} in a string only if a value follows the string."),
         msg("Write {written} after the string, or use an f-string: {f_string}"),
         links.PYTHON_STRINGS,
@@ -861,6 +890,7 @@ KINDS = (
             "instead": msg(
                 "Python replaces {place} in a string only if a value follows the string."
             ),
+            "format": msg("Each {{}} of the text needs a value in the ( ) of format."),
         },
         fixes={
             "other_format": msg(
@@ -869,6 +899,7 @@ KINDS = (
             "other_format_kept": msg("Write {{}} instead of {name} in the string."),
             "percent": msg("Write {written} instead of {name}."),
             "instead": msg("Write {written} instead of {name}."),
+            "format": msg("Write {written} instead of .format(), or use an f-string: {f_string}"),
             "unknown": msg(
                 "Give the place its value where the text is made: % and the value behind a text with "
                 "%d, .format() with the value in its () behind a text with {{}}."
@@ -1012,6 +1043,7 @@ KINDS = (
             "start_and_more": FLOAT_START,
             "form": OTHER_FORM,
             "form_and_more": OTHER_FORM,
+            "form_and_blank": OTHER_FORM,
             "floats": msg(
                 "{form} sets the form in which the number is written, and the number itself has a "
                 "decimal point."
@@ -1029,6 +1061,10 @@ KINDS = (
             "step_and_more": MORE_PIECES,
             "start_and_more": MORE_PIECES,
             "form_and_more": MORE_PIECES,
+            "form_and_blank": msg(
+                "Write {written} instead of {name}. Then the blank before the number is missing: end the "
+                "text before it with a blank, {found}."
+            ),
             "floats": MORE_PIECES,
         },
         behind={"run.wrong_text": _number_format, "run.wrong_start": _padded},

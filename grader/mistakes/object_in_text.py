@@ -195,7 +195,7 @@ KINDS = (
             "field": msg(
                 "Log only the attribute {field}: write .{field} behind the object of the class {class}."
             ),
-            "renamed": msg("Write {written} instead of {name}: Python calls no other name."),
+            "renamed": msg("Write {written} instead of {name}: Python does not know {name}."),
             "function": msg(
                 "Log what {name} returns: write () behind the name, with the values that it needs."
             ),

@@ -660,7 +660,9 @@ KINDS = (
             "Your class inherits {name} from Node. If you define {name} again, your own replaces "
             "the one of Node, which the node needs."
         ),
-        msg("Give the attribute another name, for example self.{name}_ instead of self.{name}."),
+        msg(
+            "Give the attribute another name where it is set, for example self.{name}_ instead of self.{name}."
+        ),
         whys={
             "property": msg(
                 "Each node has self.{name} already: your class inherits it from Node. ROS keeps its "
@@ -677,7 +679,7 @@ KINDS = (
             ),
             "method_called": msg(
                 "Give your method another name, for example {written}: here, and where you call it "
-                "(line {line}). All other calls of {name} are of Node's: leave them."
+                "(line {line}). All other calls of {name} call the method of Node: leave them."
             ),
             "method_only": msg(
                 "Give your method another name, for example {written}. Calls of Node's {name} keep "
@@ -827,7 +829,7 @@ KINDS = (
         "start",
         msg("The file imports itself"),
         msg(
-            "This import names the file that it is in. Python has not read the rest of the file "
+            "This import names the file that it is in. Python has not run the rest of the file "
             "yet, so {name} does not exist at this line."
         ),
         msg("Delete this import: the file defines {name} itself."),

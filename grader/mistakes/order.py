@@ -47,7 +47,10 @@ def _used_before_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake 
     if later is None or name in raised.source.attributes:
         return None
     found = raised.finding("used_before_set", at=use, name=name, line=str(later.lineno))
-    return replace(found, variant="line")
+    user = node_order.first_user(function, name) if function is not None else None
+    if user is None or use is None or user.lineno == use.lineno:
+        return replace(found, variant="line")
+    return replace(found, words={**found.words, "at": str(user.lineno)}, variant="block")
 
 
 def attribute_needed_early(raised: Raised, match: re.Match[str]) -> EarlyUse | None:
@@ -193,7 +196,15 @@ def _not_kept(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name, source = match["name"], raised.source
     if name not in spun_names(source) or source.node_variables or source.node_class is None:
         return None
-    return raised.finding("node_not_kept", name=name, made=source.node_class.name)
+    params = {"name": name, "made": source.node_class.name}
+    main = source.main
+    alone = node_order.unkept(source, main)[1] if main is not None else None
+    if alone is not None:
+        return replace(raised.finding("node_not_kept", at=alone, params=params), variant="alone")
+    user = node_order.first_user(main, name) if main is not None else None
+    found = raised.finding("node_not_kept", params=params)
+    line = str(user.lineno if user is not None else found.where.line if found.where else "")
+    return replace(found, words={**found.words, "line": line})
 
 
 _node = Family("node", links.FIRST_NODE)
@@ -209,7 +220,12 @@ KINDS = (
         msg("Move the line {name} = … above this line."),
         links.PYTHON_ERRORS,
         seen=r"UnboundLocalError: .{0,60}'(?P<name>\w{0,60}node\w{0,60})'",
-        fixes={"line": msg("Move line {line} ({name} = …) above this line.")},
+        fixes={
+            "line": msg("Move line {line} ({name} = …) above this line."),
+            "block": msg(
+                "Move line {line} ({name} = …) above line {at}, indented as far as line {at}."
+            ),
+        },
         raised={r"UnboundLocalError: .{0,60}'(?P<name>\w{1,120})'": _used_before_set},
         fixed_by=(node_order.moved_up,),
         examples=(
@@ -284,15 +300,15 @@ KINDS = (
         "shutdown",
         msg("The clean-up comes before spin"),
         msg(
-            "After {name} the node can no longer do anything, not even spin. Clean-up is "
-            "the last thing that a program does."
+            "After {name} the node has no timer any more that spin could serve. Clean-up is the last "
+            "thing that a program does."
         ),
         msg("Move {name} to the end of {function}, below the line that spins."),
         links.RCLPY,
         whys={
             "into_try": msg(
                 "The block of finally runs as soon as the try ends: before line {line}. After {name} "
-                "the node can no longer do anything, not even spin."
+                "the node has no timer any more that spin could serve."
             ),
         },
         fixes={
@@ -320,7 +336,8 @@ KINDS = (
                 "cleans up."
             ),
             "in_init": msg(
-                "Delete this line. Clean up at the end of {function}, below the line that spins."
+                "Delete this line. If {function} has no clean-up below the line that spins, write it "
+                "there."
             ),
         },
         raised={r"\w": _cleaned_up_first},
@@ -411,8 +428,9 @@ KINDS = (
         "start",
         msg("The node is not assigned to a variable"),
         msg("The name {name} does not exist until a line assigns something to it."),
-        msg("Write {name} = {made}() before that line."),
+        msg("Write above line {line}, indented as far as that line: {name} = {made}()"),
         links.PYTHON_CLASSES,
+        fixes={"alone": msg("Write in this line: {name} = {made}()")},
         raised={NAME_ERROR: _not_kept},
         fixed_by=(node_order.kept,),
         examples=(

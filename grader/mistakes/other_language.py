@@ -226,7 +226,7 @@ def _method(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if name not in METHODS:
         return None
     found = raised.finding("other_language", name=name, written=METHODS[name])
-    return replace(found, variant="method")
+    return replace(found, variant="to_text" if METHODS[name] == "str(…)" else "method")
 
 
 def _lost_sum(suspect: Suspect) -> RecognisedMistake | None:
@@ -251,6 +251,7 @@ KINDS = (
         msg("Use Python's own word instead of {name}: True, False, None, self."),
         close=msg("Write {close} instead of {name}."),
         fixes={
+            "to_text": msg("Write str( ) around the value instead of .{name}() behind it."),
             "print": msg(
                 "Write self.get_logger().info(…) instead of the whole statement with {name}, and the "
                 "text to log instead of …"

@@ -403,14 +403,14 @@ KINDS = (
             "unknown": msg(
                 "Write one of these names instead of {name} on this line. Or add {name} to the definition."
             ),
-            "untyped": msg("Write in the class (line {lines}), with the types: {names}"),
+            "untyped": msg("Write in the class (lines: {lines}), with the types: {names}"),
             "twice": msg(
                 "Delete one of the two values. If the value without a name is meant for another "
                 "parameter, write the name of that one and = before it."
             ),
             "many": msg(
-                "Remove what is too much from the () of {called} on this line. Or add a parameter to the "
-                "definition for each value that it needs."
+                "Remove what is too much from the () of {called} on this line. Or add a parameter for each "
+                "value to the definition, and use it there."
             ),
         },
         raised={

@@ -35,7 +35,8 @@ NONE = msg(
     "A function without return gives back None, and a name that was set to None has this value."
 )
 FUNCTION = msg(
-    "Write return and the value at the end of {function}, or do not use what it gives back."
+    "If {function} is meant to give a value, write return and the value at its end. If not, do not use "
+    "what it gives back."
 )
 
 
@@ -733,7 +734,10 @@ KINDS = (
             "A base class marks {name} with @abstractmethod: each class that inherits from it must "
             "have a method of exactly this name."
         ),
-        msg("Give {function} a method {name}, or rename the method that is meant to be it."),
+        msg(
+            "Give {function} a method {name}, or rename the method that is meant to be it, here and "
+            "wherever it is used."
+        ),
         raised={
             r"Can't instantiate abstract class (?P<function>\w{1,120}) (?:with|without an implementation "
             r"for) abstract methods? '?(?P<name>\w{1,120})": _told("abstract_method"),
@@ -1013,7 +1017,8 @@ KINDS = (
             "generator": msg(
                 "A function with yield gives a generator, and with cannot use that. @contextmanager makes "
                 "of it what with needs: the lines before yield run at the start of the block, and those "
-                "behind it at its end."
+                "behind it at its end (after Ctrl+C only if they are in the finally of a try around "
+                "yield)."
             )
         },
         fixes={

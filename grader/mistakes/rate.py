@@ -12,7 +12,7 @@ from grader.mistakes.fixes import node_rates
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
-from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.names import calls_in, dotted, last_part, own_name
 from grader.package.source.node import NodeSource
 
 
@@ -67,6 +67,11 @@ def _in_loop(
             spins = any(last_part(name) == "spin" for _, name in in_main)
             words |= {"written": ast.unparse(call), "at": call.lineno, "node": node}
             return replace(found, variant="method_spun" if spins else "method", words=words)
+    init = source.methods.get("__init__")
+    for call, _ in calls_in(init) if init is not None else ():
+        if own_name(call.func) == method:
+            words |= {"written": ast.unparse(call), "at": call.lineno}
+            return replace(found, variant="called", words=words)
     return replace(found, words=words)
 
 
@@ -116,9 +121,9 @@ KINDS = (
             "it."
         ),
         msg(
-            "Remove the rate and its loop. A timer calls the callback again and again: write "
-            "self.create_timer({period}, self.{callback}) in __init__, and rclpy.spin({node}) in "
-            "{function}."
+            "Remove the rate and the loop around it, and keep what the loop does once. A timer "
+            "repeats it: write self.create_timer({period}, self.{callback}) in __init__, and call "
+            "rclpy.spin with the node in {function}."
         ),
         links.EXECUTORS,
         whys={
@@ -154,8 +159,13 @@ KINDS = (
                 "__init__. Delete {written} in {function} (line {at}), so that rclpy.spin is "
                 "reached."
             ),
+            "called": msg(
+                "Write self.create_timer({period}, self.{method}) instead of {written} (line {at}). "
+                "Delete the loop and the rate (lines {line}), and keep what the loop does once: the "
+                "timer repeats it."
+            ),
             "alone": msg(
-                "Remove this line, and the line that creates the rate. The timer already calls "
+                "Remove this line, and the line that creates the rate if it is another one. The timer already calls "
                 "{callback} in each period."
             ),
         },

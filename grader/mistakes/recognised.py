@@ -156,6 +156,15 @@ FromSource = Callable[[Suspect], "RecognisedMistake | None"]
 """Recognises in the node's source the mistake behind a symptom."""
 
 
+def first_found(*looks: FromError) -> FromError:
+    """Return a function that finds what the first of these functions finds."""
+
+    def found(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+        return next(filter(None, (look(raised, match) for look in looks)), None)
+
+    return found
+
+
 def always(slug: str) -> FromError:
     """Return a function that finds `node.slug` whatever the source is."""
 

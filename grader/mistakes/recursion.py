@@ -85,7 +85,14 @@ def _own_property(raised: Raised, function: Function) -> RecognisedMistake | Non
     for part in ast.walk(function):
         if isinstance(part, ast.Attribute) and dotted(part) == code:
             params = {"name": code, "written": f"self._{function.name}", "method": function.name}
+            counted = {
+                dotted(n.target) for n in raised.module.nodes if isinstance(n, ast.AugAssign)
+            }
+            kept = [name for name in counted if name.startswith("self.")]
             if any(dotted(n) == params["written"] for n in raised.module.nodes):
+                return raised.finding("property_of_itself", at=part, params=params)
+            if len(kept) == 1 and kept[0] != code:
+                params["written"] = kept[0]
                 return raised.finding("property_of_itself", at=part, params=params)
             return replace(
                 raised.finding("property_of_itself", at=part, params=params), variant="new"
@@ -226,7 +233,7 @@ KINDS = (
             ),
             "setter": msg(
                 "Give the value another name than the property: write {written} instead of {name} in the "
-                "lines of the property (line {lines}). All other lines keep {name}."
+                "lines of the property (lines: {lines}). All other lines keep {name}."
             ),
         },
         whys={

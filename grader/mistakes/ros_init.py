@@ -308,7 +308,7 @@ KINDS = (
         seen=r"RuntimeError: Context\.init\(\) must only be called once",
         fixes={
             "imported": msg(
-                "This file has one such call. Either this line runs twice, as in a loop, or if a line "
+                "This file has one such call. Either this line runs twice: in a loop, or because a line "
                 "outside of functions calls {function} too. Or another file calls rclpy.init() when it is "
                 "imported: look in {package}/__init__.py, which should be empty. Let only one call run."
             )

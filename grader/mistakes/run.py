@@ -443,7 +443,7 @@ KINDS = (
         "timer",
         msg("The lines come at the wrong times"),
         PERIOD,
-        msg("Write create_timer({period}, self.{callback})."),
+        msg("Write self.create_timer({period}, self.{callback})."),
         whys={
             "there": msg(
                 "The timer is due every {period} s. A line comes only if its callback is called in "

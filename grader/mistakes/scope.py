@@ -354,7 +354,7 @@ KINDS = (
             ),
             "given": msg(
                 "Give it the node: write self as the first parameter of {function} in this line, and self "
-                "as the first value in each call of {function} (line {lines})."
+                "as the first value in each call of {function} (lines: {lines})."
             ),
             "function": msg("Write {written} instead of {name}: the function belongs to no class."),
             "attribute": msg(
@@ -429,10 +429,10 @@ KINDS = (
         },
         fixes={
             "head": msg(
-                "Make a function of its own of it: delete {head} above this def, and move def "
-                "{function}(…) and all of its lines to the left, so that def begins at the margin. Leave "
-                "self or cls out of its brackets, if one is there. Where a line calls it through the "
-                "class, write only {function}()."
+                "Make it a function of its own: move def {function}(…) and all of its lines to the "
+                "left, so that def begins at the margin. Leave self or cls out of its brackets, if one is "
+                "there. Where a line calls it through the class, write only {function}(). Delete above "
+                "the def: {head}"
             ),
             "used": msg(
                 "Move def {function}(…) and all of its lines to the left by the same number of "

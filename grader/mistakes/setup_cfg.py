@@ -79,7 +79,7 @@ KINDS = (
         fix=msg("Fix that line: a line is either [section] or key=value."),
         whys={
             **dict.fromkeys(
-                ("heading_above", "below", "no_section"),
+                ("heading_above", "below", "no_section", "half_heading"),
                 msg(
                     "setup.cfg consists of sections: a line such as [develop] begins one, and its "
                     "settings are below it. setuptools stops at a line above the first section."
@@ -92,6 +92,10 @@ KINDS = (
             ),
             "below": msg(
                 "Move this line below [{other}], which is in line {line}, then build again."
+            ),
+            "half_heading": msg(
+                "The name of a section is in square brackets. Write [{other}] in this line, then build "
+                "again."
             ),
             "no_section": msg(
                 "Delete this line, or write above it the [section] to which it belongs. Then build "
@@ -244,7 +248,8 @@ KINDS = (
             ),
             "one_line": msg(
                 "What is behind [{section}] is not read. Begin a new line there: below [{section}], "
-                "write {key}={wanted}. Then build again."
+                "write {key}={wanted}. Do the same with the other section, if it is on one line too. "
+                "Then build again."
             ),
             "both": msg(
                 "Write below [develop] script_dir={wanted}, and below [install] "

@@ -178,6 +178,10 @@ FORMS = {
         "The {step} at the end of this line ends the call too early: line {line} and those below it "
         "belong to it too. Delete that {step}: {wanted}"
     ),
+    "closed_early_alone": msg(
+        "The {step} in this line ends the call too early: line {line} and those below it belong to it "
+        "too. Delete this line."
+    ),
     "global_set": msg(
         "global contains only the name, and line {line} gives it its first value already. Write: "
         "{wanted}"

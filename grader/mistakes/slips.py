@@ -14,12 +14,12 @@ WEB = msg(
     "with the code, Python stops at them."
 )
 KEYBOARD = msg(
-    "Python knows only the signs of an English keyboard. Signs of another input method or of a "
-    "document look alike, but are different characters."
+    "All brackets, quotes and operators of Python are on an English keyboard. Those of another input "
+    "method or of a document look alike, but are different characters."
 )
 OTHER_LANGUAGE = msg(
-    "Other languages have signs and words that Python does not know. Python stops at the first of "
-    "them."
+    "Other languages have signs and words that Python does not know, or uses in another way. Python "
+    "stops at a line with one of them."
 )
 TYPED = msg(
     "What was typed for another program is now a line of this file. Python reads each line."
@@ -154,7 +154,7 @@ LANGUAGE = {
     ),
     "cast": msg("Python converts a value with a call of its type. Write: {wanted}"),
     "elif": msg("Python has the word elif. Write: {wanted}"),
-    "capital": msg("The words of Python are written in small letters. Write: {wanted}"),
+    "capital": msg("This word of Python is written in small letters. Write: {wanted}"),
     "declaration": msg("A Python variable has no type before its name. Write: {wanted}"),
     "function": msg("A function begins with def in Python. Write: {wanted}"),
     "new": msg("Python has no new: to make an object, call its class. Write: {wanted}"),
@@ -182,8 +182,8 @@ LANGUAGE = {
     "backtick": msg("A text is in quotes, ' or \", not in backticks."),
     "assign": msg("Python assigns with =. Write: {wanted}"),
     "braces": msg(
-        "Python has no braces around a block. Write a colon at the end of the line above the "
-        "block, and indent each line of the block by 4 spaces."
+        "Python has no braces around a block. Delete {{ and }}. Write a colon at the end of the line "
+        "above the block, and indent each line of the block by 4 spaces."
     ),
 }
 SIGNS = {
@@ -193,8 +193,8 @@ SIGNS = {
         "In a call, write name=value: '=' between the two, and no quotes around the name."
     ),
     "quote": msg(
-        "A text begins and ends with the same quote, on one line, and a quote of this line has no "
-        "other. Add the missing quote; or, if a quote is there that begins and ends no text, delete it."
+        "A text begins and ends with the same quote, on one line. In this line a quote is missing, or "
+        "one is too many. If it has no quotes at all, write one on each side of the text."
     ),
     "apostrophe": msg(
         "The text is in single quotes, so the ' inside it ends the text. Write double quotes around "
@@ -528,8 +528,8 @@ SIGNS = {
         "and async before the def of each function of yours."
     ),
     "backslash": msg(
-        "In a text, a backslash and a letter are a code, and Python does not know this one. Write "
-        "an r before the quotes ({wanted}…), or / instead of each backslash."
+        "In a text, a backslash and a letter are a code, and this one is not complete. Write an r "
+        "before the quotes ({wanted}…), or / instead of each backslash."
     ),
     "argument_order": msg(
         "In a call, no value without a name can be behind one with name=. Write the name of its "

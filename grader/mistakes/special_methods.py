@@ -369,8 +369,8 @@ KINDS = (
             "One side of + is an object of the class {type} (line {line}), and this class has no method for +."
         ),
         msg(
-            "Write the text or the number that is meant, instead of the object: one of its attributes, or what "
-            "one of its methods returns."
+            "Write the text or the number that is meant instead of the object: in the line that makes "
+            "it, or here, as one of its attributes or what one of its methods returns."
         ),
         links.PYTHON_CLASSES,
         whys={
@@ -504,8 +504,8 @@ KINDS = (
         "class",
         msg("The method that sets a field of a dataclass has another name"),
         msg(
-            "Python calls a method of a dataclass by itself only if its name is {written}. This method "
-            "sets {attribute}, and nothing called it when the object of the class {type} was made."
+            "A dataclass has an __init__ that Python writes, and at its end only a method with the name "
+            "{written} is called. This method sets {attribute}, and nothing called it when the object of the class {type} was made."
         ),
         msg("Write {written} instead of {name}."),
         raised={OWN_ATTRIBUTE: _post_init},

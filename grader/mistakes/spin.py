@@ -457,8 +457,8 @@ IN_EACH_ROUND = msg(
     "each round, and not when a timer is due: no timer calls them."
 )
 GUARD = msg(
-    "ros2 run calls only {function}. Lines outside of it, such as those below if __name__ == "
-    "'__main__':, run only if you start the file itself."
+    "ros2 run calls only {function}. The lines below if __name__ == '__main__': run only if you start "
+    "the file itself."
 )
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
@@ -472,7 +472,8 @@ KINDS = (
             "follow simulated time."
         ),
         msg(
-            "Put what the loop does into a method, call it with a timer that __init__ creates: "
+            "Put what the loop does into a method, without the sleep, if it is not in one already. Call "
+            "the method with a timer that __init__ creates: "
             "self.create_timer({period}, self.{callback}), and write rclpy.spin({node}) in "
             "{function} instead of the loop."
         ),
@@ -487,10 +488,10 @@ KINDS = (
             ),
             "function": INTO_FUNCTION,
             "threaded": msg(
-                "Put what the loop does into a method, and call it with a timer that __init__ "
-                "creates: self.create_timer({period}, self.{callback}). Then write "
+                "Put what the loop does into a method, without the sleep, if it is not in one already. "
+                "Call the method with a timer that __init__ creates: self.create_timer({period}, self.{callback}). Then write "
                 "rclpy.spin({node}) in {function} instead of the loop, and delete the thread that "
-                "spins the node now (line {lines})."
+                "spins the node now (lines: {lines})."
             ),
             "beside": msg(
                 "Put what the loop in {name} does into a method, and call it with a timer that "
@@ -826,7 +827,7 @@ KINDS = (
         links.EXECUTORS,
         fixes={
             "used": msg(
-                "Delete this line and the other lines of the thread (line {lines}): line {line} "
+                "Delete this line and the other lines of the thread (lines: {lines}): line {line} "
                 "spins the node."
             )
         },

@@ -54,17 +54,13 @@ KINDS = (
     _node(
         "spin_of_object",
         "spin",
-        msg("rclpy.spin gets an object that is not a node"),
+        msg("An object that is not a node is used as the node"),
         msg(
             "{type} does not inherit from Node: {name} is not a node, it only has one in "
             "{name}.{attribute}. rclpy.spin calls the callbacks of a node. The error comes from "
             "rclpy's files, but the cause is what this line passes."
         ),
-        msg(
-            "Write {name}.{attribute} instead of {name} in this call. Or make the class a node: "
-            "class {type}(Node): with super().__init__('{node_name}') in its __init__, and self "
-            "instead of self.{attribute}."
-        ),
+        msg("Write {name}.{attribute} instead of {name} in this call: that is the node."),
         whys={
             "without": msg(
                 "{type} does not inherit from Node: {name} is not a node. rclpy.spin calls the "
@@ -75,8 +71,8 @@ KINDS = (
         fixes={
             "own_class": msg("Write {name}.{attribute} instead of {name} in this call."),
             "without": msg(
-                "Give rclpy.spin the node. Or make the class a node: class {type}(Node): with "
-                "super().__init__('{node_name}') in its __init__."
+                "Give rclpy.spin the node. If {type} is meant to be the node, write class {type}(Node): "
+                "with super().__init__('{node_name}') in its __init__."
             ),
         },
         raised={OWN_ATTRIBUTE: _spins_object},

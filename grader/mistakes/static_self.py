@@ -125,7 +125,7 @@ KINDS = (
             ),
             "class": msg(
                 "Delete the line @{name}, and write def {method}({written}): Then write "
-                "self.{method} instead of {type}.{method} (line {lines})."
+                "self.{method} instead of {type}.{method} (lines: {lines})."
             ),
         },
         raised={NAME_ERROR: _self_in_static},

@@ -98,8 +98,8 @@ KINDS = (
             "rclpy.spin, but not this thread, and Python waits for it."
         ),
         msg(
-            "Write self.create_timer({period}, self.{name}) instead of the thread, and delete the "
-            "line that starts it. In {name}, delete the {loop} on line {line} and the sleep in it, "
+            "Write self.create_timer({period}, self.{name}) instead of what makes and starts the "
+            "thread. In {name}, delete the {loop} on line {line} and the sleep in it, "
             "and indent its other lines as far as the {loop} is indented now."
         ),
         whys={
@@ -191,10 +191,10 @@ KINDS = (
             ),
             "awaited": msg(
                 "Delete this line, and write def {method} without async. Delete the word await before "
-                "each call of {method} (line {lines}). import asyncio is not needed any more."
+                "each call of {method} (lines: {lines}). import asyncio is not needed any more."
             ),
             "only": msg(
-                "Delete {method} with its lines, and what calls it (line {lines}). import asyncio is not "
+                "Delete {method} with its lines, and what calls it (lines: {lines}). import asyncio is not "
                 "needed any more."
             ),
             "other": msg(

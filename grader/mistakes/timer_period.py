@@ -30,7 +30,7 @@ REAL_NUMBER = (
     r"|must be real number, not (?P<old>\w{1,120})"
 )
 CALLABLE = ("method", "function")
-TIMER = msg("Write create_timer({period}, self.{callback})")
+TIMER = msg("Write self.create_timer({period}, self.{callback})")
 
 
 def _negative(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:

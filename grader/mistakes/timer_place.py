@@ -307,7 +307,9 @@ KINDS = (
             "rclpy.spin on line {line} waits until Ctrl+C. The lines below it run only after that: "
             "{name} comes too late, and while the node spins there is no timer."
         ),
-        msg("Move this line above line {line}, the call of rclpy.spin."),
+        msg(
+            "Move this line above line {line}, the call of rclpy.spin, indented as far as that line."
+        ),
         links.EXECUTORS,
         raised={r"failed to create timer: the given context is not valid": _created_at_end},
         behind={"run.no_lines": _after_spin},
@@ -389,7 +391,7 @@ KINDS = (
             "line": msg("Delete this line: line {line} creates the timer."),
             "alone": msg("Write pass instead of this line: line {line} creates the timer."),
             "used": msg(
-                "Delete this line, and what uses this timer (line {lines}): line {line} creates "
+                "Delete this line, and what uses this timer (lines: {lines}): line {line} creates "
                 "the timer."
             ),
             "loop": msg("Create the timer only once, without the {loop} of line {line}."),

@@ -169,9 +169,9 @@ KINDS = (
         ),
         fixes={
             "again": msg(
-                "Write the node of this exercise instead: pass '{node_name}' to "
-                "super().__init__(), create a timer with self.create_timer({period}, "
-                "self.{callback}), and write {written} and {counter} += {step} in {callback}. "
+                "Write the node of this exercise instead: pass '{node_name}' to super().__init__(), and "
+                "write {counter} = {start} and self.create_timer({period}, self.{callback}) below "
+                "it. Write def {callback}(self): and in it only {written} and {counter} += {step}. "
                 "Delete what belongs to the topic (lines {line})."
             )
         },

@@ -17,10 +17,12 @@ from grader.mistakes.fixes import (
     node_rename,
     node_setup,
 )
+from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.spin import executors
 from grader.mistakes.spun_none import NotReturned, not_returned, with_return
+from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.guard import called_on_import
@@ -164,6 +166,10 @@ def _none_is_spun(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
             lost = not_returned(raised, name)
             if lost is not None:
                 return _value_lost(raised, lost, name)
+            emptied = _set_to_none(raised.source.function_around(call), name, call.lineno)
+            if emptied is not None:
+                found = raised.finding("spin_of_none", at=emptied, name=name)
+                return replace(found, variant="emptied")
             made = _local_of_that_name(raised, name)
             found = raised.finding("spin_of_none", at=made or call, name=name)
             return replace(found, variant="local" if made is not None else "")
@@ -179,6 +185,25 @@ def _value_lost(raised: Raised, lost: NotReturned, name: str) -> RecognisedMista
     words = {"line": str(lost.used.lineno)}
     variant = "returned" if code else "unreturned"
     return replace(found, words={**found.words, **words}, variant=variant)
+
+
+def _set_to_none(function: Function | None, name: str, line: int) -> ast.Assign | None:
+    """Return the last statement above a line of a function that sets a name, if it sets it to None."""
+    found = [
+        n
+        for n in (ast.walk(function) if function is not None else ())
+        if isinstance(n, ast.Assign) and n.lineno < line and name in map(dotted, n.targets)
+    ]
+    last = max(found, key=lambda n: n.lineno, default=None)
+    none = last is not None and isinstance(last.value, ast.Constant) and last.value.value is None
+    return last if none and len(found) > 1 else None
+
+
+def _none_deleted(case: Case) -> Files | None:
+    """Delete the line that sets the node's variable to None."""
+    name, module, line = case.finding.params.get("name", ""), case.module, case.finding.line
+    row = module.text.line(line) if module is not None and line else ""
+    return lines.deleted(case) if name and row.strip() == f"{name} = None" else None
 
 
 def _local_of_that_name(raised: Raised, name: str) -> ast.Assign | None:
@@ -415,8 +440,8 @@ KINDS = (
         msg("The variable has the same name as the class"),
         msg("In a function that sets {name}, {name} means the variable, which has no value yet."),
         msg(
-            "Give the variable another name: write {call} in this line, and {written} instead of "
-            "{name} in the lines below it."
+            "Give the variable another name: write {call} in this line. If lines below it use {name}, "
+            "write {written} there."
         ),
         links.PYTHON_CLASSES,
         fixes={
@@ -488,6 +513,7 @@ KINDS = (
             ),
         },
         fixes={
+            "emptied": msg("Delete this line: it sets {name}, which has the node, to None."),
             "local": msg("Return the node from this function, and give it to rclpy.spin."),
             "returned": msg(
                 "Write {written} as the last line of {function}, indented as far as its first line."
@@ -497,7 +523,8 @@ KINDS = (
         raised={
             r"AttributeError: 'NoneType' object has no attribute '(?:executor|handle)'": _none_is_spun
         },
-        fixed_by=(with_return,),
+        fixed_by=(with_return, _none_deleted),
+        deletes=("emptied",),
         examples=(
             example(
                 "made_node_is_not_returned",
@@ -609,8 +636,8 @@ KINDS = (
         msg("Remove this line: {function} spins the node after it was made."),
         fixes={
             "kept": msg(
-                "Remove this line. Write in {function}, below the line that creates the node: "
-                "rclpy.spin({variable})"
+                "Remove this line. Write in {function}, below the line that creates the node, and in its "
+                "try, if there is one: rclpy.spin({variable})"
             ),
             "alone": msg(
                 "Remove this line. Write in {function} {variable} = {made}() instead of {made}(), and "

@@ -182,8 +182,8 @@ KINDS = (
                 "object itself."
             ),
             "unpacked": msg(
-                "With a comma behind the name, Python takes what is on the right for a list of "
-                "values, and gives {variable} the first of them. On the right is one object."
+                "With a comma behind the name, Python takes what is on the right for a list of one "
+                "value, and gives that to {variable}. On the right is an object, and no list."
             ),
         },
         fixes={

@@ -26,7 +26,7 @@ BACK_TO_SOLUTION = (
     *("setup_syntax_error", "setup_prints", "import_misspelt", "import_of_node"),
     *("import_node_missing", "super_missing", "super_after_timer", "super_without_name"),
     *("init_single_underscores", "not_a_node", "dash_in_node_name", "blank_in_node_name"),
-    *("rclpy_init_missing", "rclpy_init_after_node", "main_missing", "main_misspelt"),
+    *("rclpy_init_missing", "rclpy_init_after_node", "main_of_another_name", "main_misspelt"),
     *("main_wants_args", "callback_misspelt", "callback_without_self_dot"),
     *("timer_arguments_swapped", "period_missing", "period_as_text", "create_timer_misspelt"),
     *("spin_of_class", "spin_not_called", "spin_once", "str_missing", "callback_without_self"),

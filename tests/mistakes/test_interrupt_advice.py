@@ -29,4 +29,4 @@ def test_a_traceback_from_outside_of_the_try_is_explained(
 def test_an_except_of_exception_is_named(tmp_path: Path) -> None:
     report = mark(write(BY_NAME["catches_exception"], tmp_path))
     (check,) = (check for check in report.checks if check.id == "run.interrupt")
-    assert any("in line 20 does not catch Ctrl+C" in text for text in check.advice)
+    assert any("in line 28 does not catch Ctrl+C" in text for text in check.advice)

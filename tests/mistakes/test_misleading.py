@@ -260,7 +260,7 @@ def test_a_second_definition_is_not_the_cause_if_nothing_is_lost() -> None:
 def test_a_class_in_a_plain_import_is_told_from_a_module_with_a_capital() -> None:
     error = "ModuleNotFoundError: No module named 'rclpy.Node'"
     for new, wanted in (
-        ("import rclpy.Node", "Write from rclpy.node import Node: after"),
+        ("import rclpy.Node", "Write: from rclpy.node import Node. After"),
         ("from rclpy.Node import Node", "Write rclpy.node instead of rclpy.Node."),
     ):
         text = changed("from rclpy.node import Node", new)

@@ -46,7 +46,7 @@ def test_a_variable_of_init_becomes_an_attribute() -> None:
     found = no_name("prefix", text, "prefix + '0'")
     lines = f"{line_of(text, 'prefix =')}, {line_of(text, 'prefix +')}"
     assert found.kind == "node.name_local"
-    assert fix_of(found).startswith(f"Write self.prefix instead of prefix in line {lines}:")
+    assert fix_of(found).startswith(f"Write self.prefix instead of prefix (lines: {lines}):")
 
 
 def test_an_attribute_of_a_name_that_node_has_itself_is_not_advised() -> None:

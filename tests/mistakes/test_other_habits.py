@@ -123,7 +123,7 @@ def test_a_wrapper_around_the_callback_is_not_the_callback() -> None:
 @pytest.mark.parametrize(
     ("body", "fix"),
     [
-        ("", "Delete pause with its lines, and what calls it (line {line})."),
+        ("", "Delete pause with its lines, and what calls it (lines: {line})."),
         (
             "        self.waited = 1\n",
             "Delete this line, and write def pause without async. Delete",
@@ -187,7 +187,7 @@ def test_a_setter_that_sets_its_property() -> None:
     text = changed((CALLBACK, methods + CALLBACK))
     found = found_at("RecursionError: maximum recursion depth", text, "self.counter_ = value")
     read = line_of(text, "return self.counter_")
-    assert f"(line {read}, {read + 4})" in fix_of(found)
+    assert f"(lines: {read}, {read + 4})" in fix_of(found)
     assert "each time it is set" in why_of(found)
 
 

@@ -156,7 +156,7 @@ def test_a_thread_that_spins_beside_spin_goes(kept: str) -> None:
     thread += "\n    thread.start()\n" if kept else ".start()\n"
     text = changed((NODE, thread))
     found = raised("ValueError: generator already executing", text, None)
-    other = f" and the other lines of the thread (line {line_of(text, 'threading.Thread') + 1})"
+    other = f" and the other lines of the thread (lines: {line_of(text, 'threading.Thread') + 1})"
     spin = line_of(text, "rclpy.spin(node)")
     assert fix_of(found) == f"Delete this line{other if kept else ''}: line {spin} spins the node."
 

@@ -178,7 +178,7 @@ def test_a_loop_beside_a_thread_that_spins() -> None:
     text = changed((MADE, start), (SPIN, loop))
     first = line_of(text, "thread = threading")
     fix = fix_of(look("run.never_spins", text))
-    assert fix.endswith(f"delete the thread that spins the node now (line {first}, {first + 1}).")
+    assert fix.endswith(f"delete the thread that spins the node now (lines: {first}, {first + 1}).")
 
 
 def test_calls_of_a_method_that_becomes_a_function() -> None:

@@ -125,7 +125,7 @@ ADDRESS = "Hello time: <my_robot_controller.my_first_node.Ticks object at 0x7fe7
 @pytest.mark.parametrize(
     ("name", "fix"),
     [
-        ("toString", "Write __str__ instead of toString: Python calls no other name."),
+        ("toString", "Write __str__ instead of toString: Python does not know toString."),
         ("as_text", "Log a value of the object, not the object itself"),
     ],
 )

@@ -54,7 +54,7 @@ def test_all_lines_of_the_old_timer_are_named() -> None:
     text = changed(IMPORT, (TIMER, CALL + METHOD), (STEP, STEP + CALL))
     first, step = line_of(text, "def schedule"), line_of(text, "+= 1")
     imported = line_of(text, "import threading")
-    assert f"(line {imported}, {first}-{first + 4}, {step + 1})" in fix_of(
+    assert f"(lines: {imported}, {first}-{first + 4}, {step + 1})" in fix_of(
         look("run.never_spins", text)
     )
 

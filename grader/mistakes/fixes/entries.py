@@ -85,7 +85,7 @@ def _written_out(case: Case, entry: Entry) -> Files | None:
 def _in_two_texts(case: Case, text: SourceText) -> Splice | None:
     """Return the splice that joins the name and the module, which are two texts."""
     name, target = re.escape(case.assignment.executable), re.escape(case.assignment.target)
-    two = re.compile(rf"(?P<q>['\"]){name}(?P=q)\s*,\s*(?P<other>['\"]){target}(?P=other)")
+    two = re.compile(rf"(?P<q>['\"]){name}\s*=?\s*(?P=q)\s*,\s*(?P<other>['\"]){target}(?P=other)")
     found = list(two.finditer(text.text))
     if len(found) != 1:
         return None

@@ -12,6 +12,11 @@ from grader.package.source.names import misnamed_init, module_name
 from grader.package.source.python import has_no_code
 from grader.package.source.setup_scripts import scripts_line
 
+OF_SRC = re.compile(rb"find_packages\(\s*(?:where\s*=\s*)?['\"]src['\"]\s*,?\s*\)")
+PACKAGE_DIR = re.compile(
+    rb"^[ \t]*package_dir\s*=\s*\{\s*['\"]['\"]\s*:\s*['\"]src['\"]\s*\},?[ \t]*\r?\n", re.M
+)
+
 
 def marker(case: Case) -> Files | None:
     """Create the empty marker file, or rename the one that has a wrong name."""
@@ -47,6 +52,21 @@ def inner_folder(case: Case) -> Files | None:
             return None
         files = files.with_move(old, case.package + old[len(folder) :])
     return files
+
+
+def out_of_src(case: Case) -> Files | None:
+    """Move the inner folder out of src/, and let setup.py look for it beside itself."""
+    inner, files, setup = f"src/{case.package}", case.files, case.files.data("setup.py")
+    if case.finding.params.get("path") != f"src/{case.node_path}" or setup is None:
+        return None
+    if case.package in files.by_path:
+        return None
+    for old in files.below(inner):
+        if files.file(old) is None:
+            return None
+        files = files.with_move(old, old.removeprefix("src/"))
+    new = OF_SRC.sub(b"find_packages(exclude=['test'])", PACKAGE_DIR.sub(b"", setup))
+    return files if new == setup else files.with_data("setup.py", new)
 
 
 def node_file(case: Case) -> Files | None:

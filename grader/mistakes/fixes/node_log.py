@@ -16,6 +16,7 @@ from grader.package.source.node import NodeSource, read_node
 from grader.package.source.number_forms import number_forms
 from grader.package.source.one_change import logged_lines
 from grader.package.source.place import statement_at
+from grader.package.source.played import SHOWN_LEVELS
 
 PLACE = re.compile(r"\{((?:[A-Za-z_]\w*\.)?[A-Za-z_]\w*)\}")
 FORMATTED = re.compile(r"(\{(?:[A-Za-z_]\w*\.)?[A-Za-z_]\w*)(?:![rsa])?:[^{}]*\}")
@@ -342,7 +343,7 @@ def only_logged(case: Case) -> Files | None:
     """Remove a print() of the text that is logged as well."""
     node = case.node
     call = node.log_call if node else None
-    if node is None or call is None:
+    if node is None or call is None or called_name(call) not in SHOWN_LEVELS:
         return None
     text = node.module.text
     logged = node.module_of(call).text.code(call.args[0])

@@ -80,20 +80,27 @@ def _right_imports(module: Module) -> list[Splice]:
     return splices
 
 
+def only_starter(source: NodeSource, wanted: str) -> ast.FunctionDef | None:
+    """Return the only function of the file, if it has another name and calls rclpy.init."""
+    found = [s for s in source.entry.tree.body if isinstance(s, ast.FunctionDef)]
+    if len(found) != 1 or found[0].name == wanted or not source.calls_of("init", within=found[0]):
+        return None
+    return found[0]
+
+
 def main(case: Case) -> Files | None:
     """Rename the only function of the file to main."""
     node = case.node
     wanted = case.assignment.function
-    body = node.entry.tree.body if node else []
-    found = [s for s in body if isinstance(s, ast.FunctionDef)]
-    if node is None or len(found) != 1 or found[0].name == wanted:
+    found = only_starter(node, wanted) if node is not None else None
+    if node is None or found is None:
         return None
-    old, text = found[0].name, node.entry.text
-    head = text.at(found[0].lineno, found[0].col_offset) + len("def ")
+    old, text = found.name, node.entry.text
+    head = text.at(found.lineno, found.col_offset) + len("def ")
     names = [n for n in node.entry.nodes if isinstance(n, ast.Name)]
     if any(n.id == wanted or (n.id == old and isinstance(n.ctx, ast.Store)) for n in names):
         return None
-    if text.text[head : head + len(old)] != old or not node.calls_of("init", within=found[0]):
+    if text.text[head : head + len(old)] != old:
         return None
     uses = [text.swap(n, wanted) for n in names if n.id == old]
     return case.changed(node.entry, Splice(head, head + len(old), wanted), *uses)

@@ -249,6 +249,19 @@ def not_in_init(case: Case) -> Files | None:
     return lines.deleted(case) if len(at) == 1 else None
 
 
+def unkept(source: NodeSource, main: Function) -> tuple[list[ast.Call], ast.stmt | None]:
+    """Return the calls in main that make a node, and the statement that is the only one of them."""
+    made = [call for call, _ in calls_in(main) if source.is_node_class(call.func)]
+    alone = [s for s in main.body if isinstance(s, ast.Expr) and s.value in made]
+    return made, alone[0] if len(made) == len(alone) == 1 else None
+
+
+def first_user(main: Function, name: str) -> ast.stmt | None:
+    """Return the statement of main itself, and not of a block in it, that first uses a name."""
+    use = first_use(main, name)
+    return next((s for s in main.body if use is not None and _has(s, use)), None)
+
+
 def kept(case: Case) -> Files | None:
     """Assign the new node to the variable that the code after it uses."""
     node = case.node
@@ -256,13 +269,11 @@ def kept(case: Case) -> Files | None:
     if node is None or node.main is None or node.node_class is None or not name:
         return None
     module = node.module_of(node.main)
-    made = [call for call, _ in calls_in(node.main) if node.is_node_class(call.func)]
-    alone = [s for s in node.main.body if isinstance(s, ast.Expr) and s.value in made]
-    if len(made) == len(alone) == 1:
-        at = module.text.span(alone[0])[0]
+    made, alone = unkept(node, node.main)
+    if alone is not None:
+        at = module.text.span(alone)[0]
         return case.changed(module, Splice(at, at, f"{name} = "))
-    use = first_use(node.main, name)
-    user = next((s for s in node.main.body if use is not None and _has(s, use)), None)
+    user = first_user(node.main, name)
     init = node.method("__init__")
     plain = init is None or len(init.args.args) == 1
     if made or user is None or not plain or not module.has(node.node_class):

@@ -208,7 +208,8 @@ def _rows(reader: _Reader) -> XmlFault | None:
             new = row if same else below.rstrip(b"\r\n") + row[len(row.rstrip(b"\r\n")) :] + row
             fixed = reader.found[:at] + new + reader.found[end:]
             tags = all(re.match(rb"\s*</?\w", line) for line in (row, below))
-            if tags and _Reader(fixed).stop() is None:
+            pasted = row.strip() == b"</package>" and below.lstrip().startswith(b"<package")
+            if tags and not pasted and _Reader(fixed).stop() is None:
                 variant: Variant = "line_twice" if same else "lines_swapped"
                 return reader.fault(
                     variant, "", at + len(row), (at, end, new), wanted=str(number + 1)

@@ -133,6 +133,9 @@ def _without_section(text: str, line: int) -> SetupCfgFault:
         bare = re.search(r"^(?:develop|install)[ \t]*:?[ \t]*$", text, re.MULTILINE)
         return SetupCfgFault(reason, line, "bare_headings" if bare else "headings")
     row = rows[line - 1] if line <= len(rows) else ""
+    heading = re.fullmatch(r"\[?(develop|install)\]?[ \t]*", row)
+    if heading is not None:
+        return SetupCfgFault(reason, line, "half_heading", heading[1])
     key = re.split(r"[=:\s]", row.strip(), maxsplit=1)[0].replace("-", "_")
     section = next((name for name, known in KEYS.items() if known == key), "")
     there = next((n for n, r in enumerate(rows, 1) if r.strip() == f"[{section}]"), 0)

@@ -139,7 +139,7 @@ def _function_given(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
     for _, files in _pairs(reader):
         name = dotted(files)
         if name and name.partition(".")[0] in reader.module.imports:
-            return reader.fault("not_called", files, name=name, wanted=f"{name}(…)")
+            return reader.fault("not_called_open", files, name=name)
     return None
 
 

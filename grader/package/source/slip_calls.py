@@ -9,6 +9,7 @@ from grader.package.edit.text import Splice, indent_of
 from grader.package.source.broken_python import MOST_TRIES, Broken, Slip
 from grader.package.source.python import can_parse
 
+PREFIXES = ("f", "r", "b", "u", "rb", "br", "fr", "rf")
 NO_EQUALS = re.compile(r"[ \t]+(?P<name>[a-z_]\w*)[ \t]*(?=['\"\[{])")
 ARGUMENT = re.compile(r"[ \t]*[a-z_]\w*[ \t]*=(?!=)[^=].*,[ \t]*$")
 DANGLES = re.compile(r"(?:[:=,]|\()[ \t]*$")
@@ -51,7 +52,7 @@ def _equals_of_argument(text: Broken) -> Slip | None:
     """Return an argument without the = between its name and its value."""
     for number in _nearby(text):
         match = NO_EQUALS.match(text.source.line(number))
-        if match is None or match["name"] in ("f", "r", "b", "u", "rb", "br", "fr", "rf"):
+        if match is None or match["name"] in (*PREFIXES, "print", "exec", "echo"):
             continue
         at = text.source.start_of(number) + match.end("name")
         end = text.source.start_of(number) + match.end()

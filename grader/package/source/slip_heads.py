@@ -89,9 +89,8 @@ def _closed_early(text: Broken) -> Slip | None:
     written = text.source.line(above)
     wanted = (written[: at - start] + written[at - start + 1 :]).strip()
     sign = ends["closer"]
-    return Slip(
-        "signs", "closed_early", above, written.strip(), wanted, new, other=text.number, step=sign
-    )
+    variant = "closed_early" if wanted else "closed_early_alone"
+    return Slip("signs", variant, above, written.strip(), wanted, new, other=text.number, step=sign)
 
 
 def _comment_between(text: Broken) -> Slip | None:

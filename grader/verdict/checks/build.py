@@ -550,7 +550,7 @@ def _raised(evidence: Evidence, expected: str, error: str, where: Where) -> Fail
         return _stopped_with(expected, error, where, "own_close" if close else "own", words=words)
     imports = missing_imports(code, error)
     if imports:
-        words = {"statement": " / ".join(imports)}
+        words = {"statement": "; ".join(imports)}
         return _stopped_with(expected, error, where, "no_import", words=words)
     found = called_value(code) if NOT_CALLABLE.match(error) else None
     if found is not None and found.end_lineno:

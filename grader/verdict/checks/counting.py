@@ -268,10 +268,15 @@ def _silent(evidence: Evidence, expected: str) -> Failed:
             words=words(evidence),
         )
     source = source_of_node(evidence)
+    events = without_tracebacks(run.watch.events)
+    others = [e for e in events if e.record is not None and e.record.file.endswith(".py")]
+    nothing = say("no line came at all")
+    if others:
+        nothing = say("no line of the count came, only: {line}", line=others[0].text[:80])
     return Failed(
         "run.no_lines",
         expected=expected,
-        actual=say("no line came at all"),
+        actual=nothing,
         where=node_file(evidence),
         variant="timer" if source is not None and source.timers else "",
         words=words(evidence),
@@ -461,7 +466,8 @@ def _only_when_marked(evidence: Evidence, expected: str) -> Failed:
     where = Where(file=remarks[0].path, line=remarks[0].line) if remarks else node_file(evidence)
     source = source_of_node(evidence)
     module = source.module_at(where.file) if source is not None else None
-    simulated = module is not None and "use_sim_time" in module.line(where.line)
+    row = module.line(where.line) if module is not None else ""
+    simulated = "use_sim_time" in row and not row.startswith(("if ", "elif ", "while "))
     return Failed(
         "run.only_when_marked",
         expected=expected,

@@ -89,7 +89,10 @@ def broken(evidence: Evidence, entry: Entry, entries: list[Entry], *, is_other: 
     if mistake == "setup.bad_entry" and NAME_IN_BRACES.search(entry.text):
         variant = "no_f"
     parts = {other.text.strip() for other in entries}
-    if entry.text.strip() == executable and evidence.assignment.target in parts:
+    if (
+        entry.text.strip().removesuffix("=").strip() == executable
+        and evidence.assignment.target in parts
+    ):
         because = say("the name and the module are two texts, with a comma between them")
         return _failed(evidence, entry, mistake, because, variant="two_texts")
     target = re.fullmatch(r"[\w.]+\.(\w+):\w+", entry.text.strip())

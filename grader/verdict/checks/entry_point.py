@@ -20,6 +20,7 @@ from grader.verdict.checks import entry_faults
 from grader.verdict.checks.inner_package import entry_in_inner_package
 from grader.verdict.checks.parsed import (
     CONSOLE,
+    data_of,
     entry_points_of,
     file_of,
     in_inner_folder,
@@ -44,7 +45,7 @@ def mapping_from_source(evidence: Evidence) -> Passed | None:
     if file is None or file.unreadable:
         inner = in_inner_folder(evidence, "setup.py") if file is None else ""
         close = nearest("setup.py", names_in(evidence, ""), cutoff=0.8)
-        raise _no_setup_py(file.reason if file else "", inner, close)
+        raise _no_setup_py(evidence, file.reason if file else "", inner, close)
     setup = setup_py_of(evidence)
     if setup is None or not setup.is_static:
         return None
@@ -88,7 +89,7 @@ def _comes_from_name(evidence: Evidence, setup: SetupPy, target: str) -> bool:
     return once and "".join(target.split()) == name + rest
 
 
-def _no_setup_py(reason: str, inner: str, close: str) -> Failed:
+def _no_setup_py(evidence: Evidence, reason: str, inner: str, close: str) -> Failed:
     cannot = say("setup.py cannot be read: {reason}", reason=printable_reason(reason))
     expected = say("a setup.py with the entry point")
     if inner:
@@ -117,6 +118,11 @@ def _no_setup_py(reason: str, inner: str, close: str) -> Failed:
         expected=expected,
         actual=cannot if reason else say("there is no setup.py"),
         where=Where(file="setup.py"),
+        variant="pyproject" if b"[project" in (data_of(evidence, "pyproject.toml") or b"") else "",
+        words={
+            "package": evidence.assignment.package,
+            "wanted": entry_faults.wanted_entry(evidence),
+        },
     )
 
 

@@ -101,7 +101,7 @@ def _judge_record(
         raise Failed(
             "run.faked_log",
             expected=expected,
-            actual=say("a line that looks like a log record, but ROS never logged it"),
+            actual=say("a line that looks like a log record, but did not come on /rosout"),
             where=where,
         )
     if event.record is not None and event.record.name not in names:

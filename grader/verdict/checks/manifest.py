@@ -107,7 +107,11 @@ def _read(evidence: Evidence) -> Manifest:
             with_difference(say("there is no package.xml") + there_is(close), close, FILE),
             None,
             variant="capitals" if close.lower() == FILE else "renamed" if close else "",
-            words={"close": shlex.quote(shown(close)), "there": ""},
+            words={
+                "close": shlex.quote(shown(close)),
+                "there": "",
+                "package": evidence.assignment.package,
+            },
             file=shown(close) or FILE,
         )
     if file.unreadable:

@@ -308,6 +308,8 @@ def _misplaced(evidence: Evidence, place: str, *, is_inside: bool) -> Failed:
     actual, place = say("it is in {path}", path=shown(place)), shown(place)
     movable = is_inside and evidence.submission.file(inner) is not None
     scripts = scripts_line(data_of(evidence, "setup.py") or b"", place) if is_inside else None
+    if "/" not in place:
+        actual = say("{path} is beside setup.py, and not in the inner folder", path=place)
     if not is_inside:
         actual = say("it is in {path}, outside of the package", path=place)
     return Failed(
@@ -317,6 +319,8 @@ def _misplaced(evidence: Evidence, place: str, *, is_inside: bool) -> Failed:
         where=Where(file=place) if is_inside else None,
         variant="folder"
         if _is_inner(evidence, place)
+        else "src_layout"
+        if place == f"src/{path}"
         else ("scripts" if scripts else _way(evidence, place))
         if movable
         else "",
