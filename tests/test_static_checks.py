@@ -316,10 +316,15 @@ def test_the_marker_may_be_written_in_any_plain_way(bench: Bench, written: str) 
 # package.setup_cfg
 
 
+def test_install_alone_is_enough_and_a_misspelt_develop_is_advice(bench: Bench) -> None:
+    bench.change("setup.cfg", "[develop]", "[devlop]")
+    assert "[devlop]" in bench.passes(package.setup_cfg).advice[0]
+
+
 @pytest.mark.parametrize(
     ("old", "new", "wanted", "at", "words"),
     [
-        ("[develop]", "[devlop]", "wrong", None, "there is 'devlop'"),
+        ("[install]", "[instal]", "wrong", 3, "there is 'instal'"),
         ("[install]\ninstall_scripts=$base/lib/my_robot_controller\n", "", "wrong", None, "[ins"),
         ("script_dir=", "script_dirs=", "wrong", 2, "there is 'script_dirs'"),
         ("install_scripts=", "install_script = ", "wrong", 4, "there is 'install_script'"),

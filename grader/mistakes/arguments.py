@@ -88,7 +88,9 @@ def _first_two(raised: Raised, call: ast.Call) -> RecognisedMistake:
     named = isinstance(callback, ast.Name | ast.Attribute | ast.Lambda)
     if "\n" in code or not named or isinstance(period, ast.Lambda):
         return found
-    written = f"{text.code(call.func)}({text.code(period)}, {text.code(callback)})"
+    of_class = dotted(callback).partition(".")[0] in raised.source.class_names
+    own = f"self.{last_part(dotted(callback))}" if of_class else text.code(callback)
+    written = f"{text.code(call.func)}({text.code(period)}, {own})"
     words = {**found.words, "written": written}
     return replace(found, variant="two", words=words)
 

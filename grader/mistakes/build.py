@@ -225,6 +225,11 @@ KINDS = (
                 "{name} is given to setup() twice, in lines {line} and {last}. Delete the one that "
                 "you do not need, then build again."
             ),
+            "repeated_lists": msg(
+                "{name} is given to setup() twice, in lines {line} and {last}. Move what is in the "
+                "second list into the first one, with a comma after each element, and delete the "
+                "second {name}. Then build again."
+            ),
             "repeated_empty": msg(
                 "{name} is given to setup() twice, in lines {line} and {last}. Delete the empty one, "
                 "then build again."
@@ -1152,6 +1157,16 @@ KINDS = (
                     SETUP,
                     "    packages=find_packages(exclude=['test']),",
                     "    packages=[package_name],\n    package_dir={package_name: 'src/' + package_name},",
+                ),
+                fails="build.colcon",
+            ),
+            example(
+                "setup_data_file_of_another_name",
+                Write("launch/hello.launch.py", ""),
+                Replace(
+                    SETUP,
+                    "['package.xml']),",
+                    "['package.xml']),\n        ('share/' + package_name, ['launch/hello_launch.py']),",
                 ),
                 fails="build.colcon",
             ),

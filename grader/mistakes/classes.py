@@ -199,7 +199,13 @@ def _replaced(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _second(suspect: Suspect, found: list[ast.FunctionDef]) -> RecognisedMistake:
-    return suspect.finding("method_twice", found[-1], name=found[-1].name, line=found[-2].lineno)
+    name, source = found[-1].name, suspect.source
+    mistake = suspect.finding("method_twice", found[-1], name=name, line=found[-2].lineno)
+    timers = [timer.call.lineno for timer in source.timers if timer.method == name]
+    if len(timers) < 2:
+        return mistake
+    words = {**mistake.words, "lines": ", ".join(map(str, sorted(timers)))}
+    return replace(mistake, words=words, variant="two_timers")
 
 
 def _text_replaced(suspect: Suspect) -> RecognisedMistake | None:
@@ -462,6 +468,11 @@ KINDS = (
             ),
         },
         fixes={
+            "two_timers": msg(
+                "Give each of the two a name of its own, and write that name in the create_timer to "
+                "which it belongs (lines: {lines}). Or delete the def and the timer that you do not "
+                "need."
+            ),
             "overloaded": msg(
                 "Give the second def {name} another name, and write that name wherever it is "
                 "called with a value. The def {name}(self) in line {line} stays."
@@ -504,6 +515,19 @@ KINDS = (
                     STEP_LINE,
                     f"{STEP_LINE}\n    def timer_callback(self):\n"
                     "        self.get_logger().info('Hello')\n",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "two_timers_and_one_name",
+                Replace(
+                    NODE, TIMER, f"{TIMER}        self.create_timer(5.0, self.timer_callback)\n"
+                ),
+                Replace(
+                    NODE,
+                    STEP_LINE,
+                    f"{STEP_LINE}\n    def timer_callback(self):\n"
+                    "        self.get_logger().info('Battery: 12.6 V')\n",
                 ),
                 fails="run.output",
             ),

@@ -363,6 +363,14 @@ KINDS = (
         fixed_by=(node_count.plus,),
         examples=(
             example(
+                "plus_reversed_below_a_slow_timer",
+                Replace(NODE, "create_timer(1.0,", "create_timer(10,"),
+                Replace(NODE, "self.counter_ += 1", "self.counter_ =+ 1"),
+                fails="run.output",
+                also={"run.period": "run.wrong_period"},
+                note="the third line shows it, after 30 s of ROS time",
+            ),
+            example(
                 "counter_plus_is_plus",
                 Replace(NODE, "self.counter_ += 1", "self.counter_ =+ 1"),
                 fails="run.output",

@@ -42,6 +42,28 @@ IMPORTS = {
     },
     **{name: f"import {name}" for name in ("time", "math", "random", "sys", "threading")},
 }
+INTERFACES = {
+    **dict.fromkeys((("srv", n) for n in ("Trigger", "SetBool", "Empty")), "std_srvs.srv"),
+    **dict.fromkeys((("srv", n) for n in ("AddTwoInts",)), "example_interfaces.srv"),
+    **dict.fromkeys(
+        (
+            ("msg", n)
+            for n in ("String", "Bool", "Int8", "Int16", "Int32", "Int64", "UInt8", "UInt16",
+                      "UInt32", "UInt64", "Float32", "Float64", "Header", "ColorRGBA")
+        ),
+        "std_msgs.msg",
+    ),
+    **dict.fromkeys(
+        (("msg", n) for n in ("Twist", "TwistStamped", "Point", "Vector3", "Quaternion", "PoseStamped")),
+        "geometry_msgs.msg",
+    ),
+    **dict.fromkeys(
+        (("msg", n) for n in ("Image", "LaserScan", "Imu", "JointState", "PointCloud2")),
+        "sensor_msgs.msg",
+    ),
+    ("msg", "Odometry"): "nav_msgs.msg",
+}  # fmt: skip
+"""The modules of common messages and services, by their kind and name."""
 HOMES = {
     "Node": "rclpy.node",
     **dict.fromkeys(
@@ -126,6 +148,7 @@ def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     name = match["name"]
     head, dot, tail = name.partition(".")
     part = _part_of_module(raised, name) or _known_by_its_names(raised, name)
+    part = part or _interface_elsewhere(raised, name)
     if part is not None:
         return part
     unused = node_names.unused_import(raised.module, raised.line)
@@ -136,6 +159,19 @@ def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         close = "" if unused and raised.source.uses_ros else f"rclpy{dot}{tail}"
     found = raised.finding("import_misspelt", name=name, close=close)
     return replace(found, variant="unused") if unused and not close else found
+
+
+def _interface_elsewhere(raised: Raised, name: str) -> RecognisedMistake | None:
+    """The message or service that the line imports is known, and in another package."""
+    statement = statement_at(raised.module, raised.line)
+    kind = name.rpartition(".")[2]
+    if not isinstance(statement, ast.ImportFrom) or statement.module != name:
+        return None
+    homes = {INTERFACES.get((kind, alias.name), "") for alias in statement.names}
+    home = min(homes)
+    if len(homes) != 1 or not home or home == name:
+        return None
+    return raised.finding("import_misspelt", name=name, close=home)
 
 
 def _part_of_module(raised: Raised, name: str) -> RecognisedMistake | None:
@@ -572,6 +608,27 @@ KINDS = (
                 Replace(NODE, "node.destroy_node()", "node.destroy_robot()"),
                 fails="run.starts",
                 also={},
+            ),
+            example(
+                "service_of_std_msgs",
+                Replace(
+                    NODE,
+                    "from rclpy.node import Node\n",
+                    "from rclpy.node import Node\nfrom std_msgs.srv import Trigger\n",
+                ),
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)\n",
+                    "        self.create_timer(1.0, self.timer_callback)\n"
+                    "        self.create_service(Trigger, 'again', self.again)\n",
+                ),
+                Replace(
+                    NODE,
+                    "\n\ndef main(",
+                    "\n    def again(self, request, response):\n        self.counter_ = 0\n"
+                    "        return response\n\n\ndef main(",
+                ),
+                fails="run.starts",
             ),
             example(
                 "import_of_class_in_one",

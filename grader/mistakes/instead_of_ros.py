@@ -10,14 +10,16 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import LOG, NODE, SILENT, SPIN_UNTIL_CTRL_C, STEP_LINE, example
 from grader.mistakes.fixes import lines, node_logging, node_threads
+from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.node_timer import value_of
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.imported import full_name, imports
 from grader.package.source.lost_flag import lost_flag
-from grader.package.source.module import Function
+from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.python_logging import is_of_logging, python_logs
@@ -173,8 +175,37 @@ def _other_node_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake
                     and isinstance(node, ast.ImportFrom)
                     and node.module not in ROS_NODE
                 ):
-                    return raised.finding("other_node_class", at=node, name=base, module=full)
+                    mistake = raised.finding("other_node_class", at=node, name=base, module=full)
+                    right = _imported_before(raised.source.module_of(found), base, node)
+                    if right is None:
+                        return mistake
+                    words = {**mistake.words, "line": str(right)}
+                    return replace(mistake, words=words, variant="twice")
     return None
+
+
+def _imported_before(module: Module, name: str, other: ast.AST) -> int | None:
+    """Return the line above an import that imports the Node of ROS under the same name."""
+    rows = [
+        node.lineno
+        for bound, _, node in imports(module)
+        if isinstance(node, ast.ImportFrom) and node.module in ROS_NODE and bound == name
+    ]
+    last = getattr(other, "lineno", 0)
+    return rows[0] if len(rows) == 1 and rows[0] < last else None
+
+
+def _only_import(case: Case) -> Files | None:
+    """Delete the import that replaces the Node of ROS, if it imports nothing else."""
+    module, line = case.module, case.finding.line
+    found = [
+        (bound, node)
+        for bound, _, node in (imports(module) if module is not None else ())
+        if getattr(node, "lineno", 0) == line
+    ]
+    if module is None or len(found) != 1 or _imported_before(module, *found[0]) is None:
+        return None
+    return lines.deleted(case)
 
 
 HIDDEN_LOG = msg(
@@ -456,8 +487,23 @@ KINDS = (
         msg("The base class is not the Node of ROS"),
         msg("This line imports {module}, another class of that name, which is no ROS node."),
         msg("Write: from rclpy.node import Node"),
+        fixes={
+            "twice": msg(
+                "Delete this line: it replaces the {name} that line {line} imports from ROS."
+            )
+        },
         raised={r"TypeError: .{1,80}\.__init__\(\) ": _other_node_class},
+        fixed_by=(_only_import,),
         examples=(
+            example(
+                "other_node_class_below_that_of_ros",
+                Replace(
+                    NODE,
+                    "from rclpy.node import Node\n",
+                    "from rclpy.node import Node\nfrom xml.dom.minidom import Node\n",
+                ),
+                fails="run.starts",
+            ),
             example(
                 "other_node_class",
                 Replace(NODE, "from rclpy.node import Node", "from xml.dom import Node"),

@@ -154,6 +154,7 @@ KINDS = (
             ),
             "unclosed": msg("Write </{tag}> at the end of what <{tag}> contains."),
             "again": msg("Write </{tag}> instead of the second <{tag}>."),
+            "closed_twice": msg("Delete the second <{tag}>: one end tag closes one tag."),
             "unopened": msg("Write <{name}> before the text that <{tag}> closes."),
             "misspelt": msg("Write <{wanted}> there."),
             "unfinished": msg("Write > at the end of <{tag}"),
@@ -251,6 +252,12 @@ KINDS = (
             example(
                 "end_tags_in_the_wrong_order",
                 Replace(MANIFEST, "  </export>\n</package>\n", "</package>\n  </export>\n"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "end_tag_of_a_dependency_twice",
+                Replace(MANIFEST, "rclpy</depend>", "rclpy</depend></depend>"),
                 fails="package.manifest",
                 blocks=UNBUILT,
             ),

@@ -352,6 +352,14 @@ KINDS = (
         fixed_by=(layout.node_beside, layout.out_of_notebook),
         examples=(
             example(
+                "node_empty_beside_a_rescue_file",
+                Move(NODE, f"{NODE}.save"),
+                Write(NODE, b""),
+                fails="source.node_file",
+                also={"source.exec_bit": "source.not_executable"},
+                blocks=UNSTARTED,
+            ),
+            example(
                 "node_empty",
                 Write(NODE, b""),
                 fails="source.node_file",

@@ -12,7 +12,7 @@ from grader.mistakes.fixes import node_rates
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
-from grader.package.source.names import calls_in, dotted, last_part, own_name
+from grader.package.source.names import SPINS, calls_in, dotted, last_part, own_name
 from grader.package.source.node import NodeSource
 
 
@@ -47,6 +47,13 @@ def _in_loop(
     """Return the finding of a rate in a loop, with what to write in its place."""
     source = suspect.source
     function = source.function_around(loop)
+    once = [call for call, name in calls_in(loop) if last_part(name) in SPINS]
+    if function is source.main and once and source.timers:
+        made = ", ".join(map(str, _rows_of_rates(source)))
+        words_of: dict[str, Value] = {**found.words, "line": made}
+        if once[0].args:
+            words_of["node"] = ast.unparse(once[0].args[0])
+        return replace(found, words=words_of, variant="spins")
     if function is source.main:
         return replace(found, variant="main" if _calls_method(source, loop) else "inline")
     method = function.name if function is not None else ""
@@ -133,6 +140,10 @@ KINDS = (
             )
         },
         fixes={
+            "spins": msg(
+                "Write rclpy.spin({node}) instead of the whole loop, and delete the line that creates "
+                "the rate (line {line}). The timer already calls {callback} in each period."
+            ),
             "main": msg(
                 "Delete the loop and the line that creates the rate. Write "
                 "self.create_timer({period}, self.{callback}) in __init__: the timer calls it "
@@ -186,6 +197,21 @@ KINDS = (
                 ),
                 fails="run.output",
                 blocks=("run.period",),
+            ),
+            example(
+                "rate_beside_spin_once",
+                Replace(
+                    NODE,
+                    "node = MyFirstNode()",
+                    "node = MyFirstNode()\n    rate = node.create_rate(1)",
+                ),
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n",
+                    "        while rclpy.ok():\n            rclpy.spin_once(node)\n            rate.sleep()\n",
+                ),
+                fails="run.spins",
+                blocks=("run.output", "run.logger", "run.period"),
             ),
             example(
                 "rate_sleeps_in_main",

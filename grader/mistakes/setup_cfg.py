@@ -400,12 +400,6 @@ KINDS = (
                 blocks=UNINSTALLED,
             ),
             example(
-                "setup_cfg_without_develop",
-                Write(CFG, "[install]\ninstall_scripts=$base/lib/my_robot_controller\n"),
-                fails="package.setup_cfg",
-                note="colcon 0.21 does not need it",
-            ),
-            example(
                 "setup_cfg_without_install",
                 Write(CFG, "[develop]\nscript_dir=$base/lib/my_robot_controller\n"),
                 fails="package.setup_cfg",

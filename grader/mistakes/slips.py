@@ -606,7 +606,7 @@ def description(slip: Slip | Pasted) -> Message:
     if isinstance(slip, Slip) and slip.cause == "language":
         return say("this is not Python: {found}", found=found)
     texts = {
-        "quotes": say("typographic quotes: {found}", found=found),
+        "quotes": say("other quotes or accents: {found}", found=found),
         "blank": say("a space that is not an ordinary one: {found}", found=found),
         "sign": say("a sign that Python does not know: {found}", found=found),
         "tag": say("a part of a web page: {found}", found=found),

@@ -37,6 +37,7 @@ script-dir=$base/lib/my_robot_controller
 [install]
 install-scripts=$base/lib/my_robot_controller
 """
+ONLY_INSTALL = "[install]\ninstall_scripts=$base/lib/my_robot_controller\n"
 FORMAT_2 = """\
 <?xml version="1.0"?>
 <package format="2">
@@ -55,6 +56,7 @@ FORMAT_2 = """\
 STALE = "import os\n\nraise SystemExit('an old copy that nobody may run')\n"
 
 PACKAGING = (
+    right("setup_cfg_without_develop", Write(CFG, ONLY_INSTALL)),
     right("two_entries", Write(f"{INNER}/second.py", SECOND, 0o755),
           Replace(SETUP, ENTRY, ENTRY + ENTRY.replace("test_node", "other")
                   .replace("my_first_node", "second"))),

@@ -48,8 +48,11 @@ def third(case: Case) -> Files | None:
     if node is None or call is None or len(call.args) != 3 or dotted(call.args[2]) != "self":
         return None
     module = node.module_of(call)
-    start, end = module.text.span(call.args[1])[1], module.text.span(call.args[2])[1]
-    return case.changed(module, Splice(start, end, ""))
+    callback = call.args[1]
+    start, end = module.text.span(callback)[1], module.text.span(call.args[2])[1]
+    owner, _, name = dotted(callback).rpartition(".")
+    bound = [module.text.swap(callback, f"self.{name}")] if owner in node.class_names else []
+    return case.changed(module, *bound, Splice(start, end, ""))
 
 
 def without_names(case: Case) -> Files | None:

@@ -129,7 +129,16 @@ def plain_super(case: Case) -> Files | None:
     call = super_of(module.nodes, name, line) if module is not None else None
     if module is None or call is None:
         return None
-    return case.changed(module, module.text.swap(call, "super()"))
+    node = case.node
+    init = node.super_init if node is not None else None
+    given = init.args[0] if init is not None and init.args and module.has(init) else None
+    named = isinstance(given, ast.Constant) and isinstance(given.value, str)
+    code = module.text.code(given) if given is not None and named else ""
+    right = f"{code[:1]}{case.assignment.node_name}{code[:1]}"
+    name_too = (
+        [module.text.swap(given, right)] if given is not None and code[:1] in ("'", '"') else []
+    )
+    return case.changed(module, module.text.swap(call, "super()"), *name_too)
 
 
 def super_of(nodes: list[ast.AST], name: str, line: int | None) -> ast.Call | None:

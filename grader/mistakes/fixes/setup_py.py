@@ -102,7 +102,8 @@ def packages(case: Case) -> Files | None:
 def fault(case: Case) -> Files | None:
     """Correct what setup.py stops at."""
     found, error = case.files.data(FILE) or b"", str(case.finding.params.get("error", ""))
-    fault = setup_fault(found, error, case.package)
+    paths = [path for path, file in case.files.by_path.items() if file.kind != "folder"]
+    fault = setup_fault(found, error, case.package, paths)
     return case.with_data(FILE, fault.fixed) if fault is not None else None
 
 

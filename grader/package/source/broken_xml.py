@@ -23,7 +23,7 @@ TAGS = (
 )
 """The tags of REP 149."""
 Variant = Literal[
-    "unclosed", "again", "unopened", "misspelt", "unfinished", "quotes", "ampersand", "before",
+    "unclosed", "again", "unopened", "closed_twice", "misspelt", "unfinished", "quotes", "ampersand", "before",
     "after", "outside", "bare", "comment", "declaration", "blank", "declared_twice", "package_twice", "no_tags", "end_twice", "root_first", "typed", "typed_lines", "line_twice", "lines_swapped",
     "hyphens", "hyphens_lines", "comment_start", "less",
 ]  # fmt: skip
@@ -233,6 +233,10 @@ def _mismatch(reader: _Reader, at: int) -> XmlFault | None:
             return reader.fault("misspelt", top.name, top.start, place, wanted=name)
         return reader.fault("misspelt", f"/{name}", start, (*end.span("name"), top.name.encode()),
                             wanted=f"/{top.name}")  # fmt: skip
+    before = found[:start].rstrip()
+    if before.endswith(f"</{name}>".encode()):
+        stop = found.find(b">", start) + 1
+        return reader.fault("closed_twice", f"/{name}", start, (len(before), stop, b""))
     begin = found.rfind(b"\n", 0, start) + 1
     text = found[begin:start]
     change = []

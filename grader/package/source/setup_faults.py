@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from grader.base.nearest import nearest
@@ -53,6 +53,7 @@ class _Reader:
     module: Module
     call: ast.Call
     package: str
+    files: tuple[str, ...] = ()
 
     def argument(self, name: str) -> ast.expr | None:
         return next((k.value for k in self.call.keywords if k.arg == name), None)
@@ -72,7 +73,9 @@ class _Reader:
         return [Splice(text.span(siblings[at - 1])[1], end, "")] if at else []
 
 
-def setup_fault(found: bytes, error: str, package: str) -> SetupFault | None:
+def setup_fault(
+    found: bytes, error: str, package: str, files: Iterable[str] = ()
+) -> SetupFault | None:
     """Return why a setup.py stops with an error; None if it is not known."""
     module = parsed_setup(found)
     call = setup_call(module) if module is not None else None
@@ -80,7 +83,7 @@ def setup_fault(found: bytes, error: str, package: str) -> SetupFault | None:
         return _misspelt_call(module, error)
     if module is None or call is None:
         return None
-    reader = _Reader(module, call, package)
+    reader = _Reader(module, call, package, tuple(files))
     for pattern, look in LOOKS:
         match = re.match(pattern, error)
         fault = look(reader, match) if match is not None else None
@@ -656,7 +659,7 @@ def _not_copied(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
         named = files.elts if isinstance(files, ast.List | ast.Tuple) else []
         for node in named:
             if value_of(reader.module, node) == path:
-                close = nearest(path, ["package.xml"], cutoff=0.8)
+                close = nearest(path, ["package.xml", *reader.files], cutoff=0.8)
                 if close:
                     wanted = f"{text.quote}{close}{text.quote}"
                     swap = text.swap(node, wanted)

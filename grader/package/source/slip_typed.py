@@ -200,11 +200,13 @@ def _other_quote(text: Broken) -> Slip | None:
         return None
     start, end = text.source.end_of(text.number), text.source.start_of(text.number + 1)
     blanks = len(written) - len(written.rstrip())
-    splice = Splice(start - blanks, end + len(indent_of(below)), " ")
+    entry = re.search(r"=\s*[\w.]+[.:]\s*$", written) or re.match(r"\s*[.:]\w", below)
+    between = "" if entry else " "
+    splice = Splice(start - blanks, end + len(indent_of(below)), between)
     new = text.changed(splice)
     if new is None:
         return None
-    wanted = f"{written.strip()} {below.strip()}"
+    wanted = f"{written.strip()}{between}{below.strip()}"
     return Slip("signs", "text_two_lines", text.number, written.strip(), wanted, new,
                 other=text.number + 1)  # fmt: skip
 

@@ -17,6 +17,7 @@ from grader.base.shown import shown
 from grader.package.source.setup_faults import setup_fault, source_folders
 from grader.report.model import Where
 from grader.run.workspace import METADATA
+from grader.verdict.checks.parsed import paths_in
 from grader.verdict.outcome import Failed
 
 if TYPE_CHECKING:
@@ -65,7 +66,7 @@ def _source_folder_must_exist(evidence: Evidence) -> None:
     found = file.data if file is not None and file.kind == "file" else b""
     for folder in source_folders(found):
         error = f"package directory '{folder}'"
-        fault = setup_fault(found, error, evidence.assignment.package)
+        fault = setup_fault(found, error, evidence.assignment.package, paths_in(evidence))
         if fault is not None and evidence.submission.file(folder) is None:
             raise Failed(
                 "entry_point.other_installed",

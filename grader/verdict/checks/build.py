@@ -32,7 +32,7 @@ from grader.report.model import Where
 from grader.verdict.checks.build_log import is_inside, last_error, setup_error, summary_of
 from grader.verdict.checks.cmake import CMAKE, cmake_error
 from grader.verdict.checks.declare import BUILD, check
-from grader.verdict.checks.parsed import has_subpackages, node_path, printable_reason
+from grader.verdict.checks.parsed import has_subpackages, node_path, paths_in, printable_reason
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -386,7 +386,7 @@ def _entry_in_cfg(expected: str, error: str, name: str, setting: Setting) -> Fai
 
 
 def _fault(evidence: Evidence, error: str) -> SetupFault | None:
-    return setup_fault(_setup_py(evidence), error, evidence.assignment.package)
+    return setup_fault(_setup_py(evidence), error, evidence.assignment.package, paths_in(evidence))
 
 
 def _not_packaged(evidence: Evidence, expected: str, folder: str) -> Failed:
@@ -621,6 +621,9 @@ def _unreadable(evidence: Evidence, expected: str, error: str, where: Where) -> 
             variant = "repeated_lines"
             words = {"name": repeated[1], "line": str(first.lineno), "last": str(last.lineno)}
             empty = [one for one in twice if _is_empty(one.value)]
+            both = all(isinstance(one.value, ast.List) for one in twice)
+            if not empty and both:
+                variant = "repeated_lists"
             if len(empty) == 1:
                 variant, where = "repeated_empty", Where(file="setup.py", line=empty[0].lineno)
     elif outside is not None:

@@ -179,6 +179,7 @@ def _described(fault: XmlFault) -> Message:
     texts = {
         "unclosed": say("<{tag}> is not closed: its </{tag}> is missing", **words),
         "again": say("<{tag}> is opened twice: the second should be </{tag}>", **words),
+        "closed_twice": say("<{tag}> is there twice", **words),
         "unopened": say("<{tag}> closes nothing: its <{name}> is missing", **words),
         "misspelt": say("<{tag}> should be <{wanted}>", **words),
         "unfinished": say("<{tag} has no > at its end", **words),

@@ -330,11 +330,42 @@ def setup_cfg(evidence: Evidence) -> Passed:
             variant=fault.variant,
             words={"other": fault.other, "line": str(fault.there)},
         ) from None
+    alone = _only_install(cfg, wanted)
+    if alone is not None:
+        return Passed(actual=expected, advice=alone)
     advice = [
         *_setting(cfg, "develop", "script_dir", wanted, expected),
         *_setting(cfg, "install", "install_scripts", wanted, expected),
     ]
     return Passed(actual=expected, advice=advice)
+
+
+def _only_install(cfg: SetupCfg, wanted: str) -> list[str] | None:
+    """Return the advice on a file without [develop]; None if it has that section, or a fault.
+
+    setuptools then takes the folder of [install] for `setup.py develop` too (easy_install.py,
+    finalize_options).
+    """
+    setting = cfg.sections.get("install", {}).get("install_scripts")
+    right = setting is not None and setting.value.rstrip("/") == wanted
+    if not right or "develop" in cfg.sections or indented_heading(cfg.text):
+        return None
+    close = nearest("develop", cfg.sections)
+    if close and close != "install":
+        return [
+            say(
+                "[{close}] in setup.cfg is not read: the section is called [develop]. The build takes "
+                "the folder of [install] instead, which is the right one.",
+                close=shown(close),
+            )
+        ]
+    return [
+        say(
+            "setup.cfg has no [develop] with script_dir={wanted}, as ros2 pkg create writes it. The "
+            "build takes the folder of [install] instead, which is the right one.",
+            wanted=wanted,
+        )
+    ]
 
 
 def _no_cfg(evidence: Evidence, reason: str) -> str:

@@ -102,6 +102,11 @@ def node_path(evidence: Evidence) -> str:
     return f"{evidence.assignment.folder}/{evidence.assignment.node_file}"
 
 
+def paths_in(evidence: Evidence) -> list[str]:
+    """Return the paths of all files of the package."""
+    return [file.path for file in evidence.submission.files if file.kind != "folder"]
+
+
 def names_in(evidence: Evidence, folder: str) -> list[str]:
     """Return the names of the files directly in a folder of the package."""
     start = f"{folder}/" if folder else ""

@@ -199,7 +199,9 @@ def _empty(evidence: Evidence, path: str, data: bytes) -> Failed:
 def _lone_node(evidence: Evidence, path: str) -> str:
     """Return the one other file of the inner folder that has the node; "" if there is none."""
     inner = evidence.assignment.folder
-    names = [n for n in names_in(evidence, inner) if n.endswith(".py") and n != "__init__.py"]
+    saved = re.compile(rf"{re.escape(evidence.assignment.node_file)}(?:~|\.\w{{2,6}})")
+    names = [n for n in names_in(evidence, inner) if n.endswith(".py") or saved.fullmatch(n)]
+    names = [n for n in names if n != "__init__.py"]
     paths = [f"{inner}/{name}" for name in names]
     found = [there for there in paths if there != path and is_the_node(evidence, there)]
     return found[0] if len(found) == 1 else ""
