@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterable
 from difflib import SequenceMatcher
 
 from grader.base.nearest import nearest
 
 SAME = 0.7  # how like two words are of which one is the other with a typing mistake
+SPELT = {"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss", "å": "aa", "æ": "ae", "ø": "oe", "ł": "l"}
 SHORTEST = 3  # letters of a word that can be the beginning of another
 WORDS = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 
@@ -50,3 +52,10 @@ def meant_by(name: str, known: Iterable[str], cutoff: float) -> str:
     if len(swapped) == 1:
         return swapped.pop()
     return nearest(name, [other for other in known if is_typo(name, other)], cutoff=cutoff)
+
+
+def plain_letters(word: str) -> str:
+    """Return a word as it is written without the letters of other alphabets: `zähler` is zaehler."""
+    spelt = "".join(SPELT.get(sign, sign) for sign in word)
+    parts = unicodedata.normalize("NFKD", spelt)
+    return "".join(sign for sign in parts if not unicodedata.combining(sign)).lower()

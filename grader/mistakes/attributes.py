@@ -12,7 +12,7 @@ from typing import TypeGuard
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.alike import is_typo, meant_by
+from grader.mistakes.alike import is_typo, meant_by, plain_letters
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import lines, node_names, node_timer, rename
 from grader.mistakes.fixes.case import Case
@@ -66,8 +66,30 @@ SET_IN_METHOD = msg(
 )
 
 
+def _through_node(raised: Raised, node: str, name: str) -> dict[str, str]:
+    """Return a call of rclpy's module and that of the node; the node is no argument of the latter."""
+    code = raised.module.text.code
+    params = {"name": f"rclpy.{name}", "written": f"{node}.{name}"}
+    for call in raised.module.nodes:
+        here = isinstance(call, ast.Call) and call.lineno == raised.line
+        if not isinstance(call, ast.Call) or not here or dotted(call.func) != params["name"]:
+            continue
+        first = dotted(call.args[0]) if call.args else ""
+        if first in ("self", node) and "\n" not in code(call):
+            rest: list[ast.expr | ast.keyword] = [*call.args[1:], *call.keywords]
+            given = ", ".join(code(value) for value in rest)
+            return {"name": code(call), "written": f"{params['written']}({given})"}
+    return params
+
+
 def _close_attribute(raised: Raised, name: str) -> str:
-    return meant_by(name, raised.source.attributes, cutoff=0.75)
+    attributes = raised.source.attributes
+    spelt = [
+        other
+        for other in attributes
+        if other != name and plain_letters(other) == plain_letters(name)
+    ]
+    return spelt[0] if len(spelt) == 1 else meant_by(name, attributes, cutoff=0.75)
 
 
 def _close_method(raised: Raised, match: re.Match[str]) -> str:
@@ -423,7 +445,7 @@ def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
             return replace(found, variant="written")
     node = node_here(raised.source, raised.module, raised.line)
     if match["type"] == "rclpy" and match["name"] in NODE_METHODS and node:
-        params = {"name": f"rclpy.{match['name']}", "written": f"{node}.{match['name']}"}
+        params = _through_node(raised, node, match["name"])
         return replace(raised.finding("attribute_unknown", params=params), variant="of_node")
     if match["type"] in ("NoneType", "rclpy"):
         found = raised.finding("attribute_unknown", name=match["name"])
@@ -673,6 +695,14 @@ KINDS = (
             example(
                 "counter_of_other_name",
                 Replace(NODE, "self.counter_ = 0", "self.counter = 0"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "counter_with_an_umlaut",
+                Replace(NODE, "self.counter_ = 0", "self.z\u00e4hler = 0"),
+                Replace(NODE, "str(self.counter_)", "str(self.zaehler)"),
+                Replace(NODE, "self.counter_ += 1", "self.zaehler += 1"),
                 fails="run.output",
                 blocks=DEAD,
             ),
@@ -1024,6 +1054,11 @@ KINDS = (
         raised={ATTRIBUTE: _unknown},
         fixed_by=(lines.written,),
         examples=(
+            example(
+                "create_timer_of_rclpy_with_the_node",
+                Replace(NODE, "self.create_timer(1.0,", "rclpy.create_timer(self, 1.0,"),
+                fails="run.starts",
+            ),
             example(
                 "function_that_needs_the_node_called_as_a_method",
                 Replace(

@@ -578,6 +578,14 @@ KINDS = (
                 blocks=("entry_point.mapping",),
             ),
             example(
+                "setup_bracket_of_an_argument_open",
+                Replace(
+                    SETUP, "find_packages(exclude=['test']),", "find_packages(exclude=['test'],"
+                ),
+                fails="build.colcon",
+                blocks=("entry_point.mapping",),
+            ),
+            example(
                 "setup_quote_missing",
                 Replace(
                     SETUP,

@@ -103,7 +103,7 @@ KINDS = (
         fix=msg(
             "Create the package again, in the folder above it: mv {package} ~/{package}_old, then "
             "ros2 pkg create --build-type ament_python {package} --dependencies rclpy. Copy "
-            "{node_file} into {package}/{package}, and add '{entry}', to console_scripts in the "
+            "{node_file}, if you have written it, into {package}/{package}, and add '{entry}', to console_scripts in the "
             "new setup.py."
         ),
         link=links.PACKAGE,

@@ -723,6 +723,12 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "name": "self.get_clock",
         "written": "self.get_clock()",
     },
+    "node.decorator_not_called": {
+        "function": "log_errors",
+        "method": "on_tick",
+        "name": "@log_errors",
+        "written": "@log_errors()",
+    },
     "node.decorator_returns_none": {
         "name": "logged",
         "method": "callback",

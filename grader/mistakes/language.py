@@ -23,6 +23,7 @@ from grader.package.source.counter import logged_counter, targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import NodeSource
+from grader.package.source.place import place_of, statement_at
 
 CLOCKS = ("time", "monotonic", "perf_counter", "now", "strftime", "seconds_nanoseconds", "ctime")
 """Functions and methods that return or show a time."""
@@ -101,9 +102,16 @@ def _read_only(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
             if (kept := _returned(method)) and kept != f"self.{name}":
                 rows = _set_on(raised, name) or [raised.line or 0]
                 words = {**found.words, "written": kept, "line": ", ".join(map(str, rows))}
-                return replace(found, words=words, variant="kept")
+                where = place_of(raised.source, _assignment(raised) or method)
+                return replace(found, words=words, variant="kept", where=where)
             return found if _is_set(raised, name) else replace(found, variant="computed")
     return None
+
+
+def _assignment(raised: Raised) -> ast.stmt | None:
+    """Return the statement that raised the error, if it assigns a value."""
+    found = statement_at(raised.module, raised.line)
+    return found if isinstance(found, ast.Assign | ast.AugAssign | ast.AnnAssign) else None
 
 
 def _returned(function: Function) -> str:

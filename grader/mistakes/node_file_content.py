@@ -123,6 +123,13 @@ KINDS = (
                 blocks=UNSTARTED,
             ),
             example(
+                "accents_for_quotes",
+                Replace(NODE, "'my_first_node'", "\u00b4my_first_node\u00b4"),
+                Replace(NODE, "'Hello time: '", "\u00b4Hello time: \u00b4"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
                 "full_width_bracket",
                 Replace(NODE, "super().__init__(", "super().__init__\uff08"),
                 fails="source.node_file",

@@ -9,12 +9,12 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.constructor import lines_of
-from grader.mistakes.example import DEAD, NODE, STEP_LINE, example
+from grader.mistakes.example import DEAD, INNER, NODE, SILENT, STEP_LINE, example
 from grader.mistakes.fixes import lines, node_objects
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, on_line
+from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect, on_line
 from grader.mistakes.scope import NODE_METHODS
-from grader.package.edit.tree import Replace
+from grader.package.edit.tree import Replace, Write
 from grader.package.source.counter import starts_of, targets_of
 from grader.package.source.imported import full_name, imports, name_of_node
 from grader.package.source.module import Function
@@ -312,6 +312,16 @@ def _taken(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         if stored and isinstance(part, ast.Attribute) and own_name(part) == name:
             found = raised.finding("name_taken", at=part, name=name, written=f"{name}_")
             return replace(found, variant="property") if name in given.values() else found
+    return None
+
+
+def _own_logger(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a class that gives another value to what get_logger() returns."""
+    for module in suspect.source.known_modules:
+        for part in module.nodes:
+            stored = isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store)
+            if stored and isinstance(part, ast.Attribute) and dotted(part) == "self._logger":
+                return suspect.finding("name_taken", part, name="_logger", written="_logger_")
     return None
 
 
@@ -693,6 +703,7 @@ KINDS = (
             IN_NODE: _taken_inside,
             r"(?:Type|Attribute)Error: ": _hides_property,
         },
+        behind={"run.no_lines": _own_logger},
         fixed_by=(
             node_objects.other_attribute,
             node_objects.other_method,
@@ -713,6 +724,23 @@ KINDS = (
                 "attribute_handle",
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.handle = 0"),
                 fails="run.starts",
+            ),
+            example(
+                "logger_of_python_in_a_base_class",
+                Write(
+                    f"{INNER}/base.py",
+                    "import logging\n\nfrom rclpy.node import Node\n\n\nclass Base(Node):\n"
+                    "    def __init__(self, name):\n        super().__init__(name)\n"
+                    "        self._logger = logging.getLogger(name)\n",
+                ),
+                Replace(
+                    NODE,
+                    "from rclpy.node import Node\n",
+                    "\nfrom my_robot_controller.base import Base\n",
+                ),
+                Replace(NODE, "class MyFirstNode(Node)", "class MyFirstNode(Base)"),
+                fails="run.output",
+                blocks=SILENT,
             ),
             example(
                 "attribute_with_underscore",

@@ -33,7 +33,7 @@ NO_TEXT = msg(
     "file one of another kind."
 )
 PASTED_WHYS = {
-    "sign": KEYBOARD,
+    **dict.fromkeys(("sign", "accents"), KEYBOARD),
     **dict.fromkeys(("command", "heredoc", "editor"), TYPED),
     **dict.fromkeys(
         ("page", "markup", "word", "conflict", "conflict_rest", "numbers", "prose", "around"),
@@ -45,6 +45,10 @@ PASTED_WHYS = {
 }
 PASTED = {
     "quotes": msg("Type the quotes of that line again: ' or \" on the keyboard."),
+    "accents": msg(
+        "Type the quotes of that line again, and those of other lines with {found}: ' or \" on the "
+        "keyboard, and not the key of the accents."
+    ),
     "blank": msg("Delete the spaces of that line and type them again."),
     "sign": msg("Type that sign again, with the keyboard set to English."),
     "tag": msg("Remove {found}: it belongs to the web page, not to the code."),
@@ -271,6 +275,9 @@ SIGNS = {
     ),
     "bracket_kind": msg(
         "A bracket of this line is of another kind than the one that it closes. Write: {wanted}"
+    ),
+    "bracket_argument": msg(
+        "A bracket of this line is not closed before the comma at its end. Write: {wanted}"
     ),
     "bracket_open": msg(
         "A bracket of this line is not closed. Write {wanted} where the part in brackets ends."
@@ -606,7 +613,8 @@ def description(slip: Slip | Pasted) -> Message:
     if isinstance(slip, Slip) and slip.cause == "language":
         return say("this is not Python: {found}", found=found)
     texts = {
-        "quotes": say("other quotes or accents: {found}", found=found),
+        "quotes": say("typographic quotes: {found}", found=found),
+        "accents": say("accents instead of quotes: {found}", found=found),
         "blank": say("a space that is not an ordinary one: {found}", found=found),
         "sign": say("a sign that Python does not know: {found}", found=found),
         "tag": say("a part of a web page: {found}", found=found),

@@ -68,7 +68,7 @@ def test_a_killed_worker_costs_nobody_a_verdict(ros_jazzy: Ros, tmp_path: Path) 
     assert _sandbox_processes() == {}
 
 
-@pytest.mark.full
+@pytest.mark.long  # (it waits for half a minute)
 def test_a_hanging_worker_is_ended_and_the_submission_tried_again(
     ros_jazzy: Ros, tmp_path: Path
 ) -> None:

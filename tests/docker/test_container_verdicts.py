@@ -46,7 +46,7 @@ def test_a_right_variant_gets_full_marks_in_containers(package: Package, tmp_pat
     assert report.environment.sandbox == "docker"
 
 
-@pytest.mark.parametrize("package", some(BROKEN, 120, later=9))
+@pytest.mark.parametrize("package", some(BROKEN, 200, later=9))
 def test_a_broken_package_fails_alike_in_containers(package: Package, tmp_path: Path) -> None:
     assert_verdict(package, mark(write(package, tmp_path), sandbox="docker"))
 

@@ -63,7 +63,7 @@ LACKS = "AttributeError: '{0}' object has no attribute '{1}'"
         (BASE, LACKS.format("N", "period"), 9, "attribute_set_late", "", 6),
         ("class N(Node):\n    @property\n    def n(self):\n        return self._n\n"
          "    def tick(self):\n        self.n += 1\n",
-         "AttributeError: property 'n' of 'N' object has no setter", 8, "property_set", "kept", 5),
+         "AttributeError: property 'n' of 'N' object has no setter", 8, "property_set", "kept", 8),
         ("import rclpy.robot\nclass N(rclpy.robot.Node):\n    pass\n",
          "ModuleNotFoundError: No module named 'rclpy.robot'", 3, "import_misspelt", "used", 3),
         ("class N(Node):\n    def __init__(self):\n        super.__init__('n')\n",

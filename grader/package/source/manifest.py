@@ -28,7 +28,17 @@ KNOWN_PACKAGES = (
     *("example_interfaces", "rcl_interfaces", "rosgraph_msgs", "turtlesim", "tf2_ros", "tf2_py"),
     *("launch", "launch_ros", "ament_index_python", "ros2launch", "cv_bridge", "image_transport"),
     *("ament_copyright", "ament_flake8", "ament_pep257", "ament_xmllint", "ament_mypy"),
-    *("ament_lint_auto", "ament_lint_common", "ament_cmake", "ament_python", "rviz2", "xacro"),
+    *(
+        "ament_lint_auto",
+        "ament_lint_common",
+        "ament_cmake",
+        "ament_cmake_python",
+        "ament_cmake_auto",
+        "ament_index_python",
+        "ament_python",
+        "rviz2",
+        "xacro",
+    ),
     *("robot_state_publisher", "joint_state_publisher", "python3-pytest", "python3-setuptools"),
 )
 CONTEXT = {"ROS_VERSION": "2", "ROS_PYTHON_VERSION": "3"}  # what ROS 2's setup files set

@@ -88,6 +88,7 @@ SINGLE, DOUBLE = (
 )
 BLANKS = "\u00a0\u1680\u2000-\u200a\u202f\u205f\u3000"
 NOTHING = "\u200b-\u200f\u2028-\u202e\u2060\ufeff\u00ad"
+ACCENTS = "\u00b4`"
 SIGNS = {"\u2010": "-", "\u2011": "-", "\u2012": "-", "\u2013": "-", "\u2014": "-", "\u2212": "-",
          "\u2026": "...", "\u3001": ",", "\u3002": "."}  # fmt: skip
 ENTITIES = {"&nbsp;": " ", "&lt;": "<", "&gt;": ">", "&amp;": "&", "&quot;": '"', "&#39;": "'",
@@ -223,7 +224,8 @@ def _scan(source: SourceText) -> Iterator[Pasted]:
                 signs = "".join(dict.fromkeys(text[s.start : s.end] for s in closed.changes))
                 for change in closed.changes:
                     there = line + _ends(text, start, change.start)
-                    yield Pasted("quotes", there, signs, change)
+                    accents = set(signs) <= set(ACCENTS)
+                    yield Pasted("accents" if accents else "quotes", there, signs, change)
             continue
         kind = next((kind for kind in KINDS if match[kind]), "")
         if not kind:

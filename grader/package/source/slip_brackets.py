@@ -18,6 +18,8 @@ OTHER = re.compile(r"closing parenthesis '[)\]}]' does not match opening parenth
 OF_SUPER = re.compile(r"\bsuper[ \t]*\([ \t]*\w+[ \t]*,[ \t]*(?P<object>self)\.__init__[ \t]*\(")
 KEY = re.compile(r"['\"]_*['\"][ \t]*:")
 MOST_AT_ONCE = 3
+MOST_ARGUMENTS = 60  # lines below an open bracket that are looked at
+ARGUMENT = re.compile(r"[ \t]*\w+[ \t]*=(?!=)")
 
 
 @dataclass(frozen=True)
@@ -35,11 +37,41 @@ class Open:
         return PAIRS[self.signs[-1]]
 
 
+def _open_argument(text: Broken, found: Open) -> Slip | None:
+    """Return a line of a call's arguments with an open bracket before its comma, if it is the only one."""
+    slips = []
+    for number in range(found.line + 1, min(found.line + MOST_ARGUMENTS, len(text.source.lines))):
+        row, written, below = (
+            text.code.line(number),
+            text.source.line(number),
+            text.source.line(number + 1),
+        )
+        signs: list[str] = []
+        for match in BRACKET.finditer(row):
+            if match[0] in PAIRS:
+                signs.append(match[0])
+            elif signs:
+                signs.pop()
+        alike = indent_of(below) == indent_of(written) and ARGUMENT.match(below) is not None
+        if not signs or not row.rstrip().endswith(",") or not alike:
+            continue
+        at = len(written.rstrip()) - 1
+        start = text.source.start_of(number) + at
+        new = text.source.spliced([Splice(start, start, PAIRS[signs[-1]])])
+        if new is not None and can_parse(new):
+            wanted = f"{written[:at]}{PAIRS[signs[-1]]},".strip()
+            slips.append(Slip("signs", "bracket_argument", number, written.strip(), wanted, new))
+    return slips[0] if len(slips) == 1 else None
+
+
 def open_bracket(text: Broken) -> Slip | None:
     """Return a bracket that is not closed where it must be."""
     found = _open(text)
     if found is None:
         return None
+    argument = _open_argument(text, found)
+    if argument is not None:
+        return argument
     shown = text.source.line(found.line).strip()
     opener = _opener(text, found)
     if opener is not None:
