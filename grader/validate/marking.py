@@ -6,7 +6,7 @@ import contextlib
 import itertools
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from grader.base.unheard import unheard
@@ -23,13 +23,15 @@ from grader.verdict.static import evaluate_static
 from grader.verdict.take_in import take_in_for
 
 UNDECIDED = ("inconclusive", "error")
+MOST_TRANSCRIPT = 4_000  # characters
 
 
 @dataclass(frozen=True)
 class Marked:
     """The result of marking a package: each check's status, and the mistakes of failed checks.
 
-    `problem` is the reason if it could not be marked, `seconds` the duration (0 for files only).
+    `problem` is the reason if it could not be marked, `seconds` the duration (0 for files only),
+    `transcript` the end of what the program printed.
     """
 
     status: Mapping[str, CheckStatus]
@@ -38,6 +40,7 @@ class Marked:
     ran: bool = False
     seconds: float = 0
     problem: str = ""
+    transcript: str = ""
 
     @property
     def failed(self) -> tuple[str, ...]:
@@ -101,7 +104,8 @@ def _of(done: Done) -> Marked:
     if report is None:
         last = done.answer.fault.strip().splitlines()[-1:]
         return Marked({}, problem=last[0] if last else "the grader itself failed")
-    return _marked(report.checks, score=report.score, ran=True, seconds=report.timing.total)
+    marked = _marked(report.checks, score=report.score, ran=True, seconds=report.timing.total)
+    return replace(marked, transcript=report.evidence.transcript[-MOST_TRANSCRIPT:])
 
 
 def _marked(

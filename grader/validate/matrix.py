@@ -174,6 +174,7 @@ def _wanting(marked: Marked) -> str:
 
 
 def _json_row(row: MutantResult) -> dict[str, object]:
+    printed = {"transcript": row.marked.transcript} if row.fault else {}
     return {
         "mutant": row.mutant.name,
         "named": row.mutant.named,
@@ -184,6 +185,7 @@ def _json_row(row: MutantResult) -> dict[str, object]:
         "ran": row.marked.ran,
         "fault": row.fault,
         "seconds": round(row.marked.seconds, 3),
+        **printed,
     }
 
 

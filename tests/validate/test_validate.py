@@ -83,9 +83,12 @@ def test_a_mutant_that_must_run_fails_the_expected_check(name: str, tmp_path: Pa
 def test_a_surviving_mutant_is_reported(tmp_path: Path) -> None:
     harmless = CHECKED + "      - {write: README.md, text: hello}\n"
     found = keys(tmp_path, harmless)
-    status, shown, _ = validate("hello_time", "--keys", found, "--only", "mine")
+    matrix = tmp_path / "m.json"
+    status, shown, _ = validate("hello_time", "--keys", found, "--only", "mine", "--json", matrix)
     assert status == 1
     assert "mine: survived" in shown
+    (row,) = json.loads(matrix.read_text())["rows"]
+    assert "Hello time: 1" in row["transcript"]
 
 
 @pytest.mark.full
