@@ -10,7 +10,7 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.constructor import PRIVATE
 from grader.mistakes.example import DEAD, NODE, SILENT, STEP_LINE, example
-from grader.mistakes.fixes import node_classes
+from grader.mistakes.fixes import lines, node_classes
 from grader.mistakes.kind import Family
 from grader.mistakes.order import spun_names
 from grader.mistakes.recognised import (
@@ -141,6 +141,22 @@ def _field_order(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
             named = isinstance(node, ast.AnnAssign) and dotted(node.target) == match["name"]
             if named and isinstance(node, ast.AnnAssign) and node.value is None:
                 found = raised.finding("field_order", at=node, name=match["name"])
+                value = node.annotation
+                code = raised.source.module_of(node).text.code
+                if (
+                    isinstance(value, ast.Constant)
+                    and value.value is not None
+                    and value.value is not ...
+                ):
+                    kind = type(value.value).__name__
+                    written = f"{match['name']}: {kind} = {code(value)}"
+                    params = {"name": code(node), "written": written}
+                    mistake = raised.finding("field_order", at=node, params=params)
+                    return replace(
+                        mistake,
+                        words={**mistake.words, "type": owner.name, "kind": kind},
+                        variant="value",
+                    )
                 return replace(found, words={**found.words, "type": owner.name})
     return None
 
@@ -364,12 +380,34 @@ KINDS = (
         ),
         msg("Move this line above the fields of {type} that have a value, or give {name} a value."),
         links.PYTHON_CLASSES,
+        whys={
+            "value": msg(
+                "What stands behind the colon is the type of a field, and not its value, so this field of "
+                "{type} has no value. One without a value cannot follow one that has a value."
+            )
+        },
+        fixes={"value": msg("Write {written} instead of {name}.")},
+        fixed_by=(lines.written,),
         raised={
             r"TypeError: non-default argument '(?P<name>\w{1,80})' follows default argument": (
                 _field_order
             )
         },
         examples=(
+            example(
+                "field_with_its_value_as_type",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "from dataclasses import dataclass\n\nimport rclpy\nfrom",
+                ),
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "@dataclass\nclass State:\n    text: str = 'Hello'\n    period: 1.0\n\n\nclass MyFirstNode",
+                ),
+                fails="run.starts",
+            ),
             example(
                 "field_without_value_last",
                 Replace(

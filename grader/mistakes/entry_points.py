@@ -13,6 +13,7 @@ from grader.mistakes import links
 from grader.mistakes.example import (
     BODY_OF_MAIN,
     CFG,
+    INNER,
     NODE,
     SETUP,
     UNBUILT,
@@ -23,7 +24,7 @@ from grader.mistakes.example import (
 from grader.mistakes.fixes import entries, layout, setup_cfg, setup_py
 from grader.mistakes.kind import Kind, Parts
 from grader.mistakes.package_dir import SOURCE_FOLDER, SOURCE_FOLDERS
-from grader.package.edit.tree import Delete, Move, Replace, Write
+from grader.package.edit.tree import Copy, Delete, Move, Replace, Write
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -155,7 +156,8 @@ KINDS = (
                 "colcon builds this package with setup.py, and does not read the scripts of "
                 "pyproject.toml. In a new folder, run ros2 pkg create --build-type ament_python "
                 "{package}, and copy its setup.py here. Add '{wanted}', to console_scripts, and delete "
-                "the tables [project…] and [build-system] of pyproject.toml."
+                "pyproject.toml, or all its tables for the package: [project…], [build-system] and "
+                "[tool.setuptools…]."
             ),
             "inner": msg(
                 "Move it out of the inner folder. In the package's folder, run: mv {there} ."
@@ -627,6 +629,15 @@ KINDS = (
         examples=(
             example(
                 "entry_missing",
+                Replace(
+                    SETUP, "            'test_node = my_robot_controller.my_first_node:main',\n", ""
+                ),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "entry_in_a_stray_setup",
+                Copy(SETUP, f"{INNER}/setup.py"),
                 Replace(
                     SETUP, "            'test_node = my_robot_controller.my_first_node:main',\n", ""
                 ),

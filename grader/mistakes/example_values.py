@@ -916,7 +916,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "method": "on_cycle",
         "line": "12",
     },
-    "node.field_order": {"name": "text", "type": "State"},
+    "node.field_order": {"name": "text", "type": "State", "written": "text: str = ''"},
     "node.error_logged": {
         "line": "12",
         "at": "12",

@@ -721,6 +721,12 @@ KINDS = (
                 fails="run.starts",
             ),
             example(
+                "node_replaced_by_the_own_name",
+                Replace(NODE, "from rclpy.node import Node", "from rclpy.node import MyFirstNode"),
+                Replace(NODE, "(Node)", "(MyFirstNode)"),
+                fails="run.starts",
+            ),
+            example(
                 "node_of_rclpy_renamed",
                 Replace(NODE, "from rclpy.node import Node", "from rclpy.node import HelloNode"),
                 Replace(NODE, "(Node)", "(HelloNode)"),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import CFG, INNER, MANIFEST, MARKER, SETUP, UNBUILT, example
+from grader.mistakes.example import CFG, INNER, MANIFEST, MARKER, SETUP, UNBUILT, UNSTARTED, example
 from grader.mistakes.fixes import layout, manifest, setup_py
 from grader.mistakes.kind import Kind, Parts
 from grader.mistakes.submission import UNIT
@@ -699,6 +699,31 @@ KINDS = (
                 Move(INNER, "my_controller"),
                 fails="package.manifest",
                 note="builds and runs under its own name",
+            ),
+            example(
+                "name_misspelt_but_the_entry",
+                Replace(
+                    MANIFEST, "<name>my_robot_controller</name>", "<name>my_robot_conroller</name>"
+                ),
+                Replace(
+                    SETUP,
+                    "package_name = 'my_robot_controller'",
+                    "package_name = 'my_robot_conroller'",
+                ),
+                Write(
+                    CFG,
+                    (
+                        "[develop]\n"
+                        "script_dir=$base/lib/my_robot_conroller\n"
+                        "[install]\n"
+                        "install_scripts=$base/lib/my_robot_conroller\n"
+                    ),
+                ),
+                Move(MARKER, "resource/my_robot_conroller"),
+                Move(INNER, "my_robot_conroller"),
+                fails="package.manifest",
+                also={"entry_point.mapping": "setup.other_package"},
+                blocks=UNSTARTED,
             ),
             example(
                 "name_misspelt_throughout",

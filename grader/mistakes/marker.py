@@ -88,6 +88,17 @@ KINDS = (
             setup_py.marker_and_line,
         ),
         examples=(
+            example(
+                "marker_without_slash_by_names",
+                Replace(SETUP, "\nsetup(", "RESOURCE = 'resource'\nSHARE = 'share/'\n\nsetup("),
+                Replace(
+                    SETUP,
+                    "('share/ament_index/resource_index/packages',\n            ['resource/' + package_name]),",
+                    "(SHARE + 'ament_index/resource_index/packages', [RESOURCE + package_name]),",
+                ),
+                fails="package.marker",
+                blocks=UNBUILT,
+            ),
             example("marker_missing", Delete(MARKER), fails="package.marker", blocks=UNBUILT),
             example(
                 "marker_and_its_line_missing",

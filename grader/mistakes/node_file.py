@@ -17,7 +17,7 @@ from grader.mistakes.example import (
 )
 from grader.mistakes.fixes import layout
 from grader.mistakes.kind import Kind
-from grader.package.edit.tree import Chmod, Crlf, Delete, Move, Replace, Write
+from grader.package.edit.tree import Chmod, Copy, Crlf, Delete, Move, Replace, Write
 
 PLACE = msg(
     "Python imports the node as the module <package>.<file>, so the file must be in the inner "
@@ -351,6 +351,13 @@ KINDS = (
         link=links.FIRST_NODE,
         fixed_by=(layout.node_beside, layout.out_of_notebook),
         examples=(
+            example(
+                "node_empty_and_the_program_beside_setup",
+                Copy(NODE, "my_first_node.py"),
+                Write(NODE, b""),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
             example(
                 "node_empty_beside_a_rescue_file",
                 Move(NODE, f"{NODE}.save"),

@@ -16,6 +16,7 @@ FOLLOWS = {
         *("package.marker_missing", "package.setup_cfg_missing", "setup.missing"),
         "source.no_node_file",
     ),
+    "package.name_mismatch": ("setup.other_package",),
     "source.empty_node_file": ("source.no_shebang",),
     "source.misplaced_node_file": ("setup.other_module",),
 }

@@ -102,6 +102,9 @@ def _in_import(
     splices = [Splice(at, at + len(name), close)]
     bound = {alias.asname or alias.name for alias in statement.names}
     uses = _names(module, name) if name in bound and not _names(module, close) else []
+    own = [c for c in module.classes if c.name == name]
+    if own:  # (the uses below the class mean the class)
+        uses = [use for use in uses if use.lineno <= own[0].lineno]
     if any(isinstance(use.ctx, ast.Store) for use in uses):
         return None
     of_uses = splices_of(module, uses, close)

@@ -146,15 +146,32 @@ def _pair(node: ast.expr) -> tuple[ast.Constant, ast.expr] | None:
     return None
 
 
+def _files_of_index(setup: SetupCall, item: ast.expr) -> ast.expr | None:
+    """Return the files of an item of data_files whose folder is that of the markers."""
+    if not isinstance(item, ast.Tuple | ast.List) or len(item.elts) != 2:
+        return None
+    return item.elts[1] if _text_of(setup, item.elts[0]).strip("/") == INDEX else None
+
+
+def _text_of(setup: SetupCall, node: ast.expr) -> str:
+    """Return a text that is written, a name for one, or a sum of both; "" if it is not known."""
+    literal = setup.literal(node)
+    if literal is not None:
+        return str(literal.value)
+    if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Add):
+        return ""
+    parts = [_text_of(setup, part) for part in (node.left, node.right)]
+    return "".join(parts) if all(parts) else ""
+
+
 def _renamed(setup: SetupCall, case: Case) -> list[Splice]:
     """Return the splice that corrects a wrong name in the marker's line."""
     data_files = setup.argument("data_files")
     items = data_files.elts if isinstance(data_files, ast.List | ast.Tuple) else []
     for item in items:
-        pair = _pair(item)
-        if pair is None or str(pair[0].value).strip("/") != INDEX:
+        files = _files_of_index(setup, item)
+        if files is None:
             continue
-        files = pair[1]
         if not isinstance(files, ast.List | ast.Tuple) or len(files.elts) != 1:
             return []
         named = files.elts[0]
@@ -181,7 +198,7 @@ def _added(setup: SetupCall, case: Case) -> list[Splice]:
         return setup.new_argument("data_files", ["[", f"    {row},", "],"])
     if not isinstance(data_files, ast.List):
         return []
-    if any((pair := _pair(e)) and str(pair[0].value).strip("/") == INDEX for e in data_files.elts):
+    if any(_files_of_index(setup, item) is not None for item in data_files.elts):
         return []
     return setup.into_list(data_files, row)
 

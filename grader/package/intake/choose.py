@@ -141,7 +141,15 @@ def _hints(tree: Tree, chosen: Candidate, candidates: list[Candidate]) -> list[s
         )
     inner = [c for c in candidates if chosen in _around(c, candidates)]
     inner = [c for c in inner if not _moved(tree, chosen, c)]
-    if inner and inner[0].name == chosen.name:
+    if inner and tree.file(join(inner[0].path, MANIFEST)) is None:
+        hints.append(
+            say(
+                "There is another setup.py in {path}. colcon does not read it: it builds the package "
+                "with the setup.py beside package.xml. Delete it.",
+                path=shown(inner[0].path),
+            )
+        )
+    elif inner and inner[0].name == chosen.name:
         hints.append(
             say(
                 "There is another package of the same name inside this one ({path}): ros2 pkg "

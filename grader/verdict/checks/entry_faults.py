@@ -13,7 +13,7 @@ from grader.package.source.in_class import calls_of_method, line_in_class
 from grader.package.source.python import PythonFault, parse_python
 from grader.package.source.values import Table, Text
 from grader.report.model import Where
-from grader.verdict.checks.parsed import file_of, names_in, node_path
+from grader.verdict.checks.parsed import data_of, file_of, names_in, node_path
 from grader.verdict.outcome import Failed
 
 if TYPE_CHECKING:
@@ -226,6 +226,12 @@ def _no_entry(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed
     in_cfg = bool(points.groups) and _has_no_points(setup)
     if names:
         actual = say("there are only: {names}", names=names)
+    stray = f"{evidence.assignment.folder}/setup.py"
+    if evidence.assignment.target.encode() in (data_of(evidence, stray) or b""):
+        actual = say(
+            "console_scripts has no entry; it is in {path}, which colcon does not read: delete that file",
+            path=stray,
+        )
     if comment is not None:
         line, variant = comment[0], "comment"
         actual = say("the entry is commented out: # {comment}", comment=shown(comment[1]))

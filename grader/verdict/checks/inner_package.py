@@ -55,6 +55,8 @@ def entry_in_inner_package(evidence: Evidence) -> Failed | None:
         return None
     if data_of(evidence, node_path(evidence)) is None:
         return None
+    if data_of(evidence, f"{inner}/package.xml") is None:
+        return None  # (only a stray setup.py)
     lines = (data_of(evidence, path) or b"").splitlines()
     target = evidence.assignment.target.encode()
     line = next((n for n, text in enumerate(lines, 1) if target in text), None)

@@ -203,6 +203,9 @@ def _lone_node(evidence: Evidence, path: str) -> str:
     names = [n for n in names_in(evidence, inner) if n.endswith(".py") or saved.fullmatch(n)]
     names = [n for n in names if n != "__init__.py"]
     paths = [f"{inner}/{name}" for name in names]
+    paths += [
+        name for name in names_in(evidence, "") if name.endswith(".py") and name != "setup.py"
+    ]
     found = [there for there in paths if there != path and is_the_node(evidence, there)]
     return found[0] if len(found) == 1 else ""
 
