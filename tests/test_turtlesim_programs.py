@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import math
 import os
 import re
 import shlex
+import signal
 import subprocess
 import termios
 from collections.abc import Callable, Iterator
@@ -126,7 +128,10 @@ class Terminals:
         return wait
 
     def close(self) -> None:
+        """End each command with its whole process group: ros2 run's program outlives ros2 run."""
         for terminal in self._open:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(terminal.pid, signal.SIGKILL)
             terminal.close(force=True)
 
 
