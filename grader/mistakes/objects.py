@@ -223,6 +223,13 @@ def _name_not_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
     passed = _passed_name(raised, dotted(given))
     if passed is not None:
         return passed
+    owner = dotted(given).rpartition(".")[0]
+    for module in raised.source.known_modules:
+        for found in module.classes:
+            if found.name == owner and any(dotted(b).endswith("Enum") for b in found.bases):
+                params = {"name": code, "written": f"{code}.value"}
+                mistake = raised.finding("name_not_text", at=call, params=params)
+                return replace(mistake, words={**mistake.words, "type": owner}, variant="member")
     return raised.finding("name_not_text", at=call, name=code, written=new)
 
 
@@ -598,9 +605,12 @@ KINDS = (
             "given": msg(
                 "The parameter {parameter} of __init__ is the node's name. This call gives {value} for "
                 "it, which is no text."
-            )
+            ),
+            "member": msg(
+                "{type} is an Enum: its member {name} has a name and a value, and only the value is a text."
+            ),
         },
-        fixes={"given": msg("Write {written} instead of {name}.")},
+        fixes=dict.fromkeys(("given", "member"), msg("Write {written} instead of {name}.")),
         raised={"incompatible constructor arguments": _name_not_text},
         fixed_by=(lines.written,),
         examples=(
@@ -610,6 +620,17 @@ KINDS = (
                 Replace(NODE, "('my_first_node')", "(name)"),
                 Replace(NODE, "create_timer(1.0", "create_timer(period"),
                 Replace(NODE, "node = MyFirstNode()", "node = MyFirstNode(1.0, 'my_first_node')"),
+                fails="run.starts",
+            ),
+            example(
+                "member_of_an_enum_for_node_name",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class Names(Enum):\n    FIRST = 'my_first_node'\n\n\nclass MyFirstNode",
+                ),
+                Replace(NODE, "import rclpy\nfrom", "from enum import Enum\n\nimport rclpy\nfrom"),
+                Replace(NODE, "('my_first_node')", "(Names.FIRST)"),
                 fails="run.starts",
             ),
             example(
