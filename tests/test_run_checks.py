@@ -282,6 +282,7 @@ def test_the_call_that_logs_the_count_logs_another_text(bench: Bench) -> None:
         ("Bonjour: {}", 0, False),
         ("Bonjour {} of 10", 1, False),
         ("Bonjour: {}.5", 1, False),
+        (f"Bonjour: {'9' * 5_000}{{}}", 1, False),
     ],
 )
 def test_a_wrong_start_is_told_beside_another_text(

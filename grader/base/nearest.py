@@ -32,6 +32,12 @@ def nearest(word: str, words: Iterable[str], cutoff: float = ALIKE) -> str:
     return max(alike, key=lambda other: difflib.SequenceMatcher(None, word, other).ratio())
 
 
+def without_accents(text: str) -> str:
+    """Return a text in lower case without accents."""
+    parts = unicodedata.normalize("NFKD", text.casefold())
+    return "".join(c for c in parts if not unicodedata.category(c).startswith("M"))
+
+
 def nearest_path(path: Path) -> str:
     """Return the path with its first wrong name corrected; "" if no name beside it is near.
 

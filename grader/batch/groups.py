@@ -13,7 +13,7 @@ import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from grader.batch.match import folded
+from grader.base.nearest import without_accents
 from grader.batch.model import Student
 from grader.batch.roster import RosterLine
 
@@ -141,4 +141,4 @@ def _as_moodle_writes(name: str) -> Iterator[str]:
 
 def _loosely(name: str) -> Iterator[str]:
     for text in _as_moodle_writes(name):
-        yield " ".join(folded(text).split())
+        yield " ".join(without_accents(text).split())

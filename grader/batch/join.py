@@ -6,9 +6,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import datetime
 
+from grader.base.nearest import without_accents
 from grader.base.plain_text import one_line
 from grader.batch.groups import Groups, find_groups, group_column
-from grader.batch.match import Match, fallback_rules, folded, is_same_name, match_more, sure_rules
+from grader.batch.match import Match, fallback_rules, is_same_name, match_more, sure_rules
 from grader.batch.model import Elsewhere, HandedIn, OnRoster, Student
 from grader.batch.roster import Roster
 from grader.batch.systems.system import System
@@ -163,7 +164,7 @@ def _timed(group: list[HandedIn], at: datetime | None) -> list[HandedIn]:
 
 def _by_student_name(groups: Iterable[list[HandedIn]]) -> Iterator[HandedIn]:
     def place(group: list[HandedIn]) -> tuple[str, str]:
-        return folded(group[0].student.name), group[0].student.key
+        return without_accents(group[0].student.name), group[0].student.key
 
     for group in sorted(groups, key=place):
         yield from group

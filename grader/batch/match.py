@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
+from grader.base.nearest import without_accents
 from grader.batch.model import Student
 from grader.batch.roster import Roster
 from grader.batch.systems.system import System
@@ -113,12 +114,6 @@ def is_same_name(own: Student, line: Student) -> bool:
     return Counter("".join(_words(own))) == Counter("".join(_words(line)))
 
 
-def folded(name: str) -> str:
-    """Return a name in lower case without accents."""
-    plain = unicodedata.normalize("NFKD", name.casefold())
-    return "".join(c for c in plain if not unicodedata.category(c).startswith("M"))
-
-
 def _by_number(students: Sequence[Student], roster: Roster) -> MatchRule:
     """Return the rule for the system's own number.
 
@@ -196,7 +191,7 @@ def _tails(student: Student) -> Iterator[str]:
 
 
 def _words(student: Student) -> list[str]:
-    spaced = "".join(c if c.isalnum() else " " for c in folded(student.name))
+    spaced = "".join(c if c.isalnum() else " " for c in without_accents(student.name))
     return spaced.split()
 
 

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import re
-import unicodedata
 from collections.abc import Iterable
 from difflib import SequenceMatcher
 
-from grader.base.nearest import nearest
+from grader.base.nearest import nearest, without_accents
 
 SAME = 0.7  # how like two words are of which one is the other with a typing mistake
 SPELT = {"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss", "å": "aa", "æ": "ae", "ø": "oe", "ł": "l"}
@@ -56,6 +55,4 @@ def meant_by(name: str, known: Iterable[str], cutoff: float) -> str:
 
 def plain_letters(word: str) -> str:
     """Return a word as it is written without the letters of other alphabets: `zähler` is zaehler."""
-    spelt = "".join(SPELT.get(sign, sign) for sign in word)
-    parts = unicodedata.normalize("NFKD", spelt)
-    return "".join(sign for sign in parts if not unicodedata.combining(sign)).lower()
+    return without_accents("".join(SPELT.get(sign, sign) for sign in word.casefold()))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 from dataclasses import replace
 
 from grader.base.i18n.message import joined, msg, say
@@ -33,7 +32,7 @@ def _is_async(suspect: Suspect) -> RecognisedMistake | None:
         say(
             "line {line}: {new} instead of {code}", line=n.lineno, new=new, code=module.text.code(n)
         )
-        for n, new in sorted(_changes(module, function), key=lambda change: change[0].lineno)
+        for n, new in _changes(module, function)
         if "\n" not in module.text.code(n)
     ]
     if not changes:
@@ -43,16 +42,20 @@ def _is_async(suspect: Suspect) -> RecognisedMistake | None:
     )
 
 
-def _changes(module: Module, function: ast.AsyncFunctionDef) -> Iterator[tuple[ast.expr, str]]:
-    """Yield what works only with async: each `await` of the function, and its asyncio.run."""
+def _changes(module: Module, function: ast.AsyncFunctionDef) -> list[tuple[ast.expr, str]]:
+    """Return what works only with async, by line: each `await` of the function, and asyncio.run."""
+    changes: list[tuple[ast.expr, str]] = [
+        (node, _called_directly(module, node.value))
+        for node in ast.walk(function)
+        if isinstance(node, ast.Await)
+    ]
     for node in module.nodes:
-        if isinstance(node, ast.Await) and node in set(ast.walk(function)):
-            yield node, _called_directly(module, node.value)
-        run = isinstance(node, ast.Call) and dotted(node.func) in ("asyncio.run", "run")
-        if isinstance(node, ast.Call) and run and len(node.args) == 1:
-            call = node.args[0]
-            if isinstance(call, ast.Call) and dotted(call.func) == function.name:
-                yield node, module.text.code(call)
+        if not isinstance(node, ast.Call) or dotted(node.func) not in ("asyncio.run", "run"):
+            continue
+        call = node.args[0] if len(node.args) == 1 else None
+        if isinstance(call, ast.Call) and dotted(call.func) == function.name:
+            changes.append((node, module.text.code(call)))
+    return sorted(changes, key=lambda change: change[0].lineno)
 
 
 def _called_directly(module: Module, waited: ast.expr) -> str:
@@ -73,9 +76,9 @@ def _plain(case: Case) -> Files | None:
         return None
     module, text = node.module_of(main), node.module_of(main).text
     start = text.span(main)[0]
-    changes = list(_changes(module, main))
-    inside = {n for n in ast.walk(main) if isinstance(n, ast.AsyncFor | ast.AsyncWith)}
-    if inside or not text.text.startswith("async def ", start):
+    changes = _changes(module, main)
+    loops = any(isinstance(n, ast.AsyncFor | ast.AsyncWith) for n in ast.walk(main))
+    if loops or not text.text.startswith("async def ", start):
         return None
     sleeps = any("asyncio." in new for _, new in changes)
     head = Splice(start, start + len("async "), "")

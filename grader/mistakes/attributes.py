@@ -25,7 +25,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import logged_counter, starts_of, targets_of
 from grader.package.source.imported import imports
 from grader.package.source.module import Function, Module
-from grader.package.source.names import dotted, last_part, own_name
+from grader.package.source.names import calls_in, dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS
 from grader.package.source.node_here import node_here
 from grader.package.source.place import function_at, statement_at
@@ -70,9 +70,8 @@ def _through_node(raised: Raised, node: str, name: str) -> dict[str, str]:
     """Return a call of rclpy's module and that of the node; the node is no argument of the latter."""
     code = raised.module.text.code
     params = {"name": f"rclpy.{name}", "written": f"{node}.{name}"}
-    for call in raised.module.nodes:
-        here = isinstance(call, ast.Call) and call.lineno == raised.line
-        if not isinstance(call, ast.Call) or not here or dotted(call.func) != params["name"]:
+    for call, called in calls_in(raised.module.tree):
+        if call.lineno != raised.line or called != params["name"]:
             continue
         first = dotted(call.args[0]) if call.args else ""
         if first in ("self", node) and "\n" not in code(call):

@@ -9,11 +9,10 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.base.shown import shown
 from grader.mistakes import links
-from grader.mistakes.classes import MISSING_ARGUMENT
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import node_timer
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.mistakes.recognised import MISSING_ARGUMENT, Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.endless import goes_on
 from grader.package.source.module import Function

@@ -10,7 +10,7 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.constructor import lines_of
-from grader.mistakes.example import NODE, example
+from grader.mistakes.example import DATACLASS_IMPORTED, NODE, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
@@ -251,11 +251,7 @@ KINDS = (
         examples=(
             example(
                 "dataclass_without_its_decorator",
-                Replace(
-                    NODE,
-                    "import rclpy\nfrom",
-                    "from dataclasses import dataclass\n\nimport rclpy\nfrom",
-                ),
+                DATACLASS_IMPORTED,
                 Replace(
                     NODE, "class MyFirstNode(", f"class Settings:\n{CLASS}\n\nclass MyFirstNode("
                 ),

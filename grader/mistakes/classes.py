@@ -9,11 +9,12 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.constructor import PRIVATE
-from grader.mistakes.example import DEAD, NODE, SILENT, STEP_LINE, example
+from grader.mistakes.example import DATACLASS_IMPORTED, DEAD, NODE, SILENT, STEP_LINE, example
 from grader.mistakes.fixes import lines, node_classes
 from grader.mistakes.kind import Family
 from grader.mistakes.order import spun_names
 from grader.mistakes.recognised import (
+    MISSING_ARGUMENT,
     NAME_ERROR,
     OWN_ATTRIBUTE,
     Raised,
@@ -32,10 +33,6 @@ from grader.package.source.place import function_at
 TIMER = "        self.create_timer(1.0, self.timer_callback)\n"
 NEEDED = ("create_timer", "__init__", *LOG_METHODS)
 """What a method must call, or else no line comes."""
-MISSING_ARGUMENT = (
-    r"\.(?P<function>\w{1,120})\(\) missing \d{1,3} required positional arguments?: "
-    r"'(?P<name>\w{1,120})'"
-)
 CALLED_ON_CLASS = (
     r"TypeError: (?P<method>(?:\w{1,120}\.)?\w{1,120})\(\) missing 1 required positional "
     r"argument: 'self'"
@@ -396,11 +393,7 @@ KINDS = (
         examples=(
             example(
                 "field_with_its_value_as_type",
-                Replace(
-                    NODE,
-                    "import rclpy\nfrom",
-                    "from dataclasses import dataclass\n\nimport rclpy\nfrom",
-                ),
+                DATACLASS_IMPORTED,
                 Replace(
                     NODE,
                     "class MyFirstNode",
@@ -410,11 +403,7 @@ KINDS = (
             ),
             example(
                 "field_without_value_last",
-                Replace(
-                    NODE,
-                    "import rclpy\nfrom",
-                    "from dataclasses import dataclass\n\nimport rclpy\nfrom",
-                ),
+                DATACLASS_IMPORTED,
                 Replace(
                     NODE,
                     "class MyFirstNode",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Collection
 from dataclasses import replace
 
 from grader.base.i18n.message import msg, say
@@ -13,6 +14,7 @@ from grader.mistakes import links
 from grader.mistakes.example import BODY_OF_MAIN, DEAD, NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_life, node_scope, node_words
 from grader.mistakes.fixes.case import Case
+from grader.mistakes.fixes.rename import def_renamed, splices_of
 from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import CLASS
 from grader.mistakes.recognised import (
@@ -22,7 +24,7 @@ from grader.mistakes.recognised import (
     RecognisedMistake,
     Suspect,
     always,
-    first_found,
+    first_of,
     of_self,
 )
 from grader.mistakes.scope import NODE_METHODS
@@ -142,6 +144,11 @@ def _without_node(raised: Raised, found: ast.ClassDef) -> RecognisedMistake:
     return replace(mistake, variant="" if node_life.known_base(module, found) else "import")
 
 
+def _near_init(methods: Collection[str], cutoff: float) -> str:
+    """Return the method with nearly the name `__init__`; "" if there is none, or __init__ itself."""
+    return "" if "__init__" in methods else nearest("__init__", methods, cutoff=cutoff)
+
+
 def _underscores(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     del match
     methods = raised.source.methods
@@ -156,12 +163,9 @@ def _never_runs(suspect: Suspect) -> RecognisedMistake | None:
     """The class has no __init__, but a method with nearly this name that creates the timer."""
     source, own = suspect.source, suspect.source.node_class
     methods = {m.name: m for m in source.own_methods}
-    near = "" if "__init__" in methods else nearest("__init__", methods, cutoff=0.7)
-    if (
-        own is None
-        or not near
-        or any(last_part(n) == near for _, n in source.calls if "super" not in n)
-    ):
+    near = _near_init(methods, cutoff=0.7)
+    called = [last_part(name) for _, name in source.calls if "super" not in name]
+    if own is None or not near or near in called:
         return None
     if not any(last_part(name) == "create_timer" for _, name in calls_in(methods[near])):
         return None
@@ -176,15 +180,14 @@ def _with_init(case: Case) -> Files | None:
     if node is None or method is None or not case.finding.params.get("made"):
         return None
     module, text = node.module_of(method), node.module_of(method).text
-    at = text.at(method.lineno, method.col_offset) + len("def ")
+    head = def_renamed(module, method, "__init__")
     made = [c for c, _ in node.calls if node.is_node_class(c.func) and (c.args or c.keywords)]
-    if not text.text.startswith(near, at) or not all(map(module.has, made)):
+    called = [c.func for c, name in calls_in(method) if name == f"super().{near}"]
+    of_super = [part for part in called if isinstance(part, ast.Attribute)]
+    supers = splices_of(module, of_super, "__init__")
+    if head is None or supers is None or not all(map(module.has, made)):
         return None
-    splices = [Splice(at, at + len(near), "__init__")]
-    for call, name in calls_in(method):
-        if name == f"super().{near}" and isinstance(call.func, ast.Attribute):
-            end = text.span(call.func)[1]
-            splices.append(Splice(end - len(near), end, "__init__"))
+    splices = [head, *supers]
     if len(method.args.args) == 1:
         splices += [text.swap(call, f"{text.code(call.func)}()") for call in made]
     return case.changed(module, *splices)
@@ -195,7 +198,7 @@ def _misspelt_init(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
     del match
     for own in raised.module.classes:
         methods = {m.name: m for m in own.body if isinstance(m, ast.FunctionDef)}
-        near = "" if "__init__" in methods else nearest("__init__", methods, cutoff=0.8)
+        near = _near_init(methods, cutoff=0.8)
         if near and _calls_super(methods[near]):
             return raised.finding("init_underscores", at=methods[near], name=near)
     return None
@@ -208,7 +211,7 @@ def _init_not_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake 
         if own.decorator_list:
             continue  # (a dataclass has an __init__ of its own: node.post_init_name)
         methods = {m.name: m for m in own.body if isinstance(m, ast.FunctionDef)}
-        near = "" if "__init__" in methods else nearest("__init__", methods, cutoff=0.8)
+        near = _near_init(methods, cutoff=0.8)
         sets = [
             n
             for n in (ast.walk(methods[near]) if near else ())
@@ -494,7 +497,7 @@ KINDS = (
         seen=r"TypeError: object\.__init__\(\) takes exactly one argument",
         raised={
             r"object\.__init__\(\) takes exactly one argument": _not_a_node,
-            OWN_ATTRIBUTE: first_found(_init_of_other, _plain_class),
+            OWN_ATTRIBUTE: first_of(_init_of_other, _plain_class),
         },
         fixed_by=(node_life.base_class,),
         examples=(

@@ -14,8 +14,8 @@ from grader.mistakes.example import LOG_LINE, NODE, STEP_LINE, example
 from grader.mistakes.fixes import lines, node_count, node_worked_out
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
-from grader.mistakes.worked_out import INSTEAD, change_of, first_of, worked_out
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, first_of
+from grader.mistakes.worked_out import INSTEAD, change_of, worked_out
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.asked_attribute import never_there

@@ -11,8 +11,8 @@ from grader.mistakes import links
 from grader.mistakes.example import LOG, NODE, STEP_LINE, example
 from grader.mistakes.fixes import lines, node_words, node_worked_out
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
-from grader.mistakes.worked_out import INSTEAD, change_of, first_of, worked_out
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, first_of
+from grader.mistakes.worked_out import INSTEAD, change_of, worked_out
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import changes_of, outer_word, parts_of_callback
 from grader.package.source.named_tuples import is_named_tuple

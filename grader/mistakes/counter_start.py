@@ -11,8 +11,8 @@ from grader.mistakes.counted import Counter, counter_in
 from grader.mistakes.example import LOG_LINE, NODE, STEP_LINE, example
 from grader.mistakes.fixes import node_count, node_worked_out
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import RecognisedMistake, Suspect
-from grader.mistakes.worked_out import INSTEAD, change_of, first_of, worked_out
+from grader.mistakes.recognised import RecognisedMistake, Suspect, first_of
+from grader.mistakes.worked_out import INSTEAD, change_of, worked_out
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import (
     adds_to,

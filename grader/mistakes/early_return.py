@@ -11,8 +11,7 @@ from grader.mistakes.example import LOG, LOG_LINE, NODE, SILENT, STEP_LINE, exam
 from grader.mistakes.fixes import lines, node_order
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import RecognisedMistake, Suspect
-from grader.mistakes.worked_out import first_of
+from grader.mistakes.recognised import RecognisedMistake, Suspect, first_of
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import adds_to, logged_counter, parts_of_callback, targets_of

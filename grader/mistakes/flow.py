@@ -21,10 +21,10 @@ from grader.mistakes.example import (
 from grader.mistakes.fixes import lines, node_loops, node_timer, node_try
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Suspect
+from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Suspect, first_of
 from grader.mistakes.stop_in_branch import FIXES as BRANCH_FIXES
 from grader.mistakes.stop_in_branch import branch_of, in_branch, without_stop
-from grader.mistakes.worked_out import first_of, worked_out
+from grader.mistakes.worked_out import worked_out
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import adds_to, logged_counter, starts_of, targets_of

@@ -43,27 +43,19 @@ IMPORTS = {
     **{name: f"import {name}" for name in ("time", "math", "random", "sys", "threading")},
 }
 INTERFACES = {
-    **dict.fromkeys((("srv", n) for n in ("Trigger", "SetBool", "Empty")), "std_srvs.srv"),
-    **dict.fromkeys((("srv", n) for n in ("AddTwoInts",)), "example_interfaces.srv"),
-    **dict.fromkeys(
-        (
-            ("msg", n)
-            for n in ("String", "Bool", "Int8", "Int16", "Int32", "Int64", "UInt8", "UInt16",
-                      "UInt32", "UInt64", "Float32", "Float64", "Header", "ColorRGBA")
-        ),
-        "std_msgs.msg",
+    "std_srvs.srv": ("Trigger", "SetBool", "Empty"),
+    "example_interfaces.srv": ("AddTwoInts",),
+    "std_msgs.msg": (
+        *("String", "Bool", "Header", "ColorRGBA", "Float32", "Float64"),
+        *("Int8", "Int16", "Int32", "Int64", "UInt8", "UInt16", "UInt32", "UInt64"),
     ),
-    **dict.fromkeys(
-        (("msg", n) for n in ("Twist", "TwistStamped", "Point", "Vector3", "Quaternion", "PoseStamped")),
-        "geometry_msgs.msg",
+    "geometry_msgs.msg": (
+        *("Twist", "TwistStamped", "Point", "Vector3", "Quaternion", "PoseStamped"),
     ),
-    **dict.fromkeys(
-        (("msg", n) for n in ("Image", "LaserScan", "Imu", "JointState", "PointCloud2")),
-        "sensor_msgs.msg",
-    ),
-    ("msg", "Odometry"): "nav_msgs.msg",
-}  # fmt: skip
-"""The modules of common messages and services, by their kind and name."""
+    "sensor_msgs.msg": ("Image", "LaserScan", "Imu", "JointState", "PointCloud2"),
+    "nav_msgs.msg": ("Odometry",),
+}
+"""Common messages and services, by the module that has them."""
 HOMES = {
     "Node": "rclpy.node",
     **dict.fromkeys(
@@ -167,11 +159,11 @@ def _interface_elsewhere(raised: Raised, name: str) -> RecognisedMistake | None:
     kind = name.rpartition(".")[2]
     if not isinstance(statement, ast.ImportFrom) or statement.module != name:
         return None
-    homes = {INTERFACES.get((kind, alias.name), "") for alias in statement.names}
-    home = min(homes)
-    if len(homes) != 1 or not home or home == name:
+    names = {alias.name for alias in statement.names}
+    modules = [m for m, known in INTERFACES.items() if m.endswith(f".{kind}") and names <= {*known}]
+    if len(modules) != 1 or modules == [name]:
         return None
-    return raised.finding("import_misspelt", name=name, close=home)
+    return raised.finding("import_misspelt", name=name, close=modules[0])
 
 
 def _part_of_module(raised: Raised, name: str) -> RecognisedMistake | None:

@@ -9,15 +9,15 @@ from dataclasses import replace
 
 from grader.base.i18n.message import Value, msg
 from grader.mistakes import links
-from grader.mistakes.example import LOG, NODE, SILENT, STEP_LINE, example
+from grader.mistakes.example import DATACLASS_IMPORTED, LOG, NODE, SILENT, STEP_LINE, example
 from grader.mistakes.fixes import lines, node_clock
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.node_clock import count_of
+from grader.mistakes.fixes.rename import def_renamed
 from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import as_sum
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.files import Files
-from grader.package.edit.text import Splice
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import logged_counter, targets_of
 from grader.package.source.module import Function
@@ -83,13 +83,10 @@ def _plain_class(case: Case) -> Files | None:
     fields = [s for s in owner.body if isinstance(s, ast.AnnAssign)]
     if not all(isinstance(s.value, ast.Constant) for s in fields):
         return None
-    text = module.text
-    at = text.at(post[0].lineno, post[0].col_offset) + len("def ")
-    if not text.text.startswith("__post_init__", at) or not text.line(line).startswith("@"):
+    head = def_renamed(module, post[0], "__init__")
+    if head is None or not module.text.line(line).startswith("@"):
         return None
-    return case.changed(
-        module, text.without(line), Splice(at, at + len("__post_init__"), "__init__")
-    )
+    return case.changed(module, module.text.without(line), head)
 
 
 def _read_only(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -500,21 +497,13 @@ KINDS = (
         examples=(
             example(
                 "class_is_dataclass",
-                Replace(
-                    NODE,
-                    "import rclpy\nfrom",
-                    "from dataclasses import dataclass\n\nimport rclpy\nfrom",
-                ),
+                DATACLASS_IMPORTED,
                 Replace(NODE, "class MyFirstNode", "@dataclass\nclass MyFirstNode"),
                 fails="run.starts",
             ),
             example(
                 "class_is_dataclass_with_post_init",
-                Replace(
-                    NODE,
-                    "import rclpy\nfrom",
-                    "from dataclasses import dataclass\n\nimport rclpy\nfrom",
-                ),
+                DATACLASS_IMPORTED,
                 Replace(NODE, "class MyFirstNode", "@dataclass\nclass MyFirstNode"),
                 Replace(
                     NODE,

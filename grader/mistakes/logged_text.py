@@ -14,8 +14,8 @@ from grader.mistakes.example import INNER, LOG, NODE, example
 from grader.mistakes.fixes import lines, node_log, node_worked_out
 from grader.mistakes.kind import Family
 from grader.mistakes.made_by import statements_that_make
-from grader.mistakes.recognised import RecognisedMistake, Suspect
-from grader.mistakes.worked_out import first_of, worked_out
+from grader.mistakes.recognised import RecognisedMistake, Suspect, first_of
+from grader.mistakes.worked_out import worked_out
 from grader.package.edit.tree import Replace, Write
 from grader.package.source.names import dotted
 from grader.package.source.one_change import SEVERAL, logged_lines

@@ -11,8 +11,8 @@ from grader.mistakes import links, print_elsewhere
 from grader.mistakes.example import DEAD, LOG, LOG_LINE, NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_count, node_log, node_words, node_worked_out
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Suspect
-from grader.mistakes.worked_out import INSTEAD, first_of, worked_out
+from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Suspect, first_of
+from grader.mistakes.worked_out import INSTEAD, worked_out
 from grader.package.edit.tree import Replace
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, calls_in, dotted, last_part, own_name

@@ -26,6 +26,26 @@ NO_MANIFEST = msg(
     "the folder for plain Python, and the build stops where setup.py copies package.xml."
 )
 
+MISSPELT = (
+    Replace(MANIFEST, "<name>my_robot_controller</name>", "<name>my_robot_conroller</name>"),
+    Replace(
+        SETUP,
+        "package_name = 'my_robot_controller'",
+        "package_name = 'my_robot_conroller'",
+    ),
+    Write(
+        CFG,
+        (
+            "[develop]\n"
+            "script_dir=$base/lib/my_robot_conroller\n"
+            "[install]\n"
+            "install_scripts=$base/lib/my_robot_conroller\n"
+        ),
+    ),
+    Move(MARKER, "resource/my_robot_conroller"),
+)
+"""Edits that misspell the package's name everywhere, except for its folder and the entry point."""
+
 
 def _manifest(
     slug: str,
@@ -702,24 +722,7 @@ KINDS = (
             ),
             example(
                 "name_misspelt_but_the_entry",
-                Replace(
-                    MANIFEST, "<name>my_robot_controller</name>", "<name>my_robot_conroller</name>"
-                ),
-                Replace(
-                    SETUP,
-                    "package_name = 'my_robot_controller'",
-                    "package_name = 'my_robot_conroller'",
-                ),
-                Write(
-                    CFG,
-                    (
-                        "[develop]\n"
-                        "script_dir=$base/lib/my_robot_conroller\n"
-                        "[install]\n"
-                        "install_scripts=$base/lib/my_robot_conroller\n"
-                    ),
-                ),
-                Move(MARKER, "resource/my_robot_conroller"),
+                *MISSPELT,
                 Move(INNER, "my_robot_conroller"),
                 fails="package.manifest",
                 also={"entry_point.mapping": "setup.other_package"},
@@ -727,24 +730,7 @@ KINDS = (
             ),
             example(
                 "name_misspelt_throughout",
-                Replace(
-                    MANIFEST, "<name>my_robot_controller</name>", "<name>my_robot_conroller</name>"
-                ),
-                Replace(
-                    SETUP,
-                    "package_name = 'my_robot_controller'",
-                    "package_name = 'my_robot_conroller'",
-                ),
-                Write(
-                    CFG,
-                    (
-                        "[develop]\n"
-                        "script_dir=$base/lib/my_robot_conroller\n"
-                        "[install]\n"
-                        "install_scripts=$base/lib/my_robot_conroller\n"
-                    ),
-                ),
-                Move(MARKER, "resource/my_robot_conroller"),
+                *MISSPELT,
                 Replace(
                     SETUP, "test_node = my_robot_controller.", "test_node = my_robot_conroller."
                 ),
@@ -753,24 +739,7 @@ KINDS = (
             ),
             example(
                 "name_misspelt_but_the_folder",
-                Replace(
-                    MANIFEST, "<name>my_robot_controller</name>", "<name>my_robot_conroller</name>"
-                ),
-                Replace(
-                    SETUP,
-                    "package_name = 'my_robot_controller'",
-                    "package_name = 'my_robot_conroller'",
-                ),
-                Write(
-                    CFG,
-                    (
-                        "[develop]\n"
-                        "script_dir=$base/lib/my_robot_conroller\n"
-                        "[install]\n"
-                        "install_scripts=$base/lib/my_robot_conroller\n"
-                    ),
-                ),
-                Move(MARKER, "resource/my_robot_conroller"),
+                *MISSPELT,
                 fails="package.manifest",
                 note="the inner folder has the right name",
             ),

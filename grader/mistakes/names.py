@@ -437,12 +437,9 @@ def _super_of_other(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
         return None
     row, code = module.line(call.lineno), module.text.code(call)
     written = row.replace(code, "super()") if code in row else "super()"
-    init = source.super_init
-    given = init.args[0] if init is not None and init.args else None
-    if isinstance(given, ast.Constant) and isinstance(given.value, str) and init is not None:
-        named = module.text.code(given)
-        wanted = f"{named[0]}{raised.assignment.node_name}{named[0]}"
-        written = written.replace(named, wanted) if named[0] in "'\"" else written
+    named = node_constructor.named_node(module, source, raised.assignment)
+    if named is not None:
+        written = written.replace(module.text.code(named[0]), named[1])
     params = {"name": name, "type": around[0].name, "line": str(around[0].lineno)}
     return raised.finding("super_of_other_name", at=call, params={**params, "written": written})
 

@@ -15,7 +15,7 @@ from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
-from grader.package.source.names import dotted, last_part
+from grader.package.source.names import dotted, is_enum, last_part
 from grader.package.source.place import statement_at
 
 OBJECT = re.compile(
@@ -63,11 +63,10 @@ def _member(suspect: Suspect) -> RecognisedMistake | None:
     """The text has a member of an Enum by its name: the class, a dot, and the member."""
     for match in MEMBER.finditer(suspect.text):
         own = _class_of(suspect, match["name"])
-        bases = [last_part(dotted(base)) for base in own.bases] if own is not None else []
-        if not any(base.endswith("Enum") for base in bases):
+        if own is None or not is_enum(own):
             continue
         # (a number of the count can follow the name without a blank)
-        names = [n for s in own.body for n in targets_of(s)] if own is not None else []
+        names = [n for s in own.body for n in targets_of(s)]
         name = next((n for n in names if match["member"].startswith(n)), "")
         code = f"{match['name']}.{name}"
         uses = [

@@ -18,7 +18,14 @@ from grader.package.edit.tree import Replace, Write
 from grader.package.source.counter import starts_of, targets_of
 from grader.package.source.imported import full_name, imports, name_of_node
 from grader.package.source.module import Function
-from grader.package.source.names import called_name, dotted, last_part, module_name, own_name
+from grader.package.source.names import (
+    called_name,
+    dotted,
+    is_enum,
+    last_part,
+    module_name,
+    own_name,
+)
 from grader.package.source.node_here import node_here
 from grader.package.source.place import function_at, statement_at
 
@@ -226,7 +233,7 @@ def _name_not_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
     owner = dotted(given).rpartition(".")[0]
     for module in raised.source.known_modules:
         for found in module.classes:
-            if found.name == owner and any(dotted(b).endswith("Enum") for b in found.bases):
+            if found.name == owner and is_enum(found):
                 params = {"name": code, "written": f"{code}.value"}
                 mistake = raised.finding("name_not_text", at=call, params=params)
                 return replace(mistake, words={**mistake.words, "type": owner}, variant="member")

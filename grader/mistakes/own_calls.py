@@ -11,7 +11,7 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.constructor import lines_of
-from grader.mistakes.example import DEAD, LOG, NODE, STEP_LINE, example
+from grader.mistakes.example import DATACLASS_IMPORTED, DEAD, LOG, NODE, STEP_LINE, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, on_line
@@ -455,11 +455,7 @@ KINDS = (
             ),
             example(
                 "dataclass_without_types",
-                Replace(
-                    NODE,
-                    "import rclpy\nfrom",
-                    "from dataclasses import dataclass\n\nimport rclpy\nfrom",
-                ),
+                DATACLASS_IMPORTED,
                 Replace(
                     NODE,
                     "class MyFirstNode",

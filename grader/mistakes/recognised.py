@@ -6,6 +6,7 @@ import ast
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import ParamSpec
 
 from grader.base.i18n.message import Value
 from grader.course.assignment import Assignment, Output
@@ -14,6 +15,8 @@ from grader.package.source.module import Function, Module
 from grader.package.source.node import NodeSource
 from grader.package.source.place import place_of
 from grader.report.model import Mistake, Where
+
+P = ParamSpec("P")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -156,11 +159,13 @@ FromSource = Callable[[Suspect], "RecognisedMistake | None"]
 """Recognises in the node's source the mistake behind a symptom."""
 
 
-def first_found(*looks: FromError) -> FromError:
+def first_of(
+    *looks: Callable[P, RecognisedMistake | None],
+) -> Callable[P, RecognisedMistake | None]:
     """Return a function that finds what the first of these functions finds."""
 
-    def found(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-        return next(filter(None, (look(raised, match) for look in looks)), None)
+    def found(*args: P.args, **kwargs: P.kwargs) -> RecognisedMistake | None:
+        return next(filter(None, (look(*args, **kwargs) for look in looks)), None)
 
     return found
 
@@ -186,6 +191,10 @@ def on_line(look: FromError) -> FromError:
     return found
 
 
+MISSING_ARGUMENT = (
+    r"\.(?P<function>\w{1,120})\(\) missing \d{1,3} required positional arguments?: "
+    r"'(?P<name>\w{1,120})'"
+)
 NAME_ERROR = r"NameError: (?:free variable|name) '(?P<name>\w{1,120})'"
 OWN_ATTRIBUTE = (
     r"AttributeError: '(?P<type>\w{1,120})' object has no attribute '(?P<name>\w{1,120})'"

@@ -17,7 +17,7 @@ from grader.mistakes.recognised import OWN_ATTRIBUTE, Raised, RecognisedMistake,
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import parts_of_callback, targets_of
 from grader.package.source.module import Function
-from grader.package.source.names import called_name, dotted, last_part
+from grader.package.source.names import called_name, dotted, is_enum, last_part
 from grader.package.source.place import function_at, statement_at
 
 MOST_CODE = 80  # characters of a piece of code that a text shows
@@ -150,7 +150,7 @@ def _object_added(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
         return None  # (it may be meant to be added, or to be made a text of)
     found = raised.finding("object_added")
     words = {**found.words, "type": own.name, "line": str(own.lineno)}
-    if not any(last_part(dotted(base)).endswith("Enum") for base in own.bases):
+    if not is_enum(own):
         return replace(found, words=words)
     statement = statement_at(raised.module, raised.line)
     members = [

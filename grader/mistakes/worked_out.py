@@ -51,15 +51,6 @@ def worked_out(slug: str, *sorts: str, variant: str = "") -> FromSource:
     return found
 
 
-def first_of(*looks: FromSource) -> FromSource:
-    """Return a function that finds what the first of these functions finds."""
-
-    def found(suspect: Suspect) -> RecognisedMistake | None:
-        return next(filter(None, (look(suspect) for look in looks)), None)
-
-    return found
-
-
 def _joined(suspect: Suspect) -> RecognisedMistake | None:
     """Look for parts of join() to put together, if no other text of a string is enough."""
     if change_of(suspect, "text") is not None:

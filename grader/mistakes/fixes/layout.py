@@ -21,7 +21,7 @@ PACKAGE_DIR = re.compile(
 def marker(case: Case) -> Files | None:
     """Create the empty marker file, or rename the one that has a wrong name."""
     path = f"resource/{case.package}"
-    if path in case.files.by_path or "resource" in _files(case):
+    if path in case.files.by_path or "resource" in files_in(case):
         return None
     folder = str(case.finding.params.get("folder", ""))
     if folder and case.files.file(f"{folder}/{case.package}") is not None:
@@ -34,7 +34,8 @@ def marker(case: Case) -> Files | None:
     return case.with_data(path, b"")
 
 
-def _files(case: Case) -> set[str]:
+def files_in(case: Case) -> set[str]:
+    """Return the paths of all files of the package."""
     return {path for path, file in case.files.by_path.items() if file.kind != "folder"}
 
 
@@ -76,7 +77,7 @@ def node_file(case: Case) -> Files | None:
     name, path = case.assignment.node_file, str(case.finding.params.get("path", ""))
     if path.rpartition("/")[2] == name:
         path = _only_one_named(case.files, name) or ""
-    if case.files.file(path) is None or case.package in _files(case):
+    if case.files.file(path) is None or case.package in files_in(case):
         return None
     return _with_entry(case.files.with_move(path, case.node_path), path, case.node_path)
 
@@ -126,7 +127,7 @@ def out_of_notebook(case: Case) -> Files | None:
     notebook = case.files.data(str(case.finding.params.get("notebook", "")))
     script = script_of(notebook) if notebook is not None else None
     taken = path in case.files.by_path and case.files.data(path) != b""
-    if script is None or taken or case.package in _files(case):
+    if script is None or taken or case.package in files_in(case):
         return None
     files = case.files.with_data(path, script)
     return files if path in case.files.by_path else files.with_mode(path, EXECUTABLE)

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from grader.mistakes.fixes.case import Case
+from grader.mistakes.fixes.rename import def_renamed
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
 from grader.package.source.module import Function
@@ -66,11 +67,10 @@ def second_renamed(case: Case) -> Files | None:
     if needed_besides_self(first) or not given or not with_values or not module.has(second):
         return None
     new, text = f"{second.name}_{given[0]}", module.text
-    start = text.span(second)[0] + len("def ")
-    if not text.text.startswith(second.name, start) or new in text.text:
+    head = def_renamed(module, second, new)
+    if head is None or new in text.text:
         return None
-    of_def = Splice(start, start + len(second.name), new)
-    return case.changed(module, of_def, *(text.swap(c.func, f"self.{new}") for c in with_values))
+    return case.changed(module, head, *(text.swap(c.func, f"self.{new}") for c in with_values))
 
 
 def called_base(found: ast.ClassDef) -> ast.Call | None:

@@ -11,6 +11,7 @@ from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
 from grader.package.source.counter import starts_of, targets_of
+from grader.package.source.module import Module
 from grader.package.source.names import dotted, own_name
 from grader.package.source.node import NodeSource
 
@@ -129,16 +130,21 @@ def plain_super(case: Case) -> Files | None:
     call = super_of(module.nodes, name, line) if module is not None else None
     if module is None or call is None:
         return None
-    node = case.node
-    init = node.super_init if node is not None else None
-    given = init.args[0] if init is not None and init.args and module.has(init) else None
-    named = isinstance(given, ast.Constant) and isinstance(given.value, str)
-    code = module.text.code(given) if given is not None and named else ""
-    right = f"{code[:1]}{case.assignment.node_name}{code[:1]}"
-    name_too = (
-        [module.text.swap(given, right)] if given is not None and code[:1] in ("'", '"') else []
-    )
+    named = named_node(module, case.node, case.assignment) if case.node is not None else None
+    name_too = [module.text.swap(*named)] if named is not None else []
     return case.changed(module, module.text.swap(call, "super()"), *name_too)
+
+
+def named_node(
+    module: Module, source: NodeSource, assignment: Assignment
+) -> tuple[ast.Constant, str] | None:
+    """Return the literal by which a file names the node, and that of the name that it must have."""
+    init = source.super_init
+    given = init.args[0] if init is not None and init.args and module.has(init) else None
+    if not isinstance(given, ast.Constant) or not isinstance(given.value, str):
+        return None
+    quote = module.text.code(given)[:1]
+    return (given, f"{quote}{assignment.node_name}{quote}") if quote in ("'", '"') else None
 
 
 def super_of(nodes: list[ast.AST], name: str, line: int | None) -> ast.Call | None:

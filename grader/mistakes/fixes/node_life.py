@@ -6,6 +6,7 @@ import ast
 import re
 
 from grader.mistakes.fixes.case import Case
+from grader.mistakes.fixes.rename import def_renamed
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source import endless
@@ -158,10 +159,8 @@ def constructor_of_object(case: Case) -> Files | None:
 
 
 def _as_init(case: Case, module: Module, method: ast.FunctionDef) -> Files | None:
-    at = module.text.at(method.lineno, method.col_offset) + len("def ")
-    if module.text.text[at : at + len(method.name)] != method.name:
-        return None
-    return case.changed(module, Splice(at, at + len(method.name), "__init__"))
+    head = def_renamed(module, method, "__init__")
+    return case.changed(module, head) if head is not None else None
 
 
 def name(case: Case) -> Files | None:

@@ -6,7 +6,7 @@ import ast
 
 from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
-from grader.mistakes.fixes.rename import splices_of
+from grader.mistakes.fixes.rename import def_renamed, splices_of
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.counter import names_given, targets_of
@@ -96,14 +96,12 @@ def main(case: Case) -> Files | None:
     if node is None or found is None:
         return None
     old, text = found.name, node.entry.text
-    head = text.at(found.lineno, found.col_offset) + len("def ")
+    head = def_renamed(node.entry, found, wanted)
     names = [n for n in node.entry.nodes if isinstance(n, ast.Name)]
     if any(n.id == wanted or (n.id == old and isinstance(n.ctx, ast.Store)) for n in names):
         return None
-    if text.text[head : head + len(old)] != old:
-        return None
     uses = [text.swap(n, wanted) for n in names if n.id == old]
-    return case.changed(node.entry, Splice(head, head + len(old), wanted), *uses)
+    return case.changed(node.entry, head, *uses) if head is not None else None
 
 
 def counter(case: Case) -> Files | None:

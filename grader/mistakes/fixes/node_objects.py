@@ -8,7 +8,7 @@ import re
 from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.node_life import IMPORT
-from grader.mistakes.fixes.rename import splices_of
+from grader.mistakes.fixes.rename import def_renamed, splices_of
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
 from grader.package.source.module import Module
@@ -116,7 +116,7 @@ def other_method(case: Case) -> Files | None:
     given, module = timers[0], node.module
     if not isinstance(given, ast.Attribute) or own_name(given) != name:
         return None
-    splices, head = splices_of(module, [given], new), _head(module, method, new)
+    splices, head = splices_of(module, [given], new), def_renamed(module, method, new)
     return case.changed(module, head, *splices) if splices and head is not None else None
 
 
@@ -146,18 +146,11 @@ def called_method(case: Case) -> Files | None:
         return None
     module, called = node.module, [call.func for call in calls_of_own(node, name)]
     parts = [part for part in called if isinstance(part, ast.Attribute) and module.has(part)]
-    head = _head(module, method, new)
+    head = def_renamed(module, method, new)
     splices = splices_of(module, parts, new)
     if head is None or not splices or len(parts) < len(called):
         return None
     return case.changed(module, head, *splices)
-
-
-def _head(module: Module, method: ast.FunctionDef, new: str) -> Splice | None:
-    """Return the splice that gives a method another name where it is defined."""
-    at = module.text.at(method.lineno, method.col_offset) + len("def ")
-    end = at + len(method.name)
-    return Splice(at, end, new) if module.text.text[at:end] == method.name else None
 
 
 def plus(case: Case) -> Files | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 
 from grader.mistakes.fixes.case import Case
-from grader.mistakes.fixes.rename import splices_of
+from grader.mistakes.fixes.rename import def_renamed, splices_of
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.module import Function, Module
@@ -242,10 +242,8 @@ def definition(case: Case) -> Files | None:
     same = [n for n in module.nodes if isinstance(n, ast.Attribute) and n.attr == name]
     if any(own_name(part) for part in same):
         return None
-    at = module.text.at(method.lineno, method.col_offset) + len("def ")
-    if module.text.text[at : at + len(name)] != name:
-        return None
-    return case.changed(module, Splice(at, at + len(name), close))
+    head = def_renamed(module, method, close)
+    return case.changed(module, head) if head is not None else None
 
 
 def hidden_attribute(case: Case) -> Files | None:

@@ -9,8 +9,15 @@ from collections.abc import Sequence
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
-from grader.package.source.module import Module
+from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted
+
+
+def def_renamed(module: Module, function: Function, new: str) -> Splice | None:
+    """Return the splice that gives a function another name where it is defined; None if it is async."""
+    at = module.text.at(function.lineno, function.col_offset) + len("def ")
+    end = at + len(function.name)
+    return Splice(at, end, new) if module.text.text[at:end] == function.name else None
 
 
 def splices_of(

@@ -19,6 +19,7 @@ from grader.package.source.setup_py import (
     entry_outside,
     missing_imports,
 )
+from grader.package.source.values import Evaluator, Text
 
 IMPORTS = ast.Import | ast.ImportFrom
 
@@ -102,8 +103,7 @@ def packages(case: Case) -> Files | None:
 def fault(case: Case) -> Files | None:
     """Correct what setup.py stops at."""
     found, error = case.files.data(FILE) or b"", str(case.finding.params.get("error", ""))
-    paths = [path for path, file in case.files.by_path.items() if file.kind != "folder"]
-    fault = setup_fault(found, error, case.package, paths)
+    fault = setup_fault(found, error, case.package, layout.files_in(case))
     return case.with_data(FILE, fault.fixed) if fault is not None else None
 
 
@@ -150,18 +150,8 @@ def _files_of_index(setup: SetupCall, item: ast.expr) -> ast.expr | None:
     """Return the files of an item of data_files whose folder is that of the markers."""
     if not isinstance(item, ast.Tuple | ast.List) or len(item.elts) != 2:
         return None
-    return item.elts[1] if _text_of(setup, item.elts[0]).strip("/") == INDEX else None
-
-
-def _text_of(setup: SetupCall, node: ast.expr) -> str:
-    """Return a text that is written, a name for one, or a sum of both; "" if it is not known."""
-    literal = setup.literal(node)
-    if literal is not None:
-        return str(literal.value)
-    if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Add):
-        return ""
-    parts = [_text_of(setup, part) for part in (node.left, node.right)]
-    return "".join(parts) if all(parts) else ""
+    folder = Evaluator(setup.tree, setup.source.text).value(item.elts[0])
+    return item.elts[1] if isinstance(folder, Text) and folder.value.strip("/") == INDEX else None
 
 
 def _renamed(setup: SetupCall, case: Case) -> list[Splice]:

@@ -26,19 +26,10 @@ KNOWN_PACKAGES = (
     *("rclpy", "rclcpp", "std_msgs", "std_srvs", "geometry_msgs", "sensor_msgs", "nav_msgs"),
     *("visualization_msgs", "trajectory_msgs", "action_msgs", "builtin_interfaces"),
     *("example_interfaces", "rcl_interfaces", "rosgraph_msgs", "turtlesim", "tf2_ros", "tf2_py"),
-    *("launch", "launch_ros", "ament_index_python", "ros2launch", "cv_bridge", "image_transport"),
+    *("launch", "launch_ros", "ros2launch", "cv_bridge", "image_transport"),
     *("ament_copyright", "ament_flake8", "ament_pep257", "ament_xmllint", "ament_mypy"),
-    *(
-        "ament_lint_auto",
-        "ament_lint_common",
-        "ament_cmake",
-        "ament_cmake_python",
-        "ament_cmake_auto",
-        "ament_index_python",
-        "ament_python",
-        "rviz2",
-        "xacro",
-    ),
+    *("ament_lint_auto", "ament_lint_common", "ament_index_python", "ament_python"),
+    *("ament_cmake", "ament_cmake_python", "ament_cmake_auto", "rviz2", "xacro"),
     *("robot_state_publisher", "joint_state_publisher", "python3-pytest", "python3-setuptools"),
 )
 CONTEXT = {"ROS_VERSION": "2", "ROS_PYTHON_VERSION": "3"}  # what ROS 2's setup files set

@@ -83,7 +83,7 @@ def setup_fault(
         return _misspelt_call(module, error)
     if module is None or call is None:
         return None
-    reader = _Reader(module, call, package, tuple(files))
+    reader = _Reader(module, call, package, tuple(sorted(files)))
     for pattern, look in LOOKS:
         match = re.match(pattern, error)
         fault = look(reader, match) if match is not None else None

@@ -38,6 +38,7 @@ SILENT = 2.5  # of the longest time between two lines, after which none is to co
 FOLLOWED = ("run.constant_counter", "run.wrong_start", "run.wrong_step")
 MISSED = 1.5  # periods after the last line, when the next one should have come
 NUMBER = re.compile(r"-?\d+(?:[.,:]\d+)*")
+MOST_DIGITS = 20  # of a number that is compared; int() refuses more than 4,300
 
 
 class Counts(Parameters, Count):
@@ -191,7 +192,7 @@ def _other_start(events: list[Event], wanted: Count) -> list[Message]:
     numbers = NUMBER.findall(events[0].text)
     if events[0].n is not None or len(numbers) != 1 or not numbers[0].isdecimal():
         return []
-    if int(numbers[0]) == wanted.start:
+    if len(numbers[0]) > MOST_DIGITS or int(numbers[0]) == wanted.start:
         return []
     return [
         say(

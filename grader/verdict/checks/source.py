@@ -197,16 +197,14 @@ def _empty(evidence: Evidence, path: str, data: bytes) -> Failed:
 
 
 def _lone_node(evidence: Evidence, path: str) -> str:
-    """Return the one other file of the inner folder that has the node; "" if there is none."""
+    """Return the one other file with the node, in the inner folder or beside setup.py; or ""."""
     inner = evidence.assignment.folder
     saved = re.compile(rf"{re.escape(evidence.assignment.node_file)}(?:~|\.\w{{2,6}})")
-    names = [n for n in names_in(evidence, inner) if n.endswith(".py") or saved.fullmatch(n)]
-    names = [n for n in names if n != "__init__.py"]
-    paths = [f"{inner}/{name}" for name in names]
-    paths += [
-        name for name in names_in(evidence, "") if name.endswith(".py") and name != "setup.py"
-    ]
-    found = [there for there in paths if there != path and is_the_node(evidence, there)]
+    inside = [n for n in names_in(evidence, inner) if n.endswith(".py") or saved.fullmatch(n)]
+    beside = [name for name in names_in(evidence, "") if name.endswith(".py")]
+    others = {f"{inner}/{name}" for name in inside}.union(beside)
+    others -= {path, f"{inner}/__init__.py", "setup.py"}
+    found = [there for there in others if is_the_node(evidence, there)]
     return found[0] if len(found) == 1 else ""
 
 
@@ -317,18 +315,20 @@ def _misplaced(evidence: Evidence, place: str, *, is_inside: bool) -> Failed:
         actual = say("{path} is beside setup.py, and not in the inner folder", path=place)
     if not is_inside:
         actual = say("it is in {path}, outside of the package", path=place)
+    if _is_inner(evidence, place):
+        variant = "folder"
+    elif place == f"src/{path}":
+        variant = "src_layout"
+    elif movable:
+        variant = "scripts" if scripts else _way(evidence, place)
+    else:
+        variant = ""
     return Failed(
         "source.misplaced_node_file",
         expected=say("a file {path} in the package", path=path),
         actual=actual,
         where=Where(file=place) if is_inside else None,
-        variant="folder"
-        if _is_inner(evidence, place)
-        else "src_layout"
-        if place == f"src/{path}"
-        else ("scripts" if scripts else _way(evidence, place))
-        if movable
-        else "",
+        variant=variant,
         params={"path": place},
         words={
             "wanted": path,
