@@ -246,6 +246,12 @@ class OnTheWall(Node):
         return Answer(barrier=True, logs=tuple(logs))
 
 
+def test_a_logged_text_that_the_terminal_cuts_has_its_record() -> None:
+    console = SlowConsole()
+    watch = driven(Node(console, text="x" * 5_000 + "{n}"), console)
+    assert {event.source for event in watch.events} == {"logger"}
+
+
 def test_a_logged_text_with_colour_codes_has_its_record() -> None:
     console = SlowConsole()
     watch = driven(Node(console, text="\x1b[92mHello time: {n}\x1b[0m"), console)

@@ -20,6 +20,7 @@ STAMP_TOLERANCE = SECOND // 4
 NUMBER = re.compile(r"\d+")
 BELOW_RCLPY = re.compile(r"(?:rcl|rcutils|rmw)(?:[._][\w.]{0,80})?")  # names of their loggers
 FLOOD = 200  # lines per second of wall time, above which a program does not wait between them
+COMPARED = 1_000  # characters of a log line and its record; both are cut later than that
 PREFIX = 60  # bytes, about, that a log line on the terminal has in front of its text
 
 Source = Literal["logger", "print", "faked"]
@@ -232,13 +233,14 @@ class Observer:
     def _match(self) -> list[Event]:
         """Return the lines that look like log records but have had none for the grace time."""
         known = {
-            (r.stamp, r.name, without_codes(r.text.split("\n")[0])) for r in self.records[-4000:]
+            (r.stamp, r.name, without_codes(r.text.split("\n")[0])[:COMPARED])
+            for r in self.records[-4000:]
         }
         faked, waiting = [], []
         for line in self._unmatched:
             assert line.log is not None
             _, stamp, name, text = line.log
-            if (stamp, name, text) in known:
+            if (stamp, name, text[:COMPARED]) in known:
                 self._shown.add(stamp)
             elif self._is_overdue(line):
                 faked.append(replace(self._event(text, line.wall, "faked", None), logger=name))
