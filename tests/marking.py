@@ -46,6 +46,7 @@ def order(
         sandbox=sandbox,
         limits=LIMITS,
         lang=lang,
+        tries_fixes=False,
     )
 
 

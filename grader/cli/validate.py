@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import click
@@ -69,7 +70,7 @@ def validate(
             remedy="Give the instructor's folder of the assignment with --keys (make: KEYS=…).",
         )
     options = validation.ValidationOptions(
-        order=order,
+        order=replace(order, tries_fixes=False),
         keys=folder,
         starter=validation.starter_of(file),
         static=static,

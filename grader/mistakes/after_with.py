@@ -104,10 +104,32 @@ def _not_running(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
     del match
     if not any(last_part(name) == "init" for _, name in raised.source.calls):
         return None
+    if (found := _ended_by_finally(raised)) is not None:
+        return found
     statement = statement_at(raised.module, raised.line)
     calls = [last_part(name) for _, name in calls_in(statement)] if statement is not None else []
     spins = any(name in SPINS or name.endswith("Executor") for name in calls)
     return raised.finding("ros_not_running") if raised.inside == "rclpy" and spins else None
+
+
+def _ended_by_finally(raised: Raised) -> RecognisedMistake | None:
+    """Look for a function that returns out of a try whose finally shuts ROS down."""
+    source = raised.source
+    for block in (n for n in source.all_nodes if isinstance(n, ast.Try)):
+        function = source.function_around(block)
+        shuts = [
+            call for s in block.finalbody for call, name in calls_in(s) if last_part(name) in SHUTS
+        ]
+        returns = [n for s in block.body for n in ast.walk(s) if isinstance(n, ast.Return)]
+        called = function is not None and function is not source.main
+        inside = [call for call, name in calls_in(block) if last_part(name) in SPINS]
+        if function is None or not called or not shuts or not returns or inside:
+            continue
+        code = source.module_of(shuts[0]).text.code(shuts[0])
+        params = {"name": code, "line": str(returns[0].lineno), "called": function.name}
+        found = raised.finding("ros_not_running", at=shuts[0], params=params)
+        return replace(found, variant="finally")
+    return None
 
 
 def _executor_ended(suspect: Suspect) -> RecognisedMistake | None:
@@ -223,7 +245,32 @@ KINDS = (
             "shuts ROS down before it: rclpy.shutdown(), rclpy.try_shutdown(), the end of a with block, or "
             "Ctrl+C, which ends spin. This line must run before that, or not at all."
         ),
+        whys={
+            "finally": msg(
+                "The lines of a finally run as soon as its try is left, also by a return: {called} "
+                "returns in line {line}, and {name} shuts ROS down before anything spins."
+            )
+        },
+        fixes={
+            "finally": msg(
+                "Delete the try and the finally of {called}, but keep the lines of the try. Write {name} as the last line of "
+                "{function} instead, below the line that spins."
+            )
+        },
         raised={NO_CONTEXT: _not_running},
+        examples=(
+            example(
+                "finally_of_a_function_that_returns_the_node",
+                Replace(
+                    NODE,
+                    "def main(",
+                    "def made():\n    try:\n        return MyFirstNode()\n    finally:\n"
+                    "        rclpy.try_shutdown()\n\n\ndef main(",
+                ),
+                Replace(NODE, "node = MyFirstNode()", "node = made()"),
+                fails="run.starts",
+            ),
+        ),
     ),
     _node(
         "executor_ended",

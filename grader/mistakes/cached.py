@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
@@ -56,6 +57,23 @@ def _cached(suspect: Suspect) -> RecognisedMistake | None:
     words = {"name": f"@{code}", "written": written, "method": method.name}
     found = suspect.finding("value_cached", decorator, **words)
     return found if written else _without(found)
+
+
+def _counts_when_read(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a property that counts on each time it is read, and that is read several times."""
+    source, callback = suspect.source, suspect.source.callback
+    for method in source.methods.values() if callback is not None else ():
+        if "property" not in map(dotted, method.decorator_list) or callback is None:
+            continue
+        steps = [n for n in ast.walk(method) if isinstance(n, ast.AugAssign)]
+        reads = [n for n in ast.walk(callback) if dotted(n) == f"self.{method.name}"]
+        if steps and len(reads) > 1:
+            rows = ", ".join(map(str, sorted({n.lineno for n in reads if isinstance(n, ast.expr)})))
+            params = {"name": f"self.{method.name}", "lines": rows}
+            found = suspect.finding("property_counts", steps[0], **params)
+            words = {**found.words, "callback": callback.name, "line": method.lineno}
+            return replace(found, words=words)
+    return None
 
 
 def _without(found: RecognisedMistake) -> RecognisedMistake:
@@ -133,6 +151,40 @@ KINDS = (
                     "        return f'Hello time: {self.counter_}'\n\n    def timer_callback(self)",
                 ),
                 Replace(NODE, "'Hello time: ' + str(self.counter_)", "self.text()"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "property_counts",
+        "counter",
+        msg("Each line that reads the number also counts on"),
+        msg(
+            "{name} is a property: each line that reads it runs its lines, also the one shown. "
+            "{callback} reads it more than once (lines: {lines})."
+        ),
+        msg(
+            "Read {name} once in {callback}, into a variable, and use the variable in these lines. Or "
+            "let the property only return the number, and add to it in {callback}."
+        ),
+        links.PYTHON_CLASSES,
+        behind=dict.fromkeys(("run.wrong_start", "run.wrong_step"), _counts_when_read),
+        examples=(
+            example(
+                "property_that_counts_read_twice",
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    @property\n    def number(self):\n        value = self.counter_\n"
+                    "        self.counter_ += 1\n        return value\n\n    def timer_callback",
+                ),
+                Replace(
+                    NODE,
+                    "        self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                    "        self.counter_ += 1\n",
+                    "        self.get_logger().debug(f'tick {self.number}')\n"
+                    "        self.get_logger().info(f'Hello time: {self.number}')\n",
+                ),
                 fails="run.output",
             ),
         ),

@@ -28,11 +28,15 @@ KINDS = (
             "this file reads {name} with a module and a dot before it, write {name} alone."
         ),
         fixes={
+            "init": msg(
+                "Delete line {line} of {path}: ros2 run finds {there} without it. Then {path} imports "
+                "nothing that imports it."
+            ),
             "third": msg(
                 "Delete this import of {path}: only one of the two files can import the other. "
                 "Give the functions of {there} what they need as arguments, or move what both "
                 "files need to a third file."
-            )
+            ),
         },
         examples=(
             example(
@@ -49,6 +53,17 @@ KINDS = (
                     "PREFIX = 'Hello time: '\n",
                 ),
                 USES_HELPER,
+                fails="run.starts",
+            ),
+            example(
+                "init_file_imports_the_node",
+                Write(
+                    f"{INNER}/__init__.py",
+                    "from my_robot_controller.my_first_node import MyFirstNode\n\n"
+                    "HELLO = 'Hello time: '\n",
+                ),
+                Replace(NODE, IMPORT, f"{IMPORT}\nfrom my_robot_controller import HELLO\n"),
+                Replace(NODE, "'Hello time: '", "HELLO"),
                 fails="run.starts",
             ),
             example(

@@ -93,8 +93,11 @@ def _goes_on(init: Function) -> bool:
 def _stops_at(raised: Raised, base: ast.ClassDef, init: Function) -> RecognisedMistake:
     given = [argument.arg for argument in init.args.args[1:]]
     found = raised.finding("base_stops", at=init, name=base.name)
-    words = {**found.words, "written": f"super().__init__({', '.join(given[:1])})"}
-    return replace(found, words=words, variant="" if given else "no_name")
+    passed = given[:1]
+    if init.args.vararg is not None and init.args.kwarg is not None and not given:
+        passed = [f"*{init.args.vararg.arg}", f"**{init.args.kwarg.arg}"]
+    words = {**found.words, "written": f"super().__init__({', '.join(passed)})"}
+    return replace(found, words=words, variant="" if passed else "no_name")
 
 
 _node = Family("node", links.PYTHON_CLASSES)
@@ -162,6 +165,16 @@ KINDS = (
         },
         raised={PRIVATE: _base_stops},
         examples=(
+            example(
+                "base_takes_all_arguments_without_super",
+                Replace(
+                    NODE,
+                    "class MyFirstNode(Node):",
+                    "class Greets:\n\n    def __init__(self, *args, **kwargs):\n"
+                    "        self.greeting = 'Hello'\n\n\nclass MyFirstNode(Greets, Node):",
+                ),
+                fails="run.starts",
+            ),
             example(
                 "base_without_super",
                 Replace(

@@ -123,6 +123,15 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "log.wrong_level": {"level": "warn"},
     "lab.not_installed": {"package": "turtlesim"},
+    "node.property_counts": {"name": "self.number", "lines": "21, 22"},
+    "node.text_repeated": {
+        "name": "'Count: ' * self.counter",
+        "written": "'Count: ' + str(self.counter)",
+    },
+    "node.list_shown": {
+        "name": "str(['Count: ', self.counter])",
+        "written": "'Count: ' + str(self.counter)",
+    },
     "node.value_cached": {"name": "@cached_property", "written": "@property", "method": "text"},
     "node.spin_elsewhere": {
         "name": "pool.submit(rclpy.spin, node)",

@@ -494,7 +494,7 @@ KINDS = (
             "run.stops": _and_period(_logs_if),
             "run.wrong_start": _and_period(first_of(_needless_if, _logs_if)),
             "run.wrong_step": _and_period(_needless_if),
-            "run.wrong_period": _and_period(_needless_if),
+            "run.wrong_period": _and_period(first_of(_needless_if, _logs_if)),
         },
         fixed_by=(_unwrapped,),
         examples=(
@@ -502,6 +502,17 @@ KINDS = (
                 "logs_until_five",
                 Replace(NODE, LOG_LINE, f"        if self.counter_ < 5:\n    {LOG_LINE}"),
                 fails="run.output",
+            ),
+            example(
+                "logs_at_the_rising_edge_of_a_bit",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.bit_ = False"),
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    "        self.bit_ = not self.bit_\n        if self.bit_:\n"
+                    f"    {LOG_LINE}    {STEP_LINE}",
+                ),
+                fails="run.period",
             ),
             example(
                 "logs_after_the_first",

@@ -274,10 +274,13 @@ def _of_the_lesson(raised: Raised, name: str) -> str:
 def _not_imported(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name = match["name"]
     statement = IMPORTS.get(name) or _of_the_lesson(raised, name)
-    if not statement or name in raised.module.imports:
+    imports = [n for n in raised.module.nodes if isinstance(n, ast.ImportFrom)]
+    of_it = [n for n in imports if n.module == name]
+    if not statement or (name in raised.module.imports and not of_it):
         return None
     found = raised.finding("import_missing", name=name, statement=statement)
-    imports = [n for n in raised.module.nodes if isinstance(n, ast.ImportFrom)]
+    if of_it:
+        return replace(found, variant="from", words={**found.words, "line": of_it[0].lineno})
     for node in imports if name == "Node" else ():
         if node.module == "rclpy" and [alias.name for alias in node.names] == ["node"]:
             found = raised.finding("import_missing", at=node, name=name, statement=IMPORTS[name])
@@ -758,6 +761,9 @@ KINDS = (
         msg("Python knows only names that the file imports or defines."),
         msg("Add the import at the top of the file: {statement}"),
         whys={
+            "from": msg(
+                "Line {line} brings in names that are in {name}, and not the name {name} itself."
+            ),
             "own": OTHER_FILE,
             "own_module": OTHER_FILE,
             "file": msg(
@@ -776,6 +782,11 @@ KINDS = (
             lines.written,
         ),
         examples=(
+            example(
+                "names_of_rclpy_imported_with_a_star",
+                Replace(NODE, "import rclpy\n", "from rclpy import *\n"),
+                fails="run.starts",
+            ),
             example(
                 "import_of_module_missing",
                 Replace(NODE, "self.counter_ += 1", "self.counter_ += 1\n        time.sleep(0.1)"),

@@ -49,7 +49,24 @@ def _yields(suspect: Suspect) -> RecognisedMistake | None:
     found = _of_function(callback, (ast.Yield, ast.YieldFrom)) if callback is not None else None
     if not isinstance(found, ast.expr):
         return None
-    return suspect.finding("callback_yields", found)
+    module = suspect.source.module_of(found)
+    loop = next((n for n in module.around(found) if isinstance(n, ast.While)), None)
+    mistake = suspect.finding("callback_yields", found)
+    if loop is None:
+        return mistake
+    params = {"row": loop.lineno}
+    return replace(
+        mistake, params=params, words={**mistake.words, "line": loop.lineno}, variant="loop"
+    )
+
+
+def _plain_callback(case: Case) -> Files | None:
+    """Delete the yield, and the `while True` around it."""
+    files, row = lines.deleted(case), case.finding.params.get("row")
+    if files is None or row is None:
+        return files
+    found = replace(case.finding, line=int(row))
+    return lines.unwrapped(replace(case, files=files, finding=found))
 
 
 def _dataclass(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -466,8 +483,25 @@ KINDS = (
         msg("The callback contains yield"),
         msg("A function with yield is a generator: calling it runs none of its lines."),
         msg("Remove the yield: the timer waits for you."),
+        fixes={
+            "loop": msg(
+                "Remove the yield and the while in line {line}: indent the lines of the while as far as "
+                "it is indented now. The timer calls {callback} again for the next step."
+            )
+        },
         behind={"run.no_lines": _yields},
+        fixed_by=(_plain_callback,),
         examples=(
+            example(
+                "callback_yields_in_a_loop",
+                Replace(
+                    NODE,
+                    f"{LOG}\n{STEP_LINE}",
+                    f"while True:\n            {LOG}\n    {STEP_LINE}            yield\n",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
             example(
                 "callback_yields",
                 Replace(NODE, STEP_LINE, f"{STEP_LINE}        yield 1.0\n"),

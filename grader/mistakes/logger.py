@@ -14,6 +14,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Suspect, first_of
 from grader.mistakes.worked_out import INSTEAD, worked_out
 from grader.package.edit.tree import Replace
+from grader.package.source.after_spin import calls_after_spin
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, calls_in, dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS, NodeSource
@@ -108,12 +109,35 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
             return replace(suspect.finding("log_missing", target), variant="assigned")
     if _logs_further(source, callback):
         return None
+    if (late := _logs_after_spin(suspect, callback)) is not None:
+        return late
     found = suspect.finding("log_missing", callback)
     if callback in source.methods.values():
         return found
     owner = _node_in(source, callback)
     words = {**found.words, "name": callback.name, "written": f"{owner}.get_logger().info(…)"}
     return replace(found, words=words, variant="function" if owner else "function_only")
+
+
+def _logs_after_spin(suspect: Suspect, callback: Function) -> RecognisedMistake | None:
+    """Look for a method that logs, and that only lines below spin call."""
+    source = suspect.source
+    for call, spin in calls_after_spin(source):
+        method = source.methods.get(own_name(call.func) or last_part(dotted(call.func)))
+        calls = [c for c, name in source.calls if method and last_part(name) == method.name]
+        if method is None or not source.logs(method) or calls != [call]:
+            continue
+        if callback not in source.methods.values():
+            continue
+        found = suspect.finding("log_missing", call)
+        words = {
+            **found.words,
+            "method": f"self.{method.name}()",
+            "callback": callback.name,
+            "line": spin.lineno,
+        }
+        return replace(found, words=words, variant="after_spin")
+    return None
 
 
 def _logs_further(source: NodeSource, part: ast.AST) -> bool:
@@ -485,11 +509,15 @@ KINDS = (
         "log_missing",
         "logger",
         msg("The callback logs nothing"),
-        msg("The timer calls the callback, but only what the callback logs is seen."),
+        msg("The timer calls the callback, but no line of the callback logs anything."),
         msg("Write self.get_logger().info(…) in the callback."),
         links.LOGGING,
         whys={
             "assigned": msg("= replaces the method info by the text, and calls nothing."),
+            "after_spin": msg(
+                "This line is below spin (line {line}), which returns only after Ctrl+C. Until then, "
+                "ROS runs nothing but callbacks, and {callback} logs nothing."
+            ),
             "lambda": msg(
                 "The timer calls this lambda. It returns a text, and nothing logs what a callback "
                 "returns."
@@ -497,6 +525,9 @@ KINDS = (
         },
         fixes={
             "assigned": msg("Remove the = after info: the text stands in its ()."),
+            "after_spin": msg(
+                "Call {method} in {callback} instead, and delete the lines below spin that were to do it."
+            ),
             "function": msg("Write {written} in {name}."),
             "function_only": msg("Call info(…) of the node's logger in {name}."),
             "lambda": msg("Write {written} instead of {name}."),
@@ -510,6 +541,25 @@ KINDS = (
                     NODE,
                     ".info('Hello time: ' + str(self.counter_))",
                     ".info = ('Hello time: ' + str(self.counter_))",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+            example(
+                "logged_by_a_loop_below_spin",
+                Replace(
+                    NODE,
+                    "        self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                    "        self.counter_ += 1\n",
+                    "        self.due = True\n\n    def say(self):\n"
+                    "        self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                    "        self.counter_ += 1\n",
+                ),
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n    except",
+                    "        rclpy.spin(node)\n        while node.due:\n            node.say()\n"
+                    "    except",
                 ),
                 fails="run.output",
                 blocks=SILENT,

@@ -11,6 +11,7 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes.case import Case
+from grader.mistakes.fixes.lines import own_lines
 from grader.mistakes.kind import Family
 from grader.mistakes.other_place import with_global
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
@@ -20,11 +21,13 @@ from grader.package.source.counter import targets_of
 from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, own_name
 from grader.package.source.node import read_module
+from grader.package.source.place import function_at
 from grader.package.source.scopes import (
     Bound,
     Scope,
     bindings,
     class_of,
+    declarations,
     has_self,
     scope_of,
     seen_from,
@@ -43,12 +46,17 @@ def _hidden(raised: Raised, name: str) -> tuple[Scope | None, list[Bound]] | Non
     """Return the scope of the line, and what binds the name elsewhere, if nothing does so here."""
     module = raised.module
     use = use_of(module, raised.line, name)
-    found = bindings(module, name) if use is not None else []
+    found = _that_have_run(module, name) if use is not None else []
     if use is None or not found:
         return None
     here = scope_of(module, use)
     seen = set(seen_from(module, here))
     return None if any(bound.scope in seen for bound in found) else (here, found)
+
+
+def _that_have_run(module: Module, name: str) -> list[Bound]:
+    """Return what binds a name that the file does not know yet: no line that declares it global."""
+    return [b for b in bindings(module, name) if b.scope or not function_at(module, b.line)]
 
 
 def _in_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -169,6 +177,11 @@ def _as_attribute(
         return None
     parts = [n for n in ast.walk(setting[0]) if isinstance(n, ast.Name) and n.id == name]
     words = {"written": new, "lines": _lines(parts)}
+    declared = declarations(module, name)
+    if declared and owner.name != "__init__":
+        return None
+    if declared:
+        return "global_attribute", {**words, "rows": _lines(declared)}
     return ("self" if owner.name == "__init__" else "method"), words
 
 
@@ -244,7 +257,7 @@ def _kept(case: Case) -> Files | None:
     name, new, owner = (str(params.get(key, "")) for key in ("name", "written", "function"))
     if module is None or not name or not new.startswith("self.") or owner != "__init__":
         return None
-    found = bindings(module, name)
+    found = _that_have_run(module, name)
     setting = class_of(module, found[0].scope) if found else None
     if setting is None or not all(_is_assigned(module, bound.part) for bound in found):
         return None
@@ -254,7 +267,11 @@ def _kept(case: Case) -> Files | None:
     methods = [class_of(module, scope_of(module, n)) for n in parts]
     if not all(m is not None and has_self(m[1]) for m in methods):
         return None
-    return case.changed(module, *(module.text.swap(n, new) for n in parts))
+    declared = declarations(module, name)
+    if any(own_lines(module, d) is None or d.names != [name] for d in declared):
+        return None
+    rows = [module.text.without(d.lineno) for d in declared]
+    return case.changed(module, *rows, *(module.text.swap(n, new) for n in parts))
 
 
 def _global(case: Case) -> Files | None:
@@ -306,6 +323,10 @@ KINDS = (
                 "Write {written} instead of {name} (lines: {lines}): an attribute of self is known "
                 "in all methods of the class."
             ),
+            "global_attribute": msg(
+                "Write {written} instead of {name} (lines: {lines}): an attribute of self is known "
+                "in all methods of the class. Then delete global {name} (line {rows})."
+            ),
             "method": msg(
                 "Write {written} instead of {name} (lines: {lines}): an attribute of self is known "
                 "in all methods of the class, from the moment when {function} has set it."
@@ -330,6 +351,20 @@ KINDS = (
         raised={NAME_ERROR: _local},
         fixed_by=(_kept, _global),
         examples=(
+            example(
+                "global_for_a_variable_of_init",
+                Replace(NODE, "self.counter_ = 0", "counter_ = 0"),
+                Replace(
+                    NODE,
+                    "        self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+                    "        self.counter_ += 1\n",
+                    "        global counter_\n"
+                    "        self.get_logger().info('Hello time: ' + str(counter_))\n"
+                    "        counter_ += 1\n",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "node_of_main_in_callback_of_the_file",
                 Replace(

@@ -46,6 +46,8 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     if isinstance(statement, ast.Assign) and text_added(statement):
         return None
     kept = _kept_as_text(raised, statement)
+    if kept is None and statement is not None and not number_first:
+        kept = _kept_and_added(raised, statement)
     if kept is not None:
         return kept
     if number_first and statement is not None and _sums(statement):
@@ -72,34 +74,52 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     if added is None or number_first or not _may_be_number(added):
         return None
     name = raised.module.text.code(added)
-    if isinstance(statement, ast.AugAssign) and _is_kept_number(raised, statement):
-        return _kept_and_added(raised, statement, name)
     return raised.finding("str_plus_int", at=statement, name=name, written=f"str({name})")
 
 
-def _is_kept_number(raised: Raised, statement: ast.AugAssign) -> bool:
-    """Whether += adds a number to an attribute that no line sets to a text of other signs."""
-    name = dotted(statement.target)
-    if not name.startswith("self.") or not _is_literal(statement.value):
-        return False
+def _added_to_itself(statement: ast.stmt) -> tuple[str, ast.expr] | None:
+    """Return the attribute to which a statement adds a number, and that number."""
+    value = statement.value if isinstance(statement, ast.Assign) else None
+    if isinstance(statement, ast.AugAssign):
+        name, added = dotted(statement.target), statement.value
+    elif isinstance(statement, ast.Assign) and isinstance(value, ast.BinOp):
+        name, added = dotted(value.left), value.right
+        if not isinstance(value.op, ast.Add) or [*targets_of(statement)] != [name]:
+            return None
+    else:
+        return None
+    return (name, added) if name.startswith("self.") and _is_literal(added) else None
+
+
+def _kept_and_added(raised: Raised, statement: ast.stmt) -> RecognisedMistake | None:
+    """A number is added to an attribute that no line sets to a text of other signs."""
+    found = _added_to_itself(statement)
+    if found is None:
+        return None
+    name, code, added = (
+        found[0],
+        raised.module.text.code(statement),
+        raised.module.text.code(found[1]),
+    )
     sets = [n for n in raised.module.nodes if isinstance(n, ast.Assign) and name in targets_of(n)]
     texts = [n.value.value for n in sets if isinstance(n.value, ast.Constant)]
-    return not any(isinstance(text, str) and not text.strip().isdigit() for text in texts)
-
-
-def _kept_and_added(raised: Raised, statement: ast.AugAssign, added: str) -> RecognisedMistake:
-    name, code = dotted(statement.target), raised.module.text.code(statement)
+    if any(isinstance(text, str) and not text.strip().isdigit() for text in texts):
+        return None
     start = _start_as_text(raised, name)
     if start is not None:
         return start
     params = {"name": code, "written": f"{name} = int({name}) + {added}"}
-    found = raised.finding("str_plus_int", at=statement, params=params)
-    return replace(found, words={**found.words, "attribute": name}, variant="kept_text")
+    kept = raised.finding("str_plus_int", at=statement, params=params)
+    return replace(kept, words={**kept.words, "attribute": name}, variant="kept_text")
 
 
 def _start_as_text(raised: Raised, name: str) -> RecognisedMistake | None:
     """The only line that sets the counter makes a text of a number: `self.n = str(0)`."""
-    sets = [n for n in raised.module.nodes if isinstance(n, ast.Assign) and name in targets_of(n)]
+    sets = [
+        n
+        for n in raised.module.nodes
+        if isinstance(n, ast.Assign) and name in targets_of(n) and _added_to_itself(n) is None
+    ]
     value = sets[0].value if len(sets) == 1 else None
     if not isinstance(value, ast.Call) or dotted(value.func) != "str" or len(value.args) != 1:
         return None

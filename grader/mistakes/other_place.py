@@ -307,7 +307,7 @@ KINDS = (
     _node(
         "global_lost",
         "callback",
-        msg("A function sets a variable of its own instead of the one of the file"),
+        msg("A function sets a variable of its own instead of the one outside of it"),
         msg(
             "A function that gives a name a value has a variable of its own with this name. Line {line} "
             "sets {name} in {function} only, and {name} of the file stays None."

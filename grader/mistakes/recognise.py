@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from dataclasses import replace
 
 from grader.mistakes.catalogue import CATALOGUE
@@ -11,14 +12,14 @@ from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 SYMPTOMS = frozenset(symptom for kind in CATALOGUE.values() for symptom in kind.behind)
 
 
-def behind_error(raised: Raised) -> RecognisedMistake | None:
-    """Return the mistake behind an exception, or None if it is unknown."""
+def behind_error(raised: Raised, without: Collection[str] = ()) -> RecognisedMistake | None:
+    """Return the mistake behind an exception, none of the kinds `without`; None if it is unknown."""
     raised = replace(raised, error=_as_written(raised))
     for kind in CATALOGUE.values():
         for pattern, look in kind.raised.items():
             match = re.search(pattern, raised.error)
             found = look(raised, match) if match else None
-            if found is not None:
+            if found is not None and found.kind not in without:
                 return found
     return None
 
@@ -30,14 +31,16 @@ def _as_written(raised: Raised) -> str:
     return re.sub(mangled, "", raised.error) if names else raised.error
 
 
-def behind_symptom(symptom: str, suspect: Suspect) -> RecognisedMistake | None:
+def behind_symptom(
+    symptom: str, suspect: Suspect, without: Collection[str] = ()
+) -> RecognisedMistake | None:
     """Return the mistake of the source that causes a symptom, or None if none is recognised.
 
-    Code that only looks like a mistake is not reported.
+    Code that only looks like a mistake is not reported, nor is one of the kinds `without`.
     """
     for kind in CATALOGUE.values():
         look = kind.behind.get(symptom)
         found = look(suspect) if look is not None else None
-        if found is not None:
+        if found is not None and found.kind not in without:
             return found
     return None

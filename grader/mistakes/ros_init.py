@@ -65,7 +65,10 @@ def _made_on_import(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
     }
     mistake = raised.finding("made_on_import", at=made, params=words)
     shared = variable and node_init.used_elsewhere(source, variable)
-    return replace(mistake, variant="no_init" if init is None else "global" if shared else "")
+    variant = "no_init" if init is None else ""
+    if shared:
+        variant = f"{variant}_global".lstrip("_")
+    return replace(mistake, variant=variant)
 
 
 def _init_in_guard(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -157,14 +160,19 @@ KINDS = (
         ),
         msg("Move this line into {function}, below {written} (line {line})."),
         links.RCLPY,
-        whys={
-            "no_init": msg(
+        whys=dict.fromkeys(
+            ("no_init", "no_init_global"),
+            msg(
                 "A line outside of functions runs when Python imports the file, before {function}. "
                 "No node can be created before rclpy.init()."
-            )
-        },
+            ),
+        ),
         fixes={
             "no_init": msg("Move this line into {function}, and write {written} above it."),
+            "no_init_global": msg(
+                "Move this line into {function}, and write {written} above it. Write global {name} "
+                "as the first line of {function}, because other code uses {name} too."
+            ),
             "global": msg(
                 "Move this line into {function}, below {written} (line {line}). Write global {name} "
                 "as the first line of {function}, because other code uses {name} too."
@@ -173,6 +181,19 @@ KINDS = (
         raised={NOT_INITIALIZED: _made_on_import},
         fixed_by=(node_init.into_main,),
         examples=(
+            example(
+                "node_made_above_functions_that_init_and_spin",
+                Replace(NODE, "    node = MyFirstNode()\n", ""),
+                Replace(
+                    NODE,
+                    "def main(",
+                    "node = MyFirstNode()\n\n\ndef setup(args):\n    rclpy.init(args=args)\n\n\n"
+                    "def loop():\n    rclpy.spin(node)\n\n\ndef main(",
+                ),
+                Replace(NODE, "    rclpy.init(args=args)\n    try", "    setup(args)\n    try"),
+                Replace(NODE, "        rclpy.spin(node)\n    except", "        loop()\n    except"),
+                fails="run.starts",
+            ),
             example(
                 "node_made_on_import",
                 Replace(NODE, "    node = MyFirstNode()\n", ""),

@@ -161,8 +161,11 @@ KINDS = (
         "too_much_output",
         "limits",
         msg("The node prints without end"),
-        msg("A loop that prints without waiting fills terminals, logs and disks."),
-        msg("Log only in the timer's callback, once per call."),
+        msg("What prints without waiting fills terminals, logs and disks."),
+        msg(
+            "Look at the period that create_timer gets: with 0, or nearly 0, the timer is always due. If "
+            "the period is right, look for a loop that logs, and log once in each callback instead."
+        ),
     ),
     _run(
         "resource",

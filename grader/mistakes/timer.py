@@ -242,6 +242,12 @@ def _other_callback(suspect: Suspect) -> RecognisedMistake | None:
     return suspect.finding("timer_other_callback", timer.call, name=timer.method)
 
 
+def _starts_timers(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a callback that is called by hand and makes its own timer, each time one more."""
+    found = _by_hand(suspect)
+    return found if found is not None and found.variant == "inside" else None
+
+
 def _by_hand(suspect: Suspect) -> RecognisedMistake | None:
     source = suspect.source
     init = source.methods.get("__init__")
@@ -525,7 +531,7 @@ KINDS = (
             )
         },
         raised={OWN_ATTRIBUTE: _by_hand_early},
-        behind={"run.by_hand": _by_hand},
+        behind={"run.by_hand": _by_hand, "run.twice": _starts_timers},
         fixed_by=(node_timer.by_hand,),
         deletes=("",),
         examples=(

@@ -13,11 +13,13 @@ from grader.mistakes.example import DEAD, NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_timer
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, always
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, always, first_of
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
+from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
+from grader.package.source.node import NodeSource
 from grader.package.source.period import is_right, origin_of, seconds_of
 from grader.package.source.timer import Timer
 
@@ -42,6 +44,32 @@ def _negative(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         period = repr(raised.assignment.output.period)
         return raised.finding("period_negative", at=timer.call, name=code, written=period)
     return None
+
+
+def _part_of_duration(suspect: Suspect) -> RecognisedMistake | None:
+    """The period is taken from one part of a timedelta, which does not have the whole time."""
+    source = suspect.source
+    for timer in source.timers:
+        value = timer.period and (node_timer.value_of(source, timer.period) or timer.period)
+        parts = [n for n in ast.walk(value) if isinstance(n, ast.Attribute)] if value else []
+        parts = [n for n in parts if n.attr in ("microseconds", "seconds", "days")]
+        if value is None or len(parts) != 1 or not _is_timedelta(source, parts[0].value):
+            continue
+        code = source.module_of(value).text.code
+        written = f"{code(parts[0].value)}.total_seconds()"
+        found = suspect.finding("period_zero", value, name=code(value), written=written)
+        words = {**found.words, "part": parts[0].attr}
+        return replace(found, words=words, variant="duration")
+    return None
+
+
+def _is_timedelta(source: NodeSource, part: ast.expr) -> bool:
+    """Whether a name is set once, to what timedelta() makes."""
+    name = dotted(part)
+    sets = [n for n in source.all_nodes if isinstance(n, ast.Assign | ast.AnnAssign)]
+    made = [n.value for n in sets if name and name in set(targets_of(n))]
+    call = part if isinstance(part, ast.Call) else made[0] if len(made) == 1 else None
+    return isinstance(call, ast.Call) and last_part(dotted(call.func)) == "timedelta"
 
 
 def _zero(suspect: Suspect) -> RecognisedMistake | None:
@@ -492,18 +520,39 @@ KINDS = (
         msg("A timer with the period 0 is always due: it calls the callback without a pause."),
         msg("Write {written} instead of {name} in create_timer."),
         whys={
+            "duration": msg(
+                "A timedelta has its time in three parts: days, seconds and microseconds. {name} takes "
+                "only its {part}, which is not the whole time."
+            ),
             "whole": msg(
                 "{name} is 0: // leaves out what is behind the point. A timer with the period 0 is "
                 "always due: it calls the callback without a pause."
-            )
+            ),
         },
         fixes={
+            "duration": msg("Write {written} instead of {name}: it is the whole time in seconds."),
             "whole": msg("Write {written} instead of {name} in this line."),
             "elsewhere": msg("Write {written} instead of {name} in this line."),
         },
-        behind={"run.too_much_output": _zero, "run.wrong_period": _zero},
+        behind=dict.fromkeys(
+            ("run.too_much_output", "run.wrong_period"), first_of(_part_of_duration, _zero)
+        ),
         fixed_by=(lines.written,),
         examples=(
+            example(
+                "microseconds_of_a_duration",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "from datetime import timedelta\n\nimport rclpy\nfrom",
+                ),
+                Replace(
+                    NODE, "\n\nclass MyFirst", "PERIOD = timedelta(seconds=1)\n\n\nclass MyFirst"
+                ),
+                Replace(NODE, "(1.0,", "(PERIOD.microseconds / 1e6,"),
+                fails="run.output",
+                blocks=("run.spins", *DEAD),
+            ),
             example(
                 "period_zero",
                 Replace(NODE, "create_timer(1.0,", "create_timer(0,"),

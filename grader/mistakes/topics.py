@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Collection
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
@@ -17,6 +18,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.declared import Parameter, declared, declares_others
 from grader.package.source.names import called_name, calls_in, dotted, last_part
+from grader.package.source.node import NodeSource
 from grader.package.source.place import place_of, statement_at
 
 UNDECLARED = r"ParameterNotDeclaredException: .*?: (?P<name>[\w.]{1,100})$"
@@ -41,7 +43,7 @@ def _undeclared(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     known = {p.name: p for p in declared(source)}
     if name in known:
         return _declared_late(raised, found, parameter, known[name])
-    close = nearest(name, known, cutoff=0.7)
+    close = nearest(name, known, cutoff=0.7) or _renamed(source, name, known)
     if close and not declares_others(source):
         return _misspelt(raised, found, parameter, known[close])
     declaration = node_parameters.declaration(source, raised.assignment, module, parameter)
@@ -52,6 +54,15 @@ def _undeclared(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     if "…" in declaration.written:
         variant += "_open"
     return replace(found, params={"parameter": name}, words=words, variant=variant)
+
+
+def _renamed(source: NodeSource, name: str, known: Collection[str]) -> str:
+    """Return the one declared name that no line reads, if it has a word of another name."""
+    texts = [n.value for n in source.all_nodes if isinstance(n, ast.Constant)]
+    unread = [other for other in known if texts.count(other) == 1]
+    words = set(name.lower().split("_"))
+    alike = [other for other in unread if words & set(other.lower().split("_"))]
+    return alike[0] if len(alike) == 1 else ""
 
 
 def _misspelt(
@@ -483,6 +494,17 @@ KINDS = (
                     NODE,
                     "create_timer(1.0,",
                     "create_timer(self.get_parameter('period').value,",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "parameter_renamed_in_one_place",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0,",
+                    "        self.declare_parameter('timer_period', 1.0)\n"
+                    "        period = self.get_parameter('period').value\n"
+                    "        self.create_timer(period,",
                 ),
                 fails="run.starts",
             ),

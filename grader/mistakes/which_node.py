@@ -361,6 +361,8 @@ def _daemon(suspect: Suspect) -> RecognisedMistake | None:
         given = {keyword.arg: keyword.value for keyword in call.keywords}
         target, daemon = given.get("target"), given.get("daemon")
         spins = target is not None and last_part(dotted(target)) in SPINS
+        if any(last_part(name) == "join" for _, name in suspect.source.calls):
+            return None
         if spins and isinstance(daemon, ast.Constant) and daemon.value is True:
             found = suspect.finding("spin_in_daemon", call)
             owner = dotted(target).rpartition(".")[0] if target is not None else ""
@@ -552,7 +554,7 @@ KINDS = (
         msg("When {function} comes to its end, the program ends, and its daemon threads with it."),
         msg("Call rclpy.spin({node}) in {function} itself, without the thread."),
         fixes={"executor": msg("Call {name}.spin() in {function} itself, without the thread.")},
-        behind={"run.exits_at_once": _daemon},
+        behind=dict.fromkeys(("run.exits_at_once", "run.ended_early"), _daemon),
         examples=(
             example(
                 "spin_in_daemon",

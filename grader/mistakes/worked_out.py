@@ -191,6 +191,53 @@ KINDS = (
         ),
     ),
     _node(
+        "text_repeated",
+        "text",
+        msg("* repeats a text, and does not join it with another one"),
+        msg("{name} is the same text several times over. + joins two texts."),
+        msg("Write {written} instead of {name}: str() makes a string of a number."),
+        behind={"run.wrong_text": worked_out("text_repeated", "repeated")},
+        fixed_by=(node_worked_out.change("repeated"),),
+        examples=(
+            example(
+                "text_times_number",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "'Hello time: ' * self.counter_",
+                ),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
+        "list_shown",
+        "text",
+        msg("A list is made into a text, with its brackets"),
+        msg(
+            "Square brackets make a list. str() of a list shows the brackets, quotes and commas too."
+        ),
+        INSTEAD,
+        behind={"run.wrong_text": worked_out("list_shown", "listed")},
+        fixed_by=(node_worked_out.change("listed"),),
+        examples=(
+            example(
+                "text_and_number_in_a_list",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "str(['Hello time: ', self.counter_])",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "number_in_a_list",
+                Replace(NODE, "str(self.counter_)", "str([self.counter_])"),
+                fails="run.output",
+            ),
+        ),
+    ),
+    _node(
         "other_name_shown",
         "counter",
         msg("The line shows another value than the one that counts"),

@@ -51,13 +51,16 @@ class Unobserved(Exception):  # noqa: N818 - not an error of the node
 class Session:
     """Builds and runs one package in an open sandbox; `timing` has the seconds of each stage.
 
-    A session may take the limits' `verdict_seconds`; a run that does not fit into what is left of
-    them is not started.
+    A session may take the limits' `verdict_seconds`, or until `deadline` (of `time.monotonic`); a
+    run that does not fit into what is left of them is not started.
     """
 
-    def __init__(self, sandbox: Sandbox, assignment: Assignment) -> None:
+    def __init__(
+        self, sandbox: Sandbox, assignment: Assignment, *, deadline: float | None = None
+    ) -> None:
         self.sandbox = sandbox
         self.assignment = assignment
+        self.deadline = deadline or time.monotonic() + sandbox.limits.verdict_seconds
         self.timing = {"build": 0.0, "run": 0.0}
         self._probe: ProbeLink | None = None
         self._interfaces = b""  # those of the submission, for the probe
@@ -68,7 +71,6 @@ class Session:
         self._unforeseen = Unforeseen(more_ticks=0, stay_seconds=0, draw=1)
         self._built = b""  # the workspace after the build, for a plain run or another scenario
         self._planned = False  # whether a run of a scenario was made
-        self._deadline = time.monotonic() + sandbox.limits.verdict_seconds
 
     def __enter__(self) -> Session:
         return self
@@ -207,7 +209,7 @@ class Session:
         while tries < RUNS and self._has_time():
             tries += 1
             self._probe = self._probe or self._new_probe()
-            until = min(time.monotonic() + self.sandbox.limits.max_run_seconds, self._deadline)
+            until = min(time.monotonic() + self.sandbox.limits.max_run_seconds, self.deadline)
             try:
                 run = observed(self._probe, on_event, until=until)
             except ProbeError as error:
@@ -274,7 +276,7 @@ class Session:
         tries = 0
         while tries < CONFIRMING_RUNS and self._has_time():
             clean = not self._built or restore(self.sandbox, self._built)
-            until = min(time.monotonic() + self.sandbox.limits.max_run_seconds, self._deadline)
+            until = min(time.monotonic() + self.sandbox.limits.max_run_seconds, self.deadline)
             if clean and counts_plainly(self.sandbox, named, patience=patience, until=until):
                 return True
             tries += 1
@@ -286,7 +288,7 @@ class Session:
 
     def _has_time(self) -> bool:
         """Whether the verdict's time limit leaves time for a whole run."""
-        return self._deadline - time.monotonic() >= self.sandbox.limits.max_run_seconds
+        return self.deadline - time.monotonic() >= self.sandbox.limits.max_run_seconds
 
     def _doubtful(self, run: Run) -> bool:
         """Whether load of the machine may have made this run look worse than the node is."""

@@ -34,10 +34,13 @@ def circular_import(
     if match is None or where is None or where.line is None:
         return None
     name, module = match["name"] or match["attribute"], match["module"] or match["of"]
-    path = f"{module.replace('.', '/')}.py"
-    first = read_module(partial(data_of, evidence), path)
-    if first is None or path == where.file:
+    place = module.replace(".", "/")
+    first = None
+    for candidate in (f"{place}.py", f"{place}/__init__.py"):
+        first = first or read_module(partial(data_of, evidence), candidate)
+    if first is None or first.path == where.file:
         return None
+    path = first.path
     line = _line_of_import(first, where.file)
     if line is None:
         return None
@@ -46,7 +49,7 @@ def circular_import(
         kind="node.circular_import",
         params=values,
         words={**values, "there": where.file},
-        variant="" if _is_plain(first, name) else "third",
+        variant=_variant(first, name),
         where=where,
     )
 
@@ -57,6 +60,12 @@ def _line_of_import(module: Module, path: str) -> int | None:
         if any(path in found.paths for found in imports_of(statement, module.path)):
             return statement.lineno
     return None
+
+
+def _variant(module: Module, name: str) -> str:
+    if module.path.endswith("/__init__.py"):
+        return "init"
+    return "" if _is_plain(module, name) else "third"
 
 
 def _is_plain(module: Module, name: str) -> bool:

@@ -22,7 +22,8 @@ from grader.verdict.plots import topic_plots
 
 REMARKS = {
     "asks": msg(
-        "To look at: {place} reads {what}, which can tell a program that it is being marked."
+        "To look at: {place} uses {what}. It has honest uses, but a program can also learn from it "
+        "that it is being marked."
     ),
     "hides": msg("To look at: {place} has {what}: the source does not show what it does."),
     "rosout": msg("To look at: {place} has {what}: the node may publish log records by hand."),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import re
 import shlex
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -90,14 +90,17 @@ class Diagnosis:
         )
 
 
-def diagnose(failed: Failed, evidence: Evidence) -> Diagnosis:
-    """Return the diagnosis of a failed check, with the root cause first if it is found."""
+def diagnose(failed: Failed, evidence: Evidence, without: Collection[str] = ()) -> Diagnosis:
+    """Return the diagnosis of a failed check, with the root cause first if it is found.
+
+    The root cause is none of the kinds `without`: their fixes were tried and did not help.
+    """
     diagnosis = Diagnosis.of(failed)
     symptom = failed.mistake.id
     if symptom not in SYMPTOMS and symptom not in RAISES and not symptom.startswith("run."):
         return _following(diagnosis, evidence)
     try:
-        found = _root(symptom, diagnosis, evidence)
+        found = _root(symptom, diagnosis, evidence, without)
     except RecursionError:  # (a hostile source; the check's own diagnosis is kept)
         found = None
     if found is not None:
@@ -130,18 +133,22 @@ def _left_to(diagnosis: Diagnosis, cause: str) -> Diagnosis:
     return diagnosis
 
 
-def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedMistake | None:
+def _root(
+    symptom: str, diagnosis: Diagnosis, evidence: Evidence, without: Collection[str]
+) -> RecognisedMistake | None:
     if symptom in RAISES:
         error, where = raised_in(evidence, ended_program(evidence.run) or evidence.run)
         if error:
-            return (
+            found = (
                 _not_installed(error, evidence)
                 or own_module(error, where, evidence)
                 or circular_import(error, where, evidence)
                 or main_in_copy(error, evidence)
                 or _cannot_be_read(error, where, evidence)
-                or _raised(error, where, evidence)
             )
+            if found is not None and found.kind not in without:
+                return found
+            return _raised(error, where, evidence, without)
     source = source_of_node(evidence)
     if source is None:
         return None
@@ -149,14 +156,14 @@ def _root(symptom: str, diagnosis: Diagnosis, evidence: Evidence) -> RecognisedM
     if symptom == "run.wrong_node_name" and given is not None:
         diagnosis.where = place_of(source, given)
     other = other_version(symptom, source, evidence)
-    if other is not None:
+    if other is not None and other.kind not in without:
         return other
     text = str(diagnosis.mistakes[0].params.get("text", ""))
     lines = tuple(event.text for event in evidence.run.watch.counted)
     said = (ended_program(evidence.run) or evidence.run).transcript
     stuck = evidence.run.watch.still_answers is False
     suspect = Suspect(source, evidence.assignment, text, diagnosis.where, lines, said, stuck)
-    return behind_symptom(symptom, suspect)
+    return behind_symptom(symptom, suspect, without)
 
 
 def _cannot_be_read(
@@ -169,11 +176,13 @@ def _cannot_be_read(
     return unreadable_module(where.file, found) if found is not None else None
 
 
-def _raised(error: str, where: Where | None, evidence: Evidence) -> RecognisedMistake | None:
+def _raised(
+    error: str, where: Where | None, evidence: Evidence, without: Collection[str]
+) -> RecognisedMistake | None:
     source = source_around(evidence, where)
     inside = raised_inside(evidence, ended_program(evidence.run) or evidence.run)
     raised = Raised(error, where, source, evidence.assignment, inside) if source else None
-    return behind_error(raised) if raised is not None else None
+    return behind_error(raised, without) if raised is not None else None
 
 
 def _not_installed(error: str, evidence: Evidence) -> RecognisedMistake | None:

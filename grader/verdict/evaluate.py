@@ -85,6 +85,14 @@ def evaluate_checks(
         yield result
 
 
+def evaluate_again(
+    check_id: str, evidence: Evidence, translate: Translator, *, without: Collection[str]
+) -> CheckResult:
+    """Return a check's result with a diagnosis of none of the kinds `without`."""
+    assigned = {one.use.id: one for one in assigned_checks(evidence.assignment)}
+    return _evaluate(assigned[check_id], evidence, translate, without)
+
+
 @dataclass(frozen=True, kw_only=True)
 class _Result:
     """The result of a check before translation."""
@@ -103,10 +111,15 @@ class _Result:
     fault: str = ""
 
 
-def _evaluate(assigned: AssignedCheck, evidence: Evidence, translate: Translator) -> CheckResult:
+def _evaluate(
+    assigned: AssignedCheck,
+    evidence: Evidence,
+    translate: Translator,
+    without: Collection[str] = (),
+) -> CheckResult:
     begin = time.monotonic()
     try:
-        found = _found(assigned, evidence)
+        found = _found(assigned, evidence, without)
     except GraderError:
         raise
     except (Exception, SystemExit):  # a bug in one check must not lose the results of the others
@@ -137,7 +150,7 @@ def _evaluate(assigned: AssignedCheck, evidence: Evidence, translate: Translator
     )
 
 
-def _found(assigned: AssignedCheck, evidence: Evidence) -> _Result:
+def _found(assigned: AssignedCheck, evidence: Evidence, without: Collection[str]) -> _Result:
     blocker = _blocker(assigned, evidence)
     outcome = Blocked(by=blocker) if blocker else assigned.check.evaluate(evidence, assigned.use)
     if isinstance(outcome, Passed):
@@ -152,7 +165,7 @@ def _found(assigned: AssignedCheck, evidence: Evidence) -> _Result:
         evidence.not_blocking.add(assigned.use.id)
     from grader.verdict.diagnose import diagnose  # noqa: PLC0415 - it imports all mistakes
 
-    diagnosis = diagnose(outcome, evidence)
+    diagnosis = diagnose(outcome, evidence, without)
     return _Result(
         status="failed",
         rationale=diagnosis.rationale,

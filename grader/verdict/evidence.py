@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from functools import cached_property
 
 from grader.course.assignment import Assignment
@@ -16,13 +17,18 @@ from grader.run.workspace import Build
 from grader.verdict.outcome import Inconclusive
 from grader.verdict.own_names import own_executable, with_own_names
 
+WithFix = Callable[[str, Submission], "AbstractContextManager[Evidence | None]"]
+"""Opens the evidence of a fixed package; the text is the fix's SHA-256."""
+
 
 class Evidence:
     """The evidence of one verdict; `results` has the results of the checks evaluated so far.
 
     `asked` is the assignment as it is, `assignment` the same with the package's own names.
     `not_blocking` has the failed checks that prevent no other check, `distro` is the ROS that the
-    package is for (None: unknown). The build and the run are made on first access.
+    package is for (None: unknown). The build and the run are made on first access. `with_fix` opens
+    the evidence of the package as it is after a fix, or of None; `tried` has what that showed, by
+    the fix's SHA-256.
     """
 
     def __init__(
@@ -33,6 +39,7 @@ class Evidence:
         build: Callable[[], Build],
         run: Callable[[], Run],
         run_of: Callable[[RunPlan], Run] | None = None,
+        with_fix: WithFix | None = None,
     ) -> None:
         self.asked = assignment
         self.assignment = with_own_names(assignment, submission)
@@ -47,6 +54,8 @@ class Evidence:
         self._runs: dict[str, Run] = {}
         self._runs_failed: dict[str, Inconclusive] = {}
         self.run_failed: Inconclusive | None = None
+        self.with_fix = with_fix
+        self.tried: dict[str, Evidence] = {}
 
     @cached_property
     def build(self) -> Build:

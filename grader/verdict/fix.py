@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from grader.base.i18n.message import say
@@ -52,16 +52,28 @@ def patch_for(result: CheckResult, submission: Submission, assignment: Assignmen
 
     Checks that need a run are not evaluated again: their fix relies on the form of the mistake.
     """
+    new = next(fixes_of(result, submission, assignment), None)
+    return "" if new is None else patch_text(Files.of(submission), new)
+
+
+def fixes_of(
+    result: CheckResult, submission: Submission, assignment: Assignment
+) -> Iterator[Files]:
+    """Yield the files after each fix of a failed check, in the order to try them."""
     finding = finding_of(result)
     follows = result.consequence_of and result.id in STATIC
     if finding is None or submission.root is None or follows:
-        return ""
-    old = Files.of(submission)
+        return
     if finding.check in STATIC:
         plan = fix_files(submission, assignment, only=finding.check)
-        new = old if any(f.check == finding.check for f in plan.left) else plan.new
+        if not any(f.check == finding.check for f in plan.left):
+            yield plan.new
     else:
-        new = first_fix(Case(old, finding, assignment), fixes_for(finding)) or old
+        yield from _tries(Case(Files.of(submission), finding, assignment), fixes_for(finding))
+
+
+def patch_text(old: Files, new: Files) -> str:
+    """Return the diff for a report; empty if it is too long or not UTF-8."""
     patch = diff(old, new)
     if len(patch) > MOST_PATCH:
         return ""
@@ -132,7 +144,7 @@ def _no_worse(before: list[Finding], after: list[Finding], case: Case) -> bool:
     return all(order.index(check) > at for check in new)
 
 
-def _tries(case: Case, fixes: Iterable[Fix]) -> Iterable[Files]:
+def _tries(case: Case, fixes: Iterable[Fix]) -> Iterator[Files]:
     for attempt in fixes:
         new = attempt(case)
         if new is not None and not _breaks_python(case.files, new):

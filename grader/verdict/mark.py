@@ -6,7 +6,8 @@ It prints nothing: it emits events and returns the report.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from datetime import datetime, timezone
 from typing import TYPE_CHECKING
 
@@ -24,7 +25,7 @@ from grader.sandbox.base import Sandbox
 from grader.sandbox.choose import open_sandbox
 from grader.verdict.compose import compose
 from grader.verdict.evaluate import AssignedCheck, evaluate_checks
-from grader.verdict.evidence import Evidence
+from grader.verdict.evidence import Evidence, WithFix
 from grader.verdict.follows import without_repeated
 from grader.verdict.order import Order
 from grader.verdict.take_in import take_in_for
@@ -81,6 +82,8 @@ def mark(
     with Session(sandbox, assignment) as session:
         evidence = _evidence(session, submission, listener)
         evidence.distro = order.distro
+        if order.tries_fixes:
+            evidence.with_fix = _with_fix(order, session, listener, translate)
         results = _decide(evidence, listener, translate)
         environment = _environment(sandbox)
     if keep is not None:
@@ -166,14 +169,37 @@ def _evidence(session: Session, submission: Submission, listener: events.Listene
     return evidence
 
 
+def _with_fix(
+    order: Order, session: Session, listener: events.Listener, translate: Translator
+) -> WithFix:
+    """Return what builds and runs the package with a fix, in a sandbox of its own."""
+
+    @contextmanager
+    def opened(_digest: str, fixed: Submission) -> Iterator[Evidence | None]:
+        listener(events.StageStarted("fix", translate(say("Trying a fix of this package"))))
+        sandbox = open_sandbox(
+            order.sandbox,
+            order.distro,
+            order.limits,
+            interfaces=session.assignment.needs_interfaces,
+            own_code=order.own_code,
+            notify=unheard,
+        )
+        with Session(sandbox, session.assignment, deadline=session.deadline) as again:
+            evidence = _evidence(again, fixed, unheard)
+            evidence.distro = order.distro
+            yield evidence
+
+    return opened
+
+
 def _decide(
     evidence: Evidence, listener: events.Listener, translate: Translator
 ) -> list[model.CheckResult]:
     stages = _Stages(listener, translate)
     for result in evaluate_checks(evidence, translate, announce=stages.announce):
         if result.status == "failed":
-            patch = _patch(result, evidence, listener)
-            evidence.results[result.id] = result.model_copy(update={"patch": patch})
+            evidence.results[result.id] = _with_patch(result, evidence, listener, translate)
         listener(events.CheckFinished(evidence.results[result.id]))
     stages.finish()
     results = [evidence.results[use.id] for use in evidence.assignment.checks]
@@ -207,13 +233,16 @@ class _Stages:
             self._listener(events.StageFinished(self._stage, seconds))
 
 
-def _patch(result: model.CheckResult, evidence: Evidence, listener: events.Listener) -> str:
-    if result.status != "failed":
-        return ""
-    from grader.verdict.fix import patch_for  # noqa: PLC0415 - it imports all mistakes
+def _with_patch(
+    result: model.CheckResult,
+    evidence: Evidence,
+    listener: events.Listener,
+    translate: Translator,
+) -> model.CheckResult:
+    from grader.verdict.try_fixes import with_tried_fix  # noqa: PLC0415 - it imports all mistakes
 
     try:
-        return patch_for(result, evidence.submission, evidence.assignment)
+        return with_tried_fix(result, evidence, translate)
     except Exception as fault:  # a bug of ours must not lose the verdict, which has no fix then
         listener(events.Note(f"{result.id}: no fix was made because of a fault of ours: {fault!r}"))
-        return ""
+        return result

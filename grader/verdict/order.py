@@ -37,6 +37,8 @@ class Order:
     student_id: str = ""
     modes_kept: bool = True
     """False if the exec bits were lost on the way here (see `take_in`)."""
+    tries_fixes: bool = True
+    """Whether to build and run the package with a fix before the report shows that fix."""
 
 
 def make_orders(

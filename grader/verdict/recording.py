@@ -7,6 +7,7 @@ fixes and the report work on it as they do on a build and a run; nothing is exec
 
 from __future__ import annotations
 
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import asdict
 from functools import cache
 from typing import Annotated, Any, Literal
@@ -118,6 +119,7 @@ class Recording(Part):
     `build` and `run` are None if no check needed them; `unobserved` is the reason if the run was
     tried and could not be observed. In JSON, `run` lists its events once (see `_run_as_json`).
     `scenarios` are the runs of an assignment of schema 2, and `unobserved_runs` the reasons by name.
+    `fixed` has the recordings of the package with the fixes that were tried, by the fix's SHA-256.
     """
 
     schema_: Literal[1] = Field(default=1, alias="schema")
@@ -129,13 +131,15 @@ class Recording(Part):
     unobserved: str = ""
     scenarios: tuple[RecordedRun, ...] = ()
     unobserved_runs: dict[str, str] = Field(default_factory=dict)
+    fixed: dict[str, Recording] = Field(default_factory=dict)
 
     @model_serializer(mode="wrap")
     def _without_scenarios(self, handler: Any) -> dict[str, Any]:
-        """Leave out the keys of schema 2 in a recording of schema 1."""
+        """Leave out the keys of schema 2 in a recording of schema 1, and `fixed` if it is empty."""
         found: dict[str, Any] = handler(self)
-        if not self.asked.runs:
-            del found["scenarios"], found["unobserved_runs"]
+        left_out = [] if self.asked.runs else ["scenarios", "unobserved_runs"]
+        for key in left_out if self.fixed else [*left_out, "fixed"]:
+            found.pop(key, None)  # (pydantic calls this twice for a recording in a recording)
         return found
 
     def to_bytes(self) -> bytes:
@@ -165,6 +169,7 @@ def record(evidence: Evidence, environment: Environment) -> Recording:
         scenarios=evidence.runs,
         unobserved_runs=evidence.unobserved,
         unobserved="" if evidence.run_failed is None else evidence.run_failed.reason,
+        fixed={digest: record(tried, environment) for digest, tried in evidence.tried.items()},
     )
 
 
@@ -199,7 +204,11 @@ def evidence_of(recording: Recording, submission: Submission, assignment: Assign
                 return found
         raise RecordingError(f"the recording has no run '{plan.name}'")
 
-    return Evidence(assignment, submission, build=build, run=run, run_of=run_of)
+    def with_fix(digest: str, fixed: Submission) -> AbstractContextManager[Evidence | None]:
+        found = recording.fixed.get(digest)
+        return nullcontext(None if found is None else evidence_of(found, fixed, assignment))
+
+    return Evidence(assignment, submission, build=build, run=run, run_of=run_of, with_fix=with_fix)
 
 
 def _asked(assignment: Assignment) -> Asked:

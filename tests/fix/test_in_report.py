@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from grader.report import events
-from grader.verdict import fix
+from grader.verdict import try_fixes
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.fix.corpus_fixes import TOOLS, with_tool
@@ -43,7 +43,7 @@ def test_a_failing_fix_costs_no_verdict_and_is_reported(
 
     handed_in = write(BY_NAME["comma_missing"], tmp_path)
     right = mark(handed_in)
-    monkeypatch.setattr(fix, "patch_for", faulty)
+    monkeypatch.setattr(try_fixes, "fixes_of", faulty)
     messages: list[events.Event] = []
     report = mark(handed_in, listener=messages.append)
     assert {check.id: check.status for check in report.checks} == {

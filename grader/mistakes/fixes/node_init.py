@@ -49,7 +49,8 @@ def moved_call(source: NodeSource, call: ast.Call) -> str:
 def made_on_import(source: NodeSource) -> tuple[ast.stmt, ast.Call | None] | None:
     """Return the statement outside of functions that creates the node, and the function's init.
 
-    None if rclpy.init() is called outside of functions too, or the entry function is elsewhere.
+    The init may be the call of a function that has it. None if rclpy.init() is called outside of
+    functions too, or the entry function is elsewhere.
     """
     main = source.main
     if main is None or main not in source.entry.tree.body:
@@ -63,6 +64,8 @@ def made_on_import(source: NodeSource) -> tuple[ast.stmt, ast.Call | None] | Non
     if len(made) != 1 or any(source.function_around(call) is None for call in inits):
         return None
     own = [call for call in inits if source.function_around(call) is main]
+    having = {f.name for call in inits if (f := source.function_around(call)) not in (None, main)}
+    own = own or [call for call, name in calls_in(main) if name in having]
     return made[0], own[0] if len(own) == 1 else None
 
 

@@ -13,6 +13,7 @@ from grader.package.source.counter import names_given, targets_of
 from grader.package.source.module import Module
 from grader.package.source.names import dotted, own_name
 from grader.package.source.node import NodeSource
+from grader.package.source.scopes import bindings
 
 IMPORT = ast.Import | ast.ImportFrom
 
@@ -57,7 +58,7 @@ def missing_import(case: Case) -> Files | None:
     module = case.module
     name, statement = (str(case.finding.params.get(key, "")) for key in ("name", "statement"))
     imports = [s for s in module.tree.body if isinstance(s, IMPORT)] if module is not None else []
-    if module is None or not statement or not imports or name in module.names:
+    if module is None or not statement or not imports or bindings(module, name):
         return None
     last = imports[-1]
     return case.changed(module, module.text.before((last.end_lineno or last.lineno) + 1, statement))

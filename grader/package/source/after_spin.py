@@ -32,6 +32,17 @@ def timer_after_spin(source: NodeSource) -> tuple[ast.Call, ast.Call] | None:
     return None
 
 
+def calls_after_spin(source: NodeSource) -> list[tuple[ast.Call, ast.Call]]:
+    """Return the calls in lines below spin, each with the call of spin."""
+    return [
+        (call, spin)
+        for spin in source.calls_of("spin")
+        if (function := source.function_around(spin)) is not None
+        for call, _ in calls_in(function)
+        if _is_below(source, call, spin)
+    ]
+
+
 def _makers(source: NodeSource) -> set[str]:
     """Return the node's methods that create a timer, without __init__."""
     own = {timer.function.name for timer in source.timers if timer.function is not None}

@@ -201,12 +201,19 @@ def _other_names(module: Module, wanted: Wanted, before: Sequence[str]) -> Itera
         if not isinstance(node, ast.Attribute | ast.Name) or not isinstance(node.ctx, ast.Load):
             continue
         read, around = dotted(node), module.parents.get(node)
+        if any(isinstance(n, ast.Call) and _is_unseen(n) for n in module.around(node)):
+            continue
         shown = isinstance(around, ast.FormattedValue | ast.BinOp | ast.Tuple | ast.List)
         shown = shown or (isinstance(around, ast.Call) and node in around.args)
         if not read or not shown or read in counted or module.text.code(node) != read:
             continue
         for name in (name for name in counted if name.startswith("self.")):
             yield of_piece(module, "name", node, name, str(counted[name].lineno))
+
+
+def _is_unseen(call: ast.Call) -> bool:
+    """Whether a call logs what the terminal does not show."""
+    return last_part(dotted(call.func)) == "debug"
 
 
 def _one_character(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
@@ -278,6 +285,35 @@ def _branches(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator
                     yield Change("branch", node, "if", code, (swap,), text.code(node.test))
 
 
+def _repeated(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
+    """Yield a text and a number joined by + in place of a text that * repeats."""
+    del wanted, before
+    text = module.text
+    for node in module.nodes:
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult):
+            one, other = text.code(node.left), text.code(node.right)
+            yield of_piece(module, "repeated", node, f"{one} + str({other})")
+
+
+def _listed(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
+    """Yield the elements of a list or tuple as a text, in place of the list as a text."""
+    del wanted, before
+    text = module.text
+    for node in module.nodes:
+        if not isinstance(node, ast.Call) or len(node.args) != 1 or node.keywords:
+            continue
+        given = node.args[0]
+        if dotted(node.func) != "str" or not isinstance(given, ast.List | ast.Tuple | ast.Set):
+            continue
+        strings = [text.plain_string(part) is not None for part in given.elts]
+        parts = [
+            text.code(part) if plain else f"str({text.code(part)})"
+            for part, plain in zip(given.elts, strings)
+        ]
+        if parts and "\n" not in text.code(node):
+            yield of_piece(module, "listed", node, " + ".join(parts), text.code(given))
+
+
 MORE_SORTS: dict[str, Callable[[Module, Wanted, Sequence[str]], Iterator[Change]]] = {
     "taken": _taken,
     "joined": _joined,
@@ -289,4 +325,6 @@ MORE_SORTS: dict[str, Callable[[Module, Wanted, Sequence[str]], Iterator[Change]
     "whole": _whole,
     "character": _one_character,
     "branch": _branches,
+    "repeated": _repeated,
+    "listed": _listed,
 }

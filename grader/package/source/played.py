@@ -418,7 +418,7 @@ class _Player:
         plain = all(isinstance(v, int | float | str | tuple | list) for v in values)
         if done is None or not plain:
             return UNKNOWN
-        if isinstance(op, ast.Mult) and any(not isinstance(v, int | float) for v in values):
+        if isinstance(op, ast.Mult) and not _is_short_product(values):
             return UNKNOWN
         if isinstance(op, ast.Mod) and isinstance(values[0], str):
             given = values[1] if isinstance(values[1], tuple) else values[1:]
@@ -774,6 +774,15 @@ class _Player:
 
 def _ends(of: ast.Slice) -> tuple[ast.expr | None, ...]:
     return of.lower, of.upper, of.step
+
+
+def _is_short_product(values: Sequence[object]) -> bool:
+    """Whether a product is one of numbers, or a text that is repeated and stays short."""
+    texts = [v for v in values if isinstance(v, str)]
+    times = [v for v in values if isinstance(v, int)]
+    if len(texts) == len(times) == 1:
+        return len(texts[0]) * times[0] <= LONGEST
+    return all(isinstance(v, int | float) for v in values)
 
 
 def _is_plain(value: object) -> bool:

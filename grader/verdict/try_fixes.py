@@ -1,0 +1,156 @@
+"""Tries the fixes of a failed check: builds and runs the package with each before one is shown.
+
+A fix that leaves the failure as it was shows that the diagnosis does not explain it. The check is
+then diagnosed again without that kind of mistake. Another diagnosis has to have a fix that helps;
+if none has, the report only says what was seen.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Mapping
+from copy import copy
+from functools import cached_property
+from itertools import islice
+
+from grader.base.errors import GraderError
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import Translator
+from grader.package.edit.diff import diff
+from grader.package.edit.files import Files
+from grader.report.model import CheckResult, Mistake
+from grader.verdict.checks.all import STATIC
+from grader.verdict.diagnose import RAISES
+from grader.verdict.evaluate import evaluate_again, evaluate_checks
+from grader.verdict.evidence import Evidence
+from grader.verdict.fix import fixes_of, patch_text
+
+MOST_TRIED = 4
+"""The most fixes of one package that are tried: each takes a build and a run."""
+MOST_ALTERNATIVES = 2
+"""The most fixes of one mistake that are tried."""
+MOST_ON_TOP = 2
+"""The most fixes that are tried together with the first one."""
+WHY = ("node.", "setup.", "package.", "source.", "interface.", "beside.")
+"""How the ids of mistakes begin that say why something failed, and not only what was seen."""
+ERRORS = (*RAISES, "build.setup_error")
+"""The mistakes that were seen as an exception."""
+
+
+def with_tried_fix(result: CheckResult, evidence: Evidence, translate: Translator) -> CheckResult:
+    """Return a failed check's result with a fix that helps, if its mistake has one.
+
+    A fix that could not be tried is kept: the form of the mistake is all that it relies on.
+    """
+    old, without = Files.of(evidence.submission), set[str]()
+    while True:
+        found = fixes_of(result, evidence.submission, evidence.assignment)
+        fixes = list(islice(found, MOST_ALTERNATIVES))
+        trial = _Trial(result, evidence, translate)
+        for new in fixes:
+            static = result.id in STATIC  # (the files alone have shown that it helps)
+            helps, whole = (True, new) if static else trial.helps(new)
+            if helps or (helps is None and not without):
+                return _with_change(result, old, new, whole, translate)
+        root = _root(result)
+        if root is None or not (fixes or without) or root.id in without:
+            return result
+        without.add(root.id)
+        result = evaluate_again(result.id, evidence, translate, without=without)
+
+
+def _with_change(
+    result: CheckResult, old: Files, new: Files, whole: Files, translate: Translator
+) -> CheckResult:
+    """Return a result with its fix, and with those that the check needs after it, if that is known."""
+    patch, rest = patch_text(old, whole), []
+    if whole is not new:
+        rest = [translate(say("The change also corrects what would fail next."))]
+    return result.model_copy(update={"patch": patch, "advice": [*result.advice, *rest]})
+
+
+class _Trial:
+    """Judges whether a fix helps a check."""
+
+    def __init__(self, result: CheckResult, evidence: Evidence, translate: Translator) -> None:
+        self._before = result
+        self._evidence = evidence
+        self._translate = translate
+        self._old = Files.of(evidence.submission)
+
+    @cached_property
+    def _all(self) -> dict[str, CheckResult]:
+        """The results of all checks without the fix: those after this one are evaluated now."""
+        evidence = copy(self._evidence)
+        evidence.results = {}
+        for _ in evaluate_checks(evidence, self._translate):
+            pass
+        return evidence.results
+
+    def helps(self, new: Files, on_top: int = MOST_ON_TOP) -> tuple[bool | None, Files]:
+        """Return whether a fix lets the check pass (None: not known), with the files as tried last.
+
+        If it still fails, up to `on_top` further fixes are tried on top: there may be two mistakes.
+        If the second one is known but has no fix, nothing is known about the first one's.
+        """
+        fixed = self._fixed(new)
+        if fixed is None:
+            return None, new
+        after = fixed.results[self._before.id]
+        if after.status == "passed":
+            return not self._breaks_a_check(fixed), new
+        further = next(fixes_of(after, fixed.submission, fixed.assignment), None)
+        if further is not None and on_top:
+            return self.helps(further, on_top - 1)
+        if after.status != "failed":
+            return (False if self._breaks_a_check(fixed) else None), new
+        root = _root(after)
+        same_error = _is_error(after) and _seen(after) == _seen(self._before)
+        unexplained = root in (None, _root(self._before)) or same_error
+        refuted = unexplained or _score(fixed.results) < _score(self._all)
+        return (False if refuted else None), new
+
+    def _fixed(self, new: Files) -> Evidence | None:
+        """Return the judged evidence of the package with a fix; None if it cannot be tried."""
+        tried = self._evidence.tried
+        digest = hashlib.sha256(diff(self._old, new)).hexdigest()
+        if digest not in tried:
+            if self._evidence.with_fix is None or len(tried) >= MOST_TRIED:
+                return None
+            package = new.put_into(self._evidence.submission)
+            try:
+                with self._evidence.with_fix(digest, package) as made:
+                    if made is None:
+                        return None
+                    for _ in evaluate_checks(made, self._translate):
+                        pass
+            except GraderError:  # (our own side failed, which says nothing about the fix)
+                return None
+            tried[digest] = made
+        return tried[digest]
+
+    def _breaks_a_check(self, fixed: Evidence) -> bool:
+        """Whether a check fails that passes without the fix."""
+        passed = [check for check, result in self._all.items() if result.status == "passed"]
+        return any(fixed.results[check].status == "failed" for check in passed)
+
+
+def _root(result: CheckResult) -> Mistake | None:
+    """Return the recognised mistake behind a failure; None if there is only what was seen."""
+    first = result.mistakes[0] if result.mistakes else None
+    return first if first is not None and first.id.startswith(WHY) else None
+
+
+def _score(results: Mapping[str, CheckResult]) -> float:
+    return sum(result.score for result in results.values())
+
+
+def _is_error(result: CheckResult) -> bool:
+    return any(mistake.id in ERRORS for mistake in result.mistakes)
+
+
+def _seen(result: CheckResult) -> tuple[list[str], str]:
+    """Return what a check saw, without numbers: times differ from run to run."""
+    ids = [mistake.id for mistake in result.mistakes if not mistake.id.startswith(WHY)]
+    return ids, re.sub(r"\d+", "", result.actual.partition("\n")[0])
