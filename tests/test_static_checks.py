@@ -131,7 +131,7 @@ def test_a_wrong_manifest_is_reported_with_its_line(
          "  <!-- a - b -->\n  <export>"),
         ("  <export>", "  <!------ a ------>\n  <export>", 10, "two hyphens", "so: <!-- a -->",
          "  <!-- a -->\n  <export>"),
-        ("  <export>", "  <!-- a\n  b -- c\n  -->\n  <export>", 11, "two hyphens", "or : instead",
+        ("  <export>", "  <!-- a\n  b -- c\n  -->\n  <export>", 11, "two hyphens", "one hyphen, or - - with a space",
          "  <!-- a\n  b - c\n  -->\n  <export>"),
         ("  <export>", "  <!- a ->\n  <export>", 10, "<!- does not begin", "Write <!-- where",
          "  <!-- a -->\n  <export>"),

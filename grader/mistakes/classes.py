@@ -233,6 +233,15 @@ def _text_replaced(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+def _log_replaced(suspect: Suspect) -> RecognisedMistake | None:
+    """The callback prints, and replaces a method of the same name that logs."""
+    source = suspect.source
+    for found in node_classes.defined_twice(source):
+        if source.prints(found[-1]) and not source.logs(found[-1]) and source.logs(found[-2]):
+            return _second(suspect, found)
+    return None
+
+
 def _overloaded(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """The method that is called without arguments is replaced by one that needs some."""
     found = node_classes.definitions(raised.source.own_methods, match["function"])
@@ -514,6 +523,7 @@ KINDS = (
             "run.no_lines": _replaced,
             "run.constant_counter": _replaced,
             "run.wrong_text": _text_replaced,
+            "run.print_not_logger": _log_replaced,
         },
         fixed_by=(node_classes.second_renamed,),
         examples=(
@@ -534,6 +544,16 @@ KINDS = (
                 ),
                 fails="run.output",
                 blocks=SILENT,
+            ),
+            example(
+                "callback_that_logs_replaced_by_one_that_prints",
+                Replace(
+                    NODE,
+                    STEP_LINE,
+                    f"{STEP_LINE}\n    def timer_callback(self):\n"
+                    "        print('Hello time:', self.counter_)\n        self.counter_ += 1\n",
+                ),
+                fails="run.logger",
             ),
             example(
                 "callback_replaced_by_a_trial",

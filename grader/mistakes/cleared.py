@@ -13,6 +13,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.clearing import calls_of_function, clearing
+from grader.package.source.module import is_text
 from grader.package.source.place import block_of
 
 
@@ -25,14 +26,14 @@ def _clears(suspect: Suspect) -> RecognisedMistake | None:
         code = source.module_of(found.statement).text.code(found.statement)
         at = found.statement
         name = " ".join(code.split())[:80]
-        body = [s for s in found.function.body if not _is_text(s)]
+        body = [s for s in found.function.body if not is_text(s)]
         if body == [found.statement] and found.function is not source.callback:
             calls = calls_of_function(source, found.function)
             if len(calls) != 1:
                 continue
             at = calls[0]
         module = source.module_of(at)
-        alone = len([s for s in block_of(module, at) if not _is_text(s)]) == 1
+        alone = len([s for s in block_of(module, at) if not is_text(s)]) == 1
         mistake = suspect.finding("clears_terminal", at, name=name)
         around = module.parents.get(at)
         whole = alone and isinstance(around, ast.If) and not around.orelse
@@ -47,10 +48,6 @@ def _by_print(suspect: Suspect) -> RecognisedMistake | None:
     found = clearing(source)
     only = {n for each in found if each.only for n in ast.walk(each.statement)}
     return _clears(suspect) if source.own_logs and prints and set(prints) <= only else None
-
-
-def _is_text(statement: ast.stmt) -> bool:
-    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
 
 
 _node = Family("node", links.LOGGING)

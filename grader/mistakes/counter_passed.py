@@ -14,7 +14,7 @@ from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import adds_to
-from grader.package.source.module import Function
+from grader.package.source.module import Function, code_of
 from grader.package.source.names import calls_in, dotted, own_name
 
 
@@ -38,7 +38,7 @@ def _passed(suspect: Suspect) -> RecognisedMistake | None:
             back = [n.value for n in ast.walk(function) if isinstance(n, ast.Return) and n.value]
             if back and all(dotted(value) == parameter for value in back):
                 written = f"{counter.name} = {module.text.code(call)}"
-            elif len(function.body) > 1 or back:
+            elif len(code_of(function)) > 1 or back:
                 return None  # (its call may do more than add)
             return suspect.finding(
                 "counter_passed",
@@ -93,6 +93,17 @@ KINDS = (
                     "def add_one(number):\n    number += 1\n\n\nclass MyFirstNode",
                 ),
                 Replace(NODE, STEP_LINE, "        add_one(self.counter_)\n"),
+                fails="run.output",
+            ),
+            example(
+                "counter_given_to_function_with_a_docstring",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    'def count_up(number):\n    """Raise the number by one."""\n    number += 1\n\n\n'
+                    "class MyFirstNode",
+                ),
+                Replace(NODE, STEP_LINE, "        count_up(self.counter_)\n"),
                 fails="run.output",
             ),
             example(

@@ -10,12 +10,12 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, example
 from grader.mistakes.fixes import node_equals
-from grader.mistakes.fixes.node_equals import Compared, compared_in
+from grader.mistakes.fixes.node_equals import Compared, arrows_in, compared_in
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, OWN_ATTRIBUTE, Raised, RecognisedMistake, of_self
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import parts_of_callback, targets_of
-from grader.package.source.names import dotted
+from grader.package.source.names import dotted, last_part
 from grader.package.source.place import function_at
 
 UNBOUND = r"UnboundLocalError: .{0,60}'(?P<name>\w{1,120})'"
@@ -95,8 +95,40 @@ def _finding(raised: Raised, one: Compared, before: str = "") -> RecognisedMista
     return replace(found, words={**found.words, "line": str(one.statement.lineno)})
 
 
+def _arrow(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A name has no value, because its line has the arrow <- of other languages."""
+    for one in arrows_in(raised.module):
+        if last_part(one.name) != match["name"] or raised.line not in one.lines:
+            continue
+        found = raised.finding(
+            "arrow", at=one.statement, name=one.name, written=one.written(raised.module)
+        )
+        return replace(found, words={**found.words, "line": str(one.statement.lineno)})
+    return None
+
+
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
+    _node(
+        "arrow",
+        "file",
+        msg("<- is written where = is needed"),
+        msg(
+            "In Python, <- is < and -: the line asks whether {name} is less than a negative number. It "
+            "reads {name}, which has no value yet."
+        ),
+        msg("Write = in line {line}: {written}"),
+        links.PYTHON_CLASSES,
+        raised=dict.fromkeys((OWN_ATTRIBUTE, NAME_ERROR, UNBOUND), _arrow),
+        fixed_by=(node_equals.assigned,),
+        examples=(
+            example(
+                "counter_assigned_by_an_arrow",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ <- 0"),
+                fails="run.starts",
+            ),
+        ),
+    ),
     _node(
         "compared_not_assigned",
         "file",

@@ -123,6 +123,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "log.wrong_level": {"level": "warn"},
     "lab.not_installed": {"package": "turtlesim"},
+    "node.arrow": {"name": "self.counter", "written": "self.counter = 0", "line": "9"},
+    "node.default_shared": {"name": "Timing()", "written": "field(default_factory=Timing)"},
     "node.property_counts": {"name": "self.number", "lines": "21, 22"},
     "node.text_repeated": {
         "name": "'Count: ' * self.counter",

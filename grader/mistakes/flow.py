@@ -29,7 +29,7 @@ from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import adds_to, logged_counter, starts_of, targets_of
 from grader.package.source.endless import methods_run_by
-from grader.package.source.module import Function, Module
+from grader.package.source.module import Function, Module, is_text
 from grader.package.source.names import called_name, calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.period import is_right, seconds_of
@@ -278,7 +278,7 @@ def _placeholder(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
     if not dotted(statement.exc).startswith("NotImplementedError"):
         return None
     found = raised.finding("placeholder", at=statement, name=function.name)
-    alone = [s for s in function.body if s is not statement and not _is_text(s)]
+    alone = [s for s in function.body if s is not statement and not is_text(s)]
     heir = _heir(raised.source, function)
     if not alone and heir is not None:
         words = {**found.words, "type": heir.name}
@@ -297,10 +297,6 @@ def _heir(source: NodeSource, method: Function) -> ast.ClassDef | None:
         and not any(isinstance(s, Function) and s.name == method.name for s in c.body)
     ]
     return heirs[0] if len(heirs) == 1 else None
-
-
-def _is_text(statement: ast.stmt) -> bool:
-    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
 
 
 def _spins_again(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -371,6 +367,20 @@ KINDS = (
         behind={"run.ignores_interrupt": _swallowed},
         fixed_by=(node_try.break_in_except,),
         examples=(
+            example(
+                "asks_after_ctrl_c_and_spins_again",
+                Replace(
+                    NODE,
+                    SPIN_UNTIL_CTRL_C,
+                    "    running = True\n"
+                    "    while running:\n"
+                    "        try:\n"
+                    "            rclpy.spin(node)\n"
+                    "        except KeyboardInterrupt:\n"
+                    "            running = input('Stop (y/n)? ') != 'y'\n",
+                ),
+                fails="run.interrupt",
+            ),
             example(
                 "spins_once_more_after_ctrl_c",
                 Replace(

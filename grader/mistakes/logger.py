@@ -660,15 +660,34 @@ KINDS = (
         links.LOGGING,
         fixes={
             "line": msg("Delete line {line}: another call writes the same line."),
+            "both": msg("Delete lines {form}: they log the line and count once more."),
             "printed": BESIDE,
         },
-        behind={"run.twice": first_of(_twice, worked_out("logs_twice", "logged", variant="line"))},
+        behind={
+            "run.twice": first_of(
+                worked_out("logs_twice", "logged_and_counted", variant="both"),
+                _twice,
+                worked_out("logs_twice", "logged", variant="line"),
+            )
+        },
         fixed_by=(
             node_count.twice,
             node_log.only_logged,
+            node_worked_out.change("logged_and_counted"),
             node_worked_out.change("logged"),
         ),
         examples=(
+            example(
+                "logs_and_counts_twice",
+                Replace(
+                    NODE,
+                    "        self.counter_ += 1\n",
+                    "        self.counter_ += 1\n"
+                    "        self.get_logger().info(f'Hello time: {self.counter_}')\n"
+                    "        self.counter_ += 1\n",
+                ),
+                fails="run.output",
+            ),
             example(
                 "logs_twice",
                 Replace(

@@ -227,11 +227,12 @@ KINDS = (
             "comment": msg("Write --> where the comment ends."),
             "hyphens": msg(
                 "Write the comment so: {wanted} (A comment has two hyphens only at its beginning "
-                "and its end.)"
+                "and its end. A command that you type in the terminal keeps its two hyphens.)"
             ),
             "hyphens_lines": msg(
-                "Between <!-- and -->, write one hyphen or : instead of each --. Right before --> "
-                "there is no other hyphen."
+                "Between <!-- and -->, write one hyphen, or - - with a space, instead of each --. Right "
+                "before --> there is no other hyphen. A command that you type in the terminal keeps its "
+                "two hyphens."
             ),
             "comment_start": msg("Write <!-- where the comment begins, and --> where it ends."),
             "less": msg("Write &lt; instead of this <."),

@@ -22,7 +22,7 @@ from grader.mistakes.format_fields import text_of
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromError, Raised, RecognisedMistake, always, on_line
 from grader.package.edit.files import Files
-from grader.package.edit.tree import Replace
+from grader.package.edit.tree import Replace, Write
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, own_name
@@ -287,6 +287,12 @@ def _no_file(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return None
     if any(_writes(call) for call in calls):
         return _told("no_such_file", "written")(raised, match)
+    shared = re.search(rf"/share/{re.escape(raised.assignment.package)}/([^']+)'", match["name"])
+    if shared is not None:
+        found = _told("no_such_file", "share")(raised, match)
+        folder = "/".join([f"share/{raised.assignment.package}", *shared[1].split("/")[:-1]])
+        written = f"('{folder}', ['{shared[1]}']),"
+        return found and replace(found, words={**found.words, "written": written})
     whole = match["name"].startswith("'/")
     return _told("no_such_file", "whole" if whole else "")(raised, match)
 
@@ -298,6 +304,23 @@ def _writes(call: ast.Call) -> bool:
     mode = str(modes[0]) if modes else ""
     opens = called_name(call) == "open" and re.fullmatch(r"[wax][bt+]*", mode) is not None
     return opens or called_name(call) in ("write_text", "write_bytes", "mkdir")
+
+
+def _shared_default(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A field of a dataclass has an object as its default that all objects would share."""
+    for own in raised.module.classes:
+        for statement in own.body:
+            if not isinstance(statement, ast.AnnAssign) or statement.value is None:
+                continue
+            if dotted(statement.target) != match["name"]:
+                continue
+            code = raised.module.text.code(statement.value)
+            made = dotted(statement.value.func) if isinstance(statement.value, ast.Call) else ""
+            if code != f"{made}()":
+                made = f"lambda: {code}"
+            params = {"name": code, "written": f"field(default_factory={made})"}
+            return raised.finding("default_shared", at=statement, params=params)
+    return None
 
 
 def _frozen(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -932,12 +955,20 @@ KINDS = (
                 "There is no file {name} on the computer that runs the node. The folders of one computer do "
                 "not exist on another one."
             ),
+            "share": msg(
+                "The folder share of a package has only the files that data_files in setup.py lists, and "
+                "this file is not there."
+            ),
             "written": msg(
                 "Python creates a file that is opened to be written, but not the folder that contains it. "
                 "A path that does not begin with / begins in the folder in which ros2 run is started."
             ),
         },
         fixes={
+            "share": msg(
+                "Add this to the list data_files in setup.py, with the path that the file has in your "
+                "package, and build again: {written}"
+            ),
             "written": msg(
                 "Create the folder of {name} before this line, with os.makedirs(…, exist_ok=True), or "
                 "write the file into a folder that exists."
@@ -950,11 +981,62 @@ KINDS = (
         },
         examples=(
             example(
+                "file_of_the_share_folder_not_listed",
+                Write("config/start.txt", "0\n"),
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "import rclpy\nfrom ament_index_python.packages import "
+                    "get_package_share_directory\nfrom",
+                ),
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "share = get_package_share_directory('my_robot_controller')\n"
+                    "        self.counter_ = int(open(share + '/config/start.txt').read())",
+                ),
+                fails="run.starts",
+            ),
+            example(
                 "opens_a_file_beside_it",
                 Replace(
                     NODE,
                     "self.counter_ = 0",
                     "self.counter_ = int(open('start.txt').read())",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "default_shared",
+        "class",
+        msg("A field of a dataclass has a default that its objects would share"),
+        msg(
+            "{name} is made once, when Python reads the class: all objects would have the same one. A "
+            "dataclass refuses such a default."
+        ),
+        msg(
+            "Write {written} instead of {name}, and import field: from dataclasses import dataclass, field"
+        ),
+        raised={
+            r"ValueError: mutable default <class .{1,200}> for field (?P<name>\w{1,120}) is not": (
+                _shared_default
+            )
+        },
+        examples=(
+            example(
+                "object_as_default_of_a_field",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "from dataclasses import dataclass\n\nimport rclpy\nfrom",
+                ),
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "@dataclass\nclass Timing:\n    period: float = 1.0\n\n\n@dataclass\n"
+                    "class Settings:\n    timing: Timing = Timing()\n\n\nclass MyFirstNode",
                 ),
                 fails="run.starts",
             ),

@@ -140,11 +140,37 @@ def _without_keyword(raised: Raised, match: re.Match[str]) -> RecognisedMistake 
     """The call of init on the line has a value that is not given by its name."""
     del match
     for call, name in raised.source.calls:
-        if last_part(name) == "init" and len(call.args) == 1 and raised.line == call.lineno:
+        if last_part(name) == "init" and call.args and raised.line == call.lineno:
             text = raised.source.module_of(call).text
             function, given = text.code(call.func), text.code(call.args[0])
-            written = f"{function}(args={given})"
+            several = len(call.args) > 1
+            written = node_init.new_call(raised.source) if several else f"{function}(args={given})"
             return raised.finding("init_arguments", at=call, name=text.code(call), written=written)
+    return None
+
+
+def _not_a_command_line(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """What init gets as args is set by a call, as with argparse, and is no list of texts."""
+    del match
+    for call, name in raised.source.calls:
+        given = next((k.value for k in call.keywords if k.arg == "args"), None)
+        if last_part(name) != "init" or given is None or call.lineno != raised.line:
+            continue
+        function = raised.source.function_around(call)
+        inside = list(ast.walk(function)) if function is not None else []
+        sets = [
+            n
+            for n in inside
+            if isinstance(n, ast.Assign)
+            and dotted(given) in targets_of(n)
+            and isinstance(n.value, ast.Call)
+            and n.lineno < call.lineno
+        ]
+        if not dotted(given) or not sets:
+            return None
+        found = raised.finding("init_arguments", at=call, name=dotted(given))
+        words = {**found.words, "line": sets[-1].lineno, "written": f"{name}()"}
+        return replace(found, words=words, variant="object")
     return None
 
 
@@ -306,12 +332,44 @@ KINDS = (
     _node(
         "init_arguments",
         "start",
-        msg("rclpy.init() gets its arguments without their name"),
+        msg("rclpy.init() does not get its arguments as it takes them"),
         msg("rclpy.init() takes values only by their names, and the arguments are called args."),
         msg("Write {written}."),
-        raised={r"\binit\(\) takes 0 positional arguments": _without_keyword},
+        whys={
+            "object": msg(
+                "rclpy.init() takes the command line: a list of texts, or None. Line {line} gives {name} "
+                "another value."
+            )
+        },
+        fixes={
+            "object": msg(
+                "Write {written} in this line: it takes the command line by itself. Or give what line "
+                "{line} makes another name than {name}."
+            )
+        },
+        raised={
+            r"\binit\(\) takes 0 positional arguments": _without_keyword,
+            r"TypeError: __init__\(\): incompatible constructor arguments": _not_a_command_line,
+        },
         fixed_by=(lines.written,),
         examples=(
+            example(
+                "init_gets_what_argparse_made",
+                Replace(NODE, "import rclpy\nfrom", "import argparse\n\nimport rclpy\nfrom"),
+                Replace(
+                    NODE,
+                    "    rclpy.init(args=args)\n",
+                    "    args = argparse.ArgumentParser().parse_known_args()[0]\n"
+                    "    args = argparse.Namespace(**vars(args))\n    rclpy.init(args=args)\n",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "init_as_in_cpp",
+                Replace(NODE, "import rclpy\nfrom", "import sys\n\nimport rclpy\nfrom"),
+                Replace(NODE, "rclpy.init(args=args)", "rclpy.init(len(sys.argv), sys.argv)"),
+                fails="run.starts",
+            ),
             example(
                 "init_args_without_keyword",
                 Replace(NODE, "rclpy.init(args=args)", "rclpy.init(args)"),

@@ -338,7 +338,7 @@ KINDS = (
         ),
         fixes={
             "timer": msg(
-                "A timer is there. Log a line directly below create_timer and one at the beginning of "
+                "The file has a create_timer. Log a line directly above it and one at the beginning of "
                 "{callback}, and run the node again. If the first does not come, the program does not "
                 "reach create_timer. If only the second does not come, the timer is not due, or is "
                 "not of the node that is spun. If both come, follow {callback} to the line that logs."

@@ -16,7 +16,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.after_spin import timer_after_spin
 from grader.package.source.counter import logged_counter, targets_of
 from grader.package.source.endless import calls_of_methods
-from grader.package.source.module import Function
+from grader.package.source.module import Function, code_of
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of
@@ -58,7 +58,7 @@ def _again_by_call(suspect: Suspect) -> RecognisedMistake | None:
         maker = timer.function
         if maker is None or maker is callback or source.methods.get(maker.name) is not maker:
             continue
-        code = [s for s in maker.body if not _is_text(s)]
+        code = code_of(maker)
         calls = [s for s in callback.body if isinstance(s, ast.Expr) and _calls(s.value, maker)]
         elsewhere = any(
             _calls(call, maker) for call, _ in source.calls if call not in ast.walk(callback)
@@ -80,10 +80,6 @@ def _again_by_call(suspect: Suspect) -> RecognisedMistake | None:
 
 def _calls(call: ast.expr, method: Function) -> bool:
     return isinstance(call, ast.Call) and last_part(dotted(call.func)) == method.name
-
-
-def _is_text(statement: ast.stmt) -> bool:
-    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
 
 
 def _ends_timers(function: Function) -> bool:

@@ -26,7 +26,7 @@ from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.guard import called_on_import
-from grader.package.source.module import Function
+from grader.package.source.module import Function, code_of
 from grader.package.source.names import called_name, calls_in, dotted, last_part
 from grader.package.source.second_node import second_node
 from grader.report.model import Where
@@ -254,8 +254,10 @@ def _property_not_read(
 ) -> RecognisedMistake | None:
     """The method that creates the timer is a property, and nothing reads it."""
     init, last = suspect.source.methods.get("__init__"), function.body[-1]
-    is_property = [dotted(d) for d in function.decorator_list] == ["property"]
-    alone = isinstance(last, ast.Return) and last.value is call and len(function.body) == 1
+    decorators = [last_part(dotted(d)) for d in function.decorator_list]
+    is_property = decorators in (["property"], ["cached_property"])
+    code = code_of(function)
+    alone = isinstance(last, ast.Return) and last.value is call and len(code) == 1
     if not (is_property and alone) or init is None:
         return None
     line = str(init.body[-1].end_lineno)
@@ -739,7 +741,7 @@ KINDS = (
             ),
             "property": msg(
                 "Write {written} below line {line}, at the end of __init__. Delete the method {name} "
-                "and the line @property above it."
+                "with the decorator above it."
             ),
         },
         behind={"run.no_lines": _method_not_called},
@@ -751,6 +753,22 @@ KINDS = (
                     NODE,
                     "        self.create_timer(1.0, self.timer_callback)\n",
                     "\n    @property\n    def timer(self):\n"
+                    "        return self.create_timer(1.0, self.timer_callback)\n",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+            example(
+                "timer_in_a_cached_property",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "from functools import cached_property\n\nimport rclpy\nfrom",
+                ),
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)\n",
+                    "\n    @cached_property\n    def timer(self):\n"
                     "        return self.create_timer(1.0, self.timer_callback)\n",
                 ),
                 fails="run.output",

@@ -215,7 +215,7 @@ KINDS = (
         "text",
         msg("A list is made into a text, with its brackets"),
         msg(
-            "Square brackets make a list. str() of a list shows the brackets, quotes and commas too."
+            "Square brackets make a list. As a text, a list has its brackets, quotes and commas too."
         ),
         INSTEAD,
         behind={"run.wrong_text": worked_out("list_shown", "listed")},
@@ -227,6 +227,15 @@ KINDS = (
                     NODE,
                     "'Hello time: ' + str(self.counter_)",
                     "str(['Hello time: ', self.counter_])",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "number_in_a_list_behind_percent",
+                Replace(
+                    NODE,
+                    "'Hello time: ' + str(self.counter_)",
+                    "'Hello time: %s' % [self.counter_]",
                 ),
                 fails="run.output",
             ),

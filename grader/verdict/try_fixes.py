@@ -10,7 +10,7 @@ from __future__ import annotations
 import hashlib
 import re
 from collections.abc import Mapping
-from copy import copy
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import islice
 
@@ -49,15 +49,39 @@ def with_tried_fix(result: CheckResult, evidence: Evidence, translate: Translato
         fixes = list(islice(found, MOST_ALTERNATIVES))
         trial = _Trial(result, evidence, translate)
         for new in fixes:
-            static = result.id in STATIC  # (the files alone have shown that it helps)
-            helps, whole = (True, new) if static else trial.helps(new)
-            if helps or (helps is None and not without):
-                return _with_change(result, old, new, whole, translate)
-        root = _root(result)
+            tried = trial.of_files(new) if result.id in STATIC else trial.helps(new)
+            if tried.helps or (tried.helps is None and not without):
+                other = _other_cause(result, tried, evidence, translate)
+                return other or _with_change(result, old, new, tried.files, translate)
+        root = None if result.id in STATIC else _root(result)
         if root is None or not (fixes or without) or root.id in without:
             return result
         without.add(root.id)
         result = evaluate_again(result.id, evidence, translate, without=without)
+
+
+@dataclass(frozen=True)
+class Tried:
+    """Whether a fix helps (None: not known), the files as tried last, and the cause of what is left."""
+
+    helps: bool | None
+    files: Files
+    left: str = ""
+
+
+def _other_cause(
+    result: CheckResult, tried: Tried, evidence: Evidence, translate: Translator
+) -> CheckResult | None:
+    """Return the result with the cause that is left after the fix, if it can be seen without it too.
+
+    The check sees the same with and without the fix: the other cause has to be removed anyway.
+    """
+    root = _root(result)
+    if tried.helps is not None or not tried.left or root is None:
+        return None
+    other = evaluate_again(result.id, evidence, translate, without={root.id})
+    now = _root(other)
+    return other if now is not None and now.id == tried.left else None
 
 
 def _with_change(
@@ -65,7 +89,7 @@ def _with_change(
 ) -> CheckResult:
     """Return a result with its fix, and with those that the check needs after it, if that is known."""
     patch, rest = patch_text(old, whole), []
-    if whole is not new:
+    if whole is not new and not result.consequence_of:
         rest = [translate(say("The change also corrects what would fail next."))]
     return result.model_copy(update={"patch": patch, "advice": [*result.advice, *rest]})
 
@@ -82,34 +106,72 @@ class _Trial:
     @cached_property
     def _all(self) -> dict[str, CheckResult]:
         """The results of all checks without the fix: those after this one are evaluated now."""
-        evidence = copy(self._evidence)
-        evidence.results = {}
-        for _ in evaluate_checks(evidence, self._translate):
-            pass
-        return evidence.results
+        evidence = self._evidence
+        kept, evidence.results = evidence.results, {}
+        try:
+            for _ in evaluate_checks(evidence, self._translate):
+                pass
+            return evidence.results
+        finally:
+            evidence.results = kept
 
-    def helps(self, new: Files, on_top: int = MOST_ON_TOP) -> tuple[bool | None, Files]:
-        """Return whether a fix lets the check pass (None: not known), with the files as tried last.
+    def of_files(self, new: Files, on_top: int = MOST_ON_TOP) -> Tried:
+        """Return whether the package gets further with a fix of what the files alone show.
+
+        It has to help only if the mistake prevents other checks. If another check fails instead, a
+        fix of that is tried on top.
+        """
+        if not any(result.blocked_by == self._before.id for result in self._all.values()):
+            return Tried(True, new)
+        fixed = self._fixed(new)
+        if fixed is None:
+            return Tried(None, new)
+        if _score(fixed.results) > _score(self._all):
+            return Tried(True, new)
+        for check, after in fixed.results.items():
+            if after.status == "failed" and self._all[check].status != "failed":
+                further = _further(after, fixed, new)
+                if further is None or not on_top:
+                    break
+                return self.of_files(further, on_top - 1)
+        return Tried(False, new)
+
+    def helps(self, new: Files, on_top: int = MOST_ON_TOP) -> Tried:
+        """Return whether a fix lets the check pass.
 
         If it still fails, up to `on_top` further fixes are tried on top: there may be two mistakes.
         If the second one is known but has no fix, nothing is known about the first one's.
         """
         fixed = self._fixed(new)
         if fixed is None:
-            return None, new
+            return Tried(None, new)
         after = fixed.results[self._before.id]
         if after.status == "passed":
-            return not self._breaks_a_check(fixed), new
-        further = next(fixes_of(after, fixed.submission, fixed.assignment), None)
+            return self._with_consequences(Tried(not self._breaks_a_check(fixed), new), on_top)
+        further = _further(after, fixed, new)
         if further is not None and on_top:
             return self.helps(further, on_top - 1)
         if after.status != "failed":
-            return (False if self._breaks_a_check(fixed) else None), new
-        root = _root(after)
-        same_error = _is_error(after) and _seen(after) == _seen(self._before)
-        unexplained = root in (None, _root(self._before)) or same_error
-        refuted = unexplained or _score(fixed.results) < _score(self._all)
-        return (False if refuted else None), new
+            return Tried(False if self._breaks_a_check(fixed) else None, new)
+        root, same = _root(after), _seen(after) == _seen(self._before)
+        if root is None or root == _root(self._before) or (same and _is_error(after)):
+            return Tried(False, new)
+        if _score(fixed.results) < _score(self._all):
+            return Tried(False, new)
+        return Tried(None, new, root.id if same else "")
+
+    def _with_consequences(self, tried: Tried, on_top: int) -> Tried:
+        """Return a fix that helps together with one of what was told as a consequence, and still fails."""
+        fixed = self._fixed(tried.files)
+        if not tried.helps or fixed is None or not on_top:
+            return tried
+        for check, result in self._all.items():
+            after = fixed.results[check]
+            if result.consequence_of == self._before.id and after.status == "failed":
+                further = _further(after, fixed, tried.files)
+                more = self.helps(further, on_top - 1) if further is not None else tried
+                return more if more.helps else tried
+        return tried
 
     def _fixed(self, new: Files) -> Evidence | None:
         """Return the judged evidence of the package with a fix; None if it cannot be tried."""
@@ -134,6 +196,12 @@ class _Trial:
         """Whether a check fails that passes without the fix."""
         passed = [check for check, result in self._all.items() if result.status == "passed"]
         return any(fixed.results[check].status == "failed" for check in passed)
+
+
+def _further(after: CheckResult, fixed: Evidence, done: Files) -> Files | None:
+    """Return the files after a fix of a check that still fails with the fixes already made."""
+    found = next(fixes_of(after, fixed.submission, fixed.assignment), None)
+    return found.moved_since(done) if found is not None else None
 
 
 def _root(result: CheckResult) -> Mistake | None:

@@ -116,6 +116,16 @@ def test_another_mistake_that_words_alone_explain_does_not_refute_the_first(tmp_
     assert result.patch
 
 
+def test_the_cause_that_is_left_after_a_fix_is_named_if_nothing_else_has_changed(
+    tmp_path: Path,
+) -> None:
+    name = "asks_after_ctrl_c_and_spins_again"
+    before = first_failure(evidence(name, tmp_path / "before"))
+    result, _ = tried(name, tmp_path, name)
+    assert (ids(before)[0], ids(result)[0]) == ("node.interrupt_swallowed", "node.waits_at_end")
+    assert result.patch == ""
+
+
 def test_a_fix_after_which_an_earlier_check_fails_is_not_shown(tmp_path: Path) -> None:
     result, _ = tried("counter_not_set", tmp_path, "import_misspelt")
     assert result.patch == ""
@@ -177,3 +187,33 @@ def test_the_evidence_of_a_verdict_has_what_the_fixes_showed(tmp_path: Path) -> 
 def test_a_recording_without_tried_fixes_is_what_it_was(tmp_path: Path) -> None:
     recording, _ = recording_of("counter_not_set", tmp_path)
     assert b'"fixed"' not in recording.to_bytes()
+
+
+def static_failure(name: str, folder: Path, after: str) -> tuple[CheckResult, Evidence]:
+    """Return the first failure of a package, whose fix leads to another package's run."""
+    found = evidence(name, folder)
+
+    def with_fix(_digest: str, fixed: Submission) -> AbstractContextManager[Evidence]:
+        return nullcontext(shows(after, folder / "after", fixed))
+
+    found.with_fix = with_fix
+    return with_tried_fix(first_failure(found), found, ENGLISH), found
+
+
+def test_a_fix_of_the_files_is_tried_if_its_mistake_prevents_other_checks(tmp_path: Path) -> None:
+    result, found = static_failure("comma_missing", tmp_path, "solution")
+    assert result.patch
+    assert len(found.tried) == 1
+
+
+def test_a_fix_of_the_files_after_which_the_build_fails_is_not_shown(tmp_path: Path) -> None:
+    untried = first_failure(evidence("node_in_scripts", tmp_path / "before"))
+    result, _ = static_failure("node_in_scripts", tmp_path, "setup_raises")
+    assert result.patch == ""
+    assert (result.mistakes, result.fix) == (untried.mistakes, untried.fix)
+
+
+def test_a_fix_of_what_prevents_nothing_is_not_tried(tmp_path: Path) -> None:
+    result, found = static_failure("exec_bit_missing", tmp_path, "solution")
+    assert result.patch
+    assert not found.tried

@@ -10,7 +10,7 @@ from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.code_only import code_only
 from grader.package.source.imported import imports
-from grader.package.source.module import Module
+from grader.package.source.module import Module, is_text
 from grader.package.source.place import block_of
 
 NOTEBOOK = "get_ipython"  # the function that only a Jupyter notebook has
@@ -52,13 +52,9 @@ def deleted(case: Case) -> Files | None:
         statement = around
     lines = own_lines(module, statement)
     others = [s for s in block_of(module, statement) if s is not statement]
-    if lines is None or not any(not _is_text(s) for s in others):
+    if lines is None or not any(not is_text(s) for s in others):
         return None
     return case.changed(module, *(module.text.without(n) for n in lines))
-
-
-def _is_text(statement: ast.stmt) -> bool:
-    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
 
 
 def deleted_name(case: Case) -> Files | None:

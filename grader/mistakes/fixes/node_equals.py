@@ -51,11 +51,29 @@ def compared_in(module: Module) -> list[Compared]:
     return sorted(found, key=lambda one: one.statement.lineno)
 
 
+def arrows_in(module: Module) -> list[Compared]:
+    """Return the statements `name <- value`, which compare a value with a negative one."""
+    found = []
+    for node in module.nodes:
+        value = node.value if isinstance(node, ast.Expr) else None
+        if not isinstance(node, ast.Expr) or not isinstance(value, ast.Compare):
+            continue
+        right, name = value.comparators[0], dotted(value.left)
+        less = len(value.ops) == 1 and isinstance(value.ops[0], ast.Lt)
+        if name and less and isinstance(right, ast.UnaryOp) and isinstance(right.op, ast.USub):
+            found.append(Compared(node, value.left, right.operand, name))
+    return found
+
+
 def assigned(case: Case) -> Files | None:
-    """Write = instead of == on the line of the finding, and self. before a name that needs it."""
+    """Write = instead of == or <- on the line of the finding, and self. before a name that needs it."""
     module, name = case.module, str(case.finding.params.get("name", ""))
     found = (
-        [c for c in compared_in(module) if c.statement.lineno == case.finding.line]
+        [
+            c
+            for c in (*compared_in(module), *arrows_in(module))
+            if c.statement.lineno == case.finding.line
+        ]
         if module
         else []
     )
@@ -64,9 +82,10 @@ def assigned(case: Case) -> Files | None:
     text, one = module.text, found[0]
     start, end = text.span(one.left)[1], text.span(one.right)[0]
     between = text.text[start:end]
-    if between.strip() != "==":
+    sign = between.strip()
+    if sign not in ("==", "<-"):
         return None
     at = text.span(one.statement)[0]
     own = str(case.finding.params.get("written", "")).startswith(f"self.{name} ")
     dot = [Splice(at, at, "self.")] if own else []
-    return case.changed(module, *dot, Splice(start, end, between.replace("==", "=")))
+    return case.changed(module, *dot, Splice(start, end, between.replace(sign, "=")))

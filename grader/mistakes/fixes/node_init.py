@@ -10,6 +10,7 @@ from grader.package.edit.files import Files
 from grader.package.edit.text import indent_of
 from grader.package.source.counter import targets_of
 from grader.package.source.guard import is_guard
+from grader.package.source.module import code_of
 from grader.package.source.names import calls_in, dotted
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of
@@ -108,7 +109,7 @@ def out_of_guard(case: Case) -> Files | None:
     if not isinstance(statement, ast.Expr) or dotted(call.func) != "rclpy.init":
         return None
     lines = own_lines(module, statement)
-    body = [s for s in node.main.body if not _is_text(s)]
+    body = code_of(node.main)
     if lines is None or not body or body[0].lineno == node.main.lineno:
         return None
     if len(block_of(module, statement)) == 1:
@@ -116,7 +117,3 @@ def out_of_guard(case: Case) -> Files | None:
     row = f"{indent_of(module.text.line(body[0].lineno))}{moved_call(node, call)}"
     gone = [module.text.without(n) for n in lines]
     return case.changed(module, *gone, module.text.before(body[0].lineno, row))
-
-
-def _is_text(statement: ast.stmt) -> bool:
-    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)

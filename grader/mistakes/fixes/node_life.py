@@ -12,7 +12,7 @@ from grader.package.edit.text import Splice, indent_of
 from grader.package.source import endless
 from grader.package.source.imported import NODE as NODE_CLASS
 from grader.package.source.imported import full_name, name_of_node
-from grader.package.source.module import Function, Module
+from grader.package.source.module import Function, Module, is_text
 from grader.package.source.names import calls_in, dotted
 from grader.package.source.node import NodeSource
 from grader.package.source.second_node import second_node
@@ -265,7 +265,7 @@ def rclpy_init(case: Case) -> Files | None:
         return None
     module = node.module_of(main)
     text = module.text
-    body = [s for s in main.body if not _is_text(s)]
+    body = [s for s in main.body if not is_text(s)]
     calls = [c for c in node.calls_of("init") if ast.unparse(c.func) == "rclpy.init"]
     made = [s for s in main.body if _makes(s, node)]
     if not made or body[0].lineno == main.lineno:
@@ -284,10 +284,6 @@ def rclpy_init(case: Case) -> Files | None:
         return None
     row = text.line(lines[0].lineno)
     return case.changed(module, text.without(lines[0].lineno), text.before(body[0].lineno, row))
-
-
-def _is_text(statement: ast.stmt) -> bool:
-    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
 
 
 def executor(case: Case) -> Files | None:

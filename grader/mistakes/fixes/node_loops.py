@@ -10,7 +10,7 @@ from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.endless import Loop, calls_of_methods, goes_on, sleeps_in
-from grader.package.source.module import Function, Module
+from grader.package.source.module import Function, Module, is_text
 from grader.package.source.names import calls_in, dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS, NodeSource
 from grader.package.source.place import block_of, function_at
@@ -40,7 +40,7 @@ def timer_for_loop(case: Case) -> Files | None:
         return None
     module, loop, method = found
     calls = [call for call, called in calls_of_methods(node, init) if called is method]
-    body = [s for s in method.body if not _is_text(s)]
+    body = [s for s in method.body if not is_text(s)]
     plain = body == [loop] and ast.unparse(method.args) == "self" and not method.decorator_list
     if len(calls) != 1 or calls[0].args or not plain or not module.has(calls[0]):
         return None
@@ -100,10 +100,6 @@ def _counts_itself(loop: Loop, function: Function) -> bool:
 
 def _is_set(name: ast.Name) -> bool:
     return isinstance(name.ctx, ast.Store)
-
-
-def _is_text(statement: ast.stmt) -> bool:
-    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
 
 
 def _without_sleep(case: Case, path: str, name: str) -> Files | None:

@@ -64,6 +64,12 @@ class Files:
         new = replace(self.by_path[path], path=to)
         return Files({**rest, **self._folders(to), to: new}, moved)
 
+    def moved_since(self, first: Files) -> Files:
+        """Return these files, which are a change of `first`, with the moves of both."""
+        since = {path: self.moved.get(path, path) for path in self.by_path}
+        places = {path: first.moved.get(place, place) for path, place in since.items()}
+        return replace(self, moved={path: old for path, old in places.items() if path != old})
+
     def names_in(self, folder: str) -> list[str]:
         """Return the names of the files directly in a folder ("" is the package's own)."""
         start = f"{folder}/" if folder else ""

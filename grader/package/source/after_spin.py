@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-from grader.package.source.names import called_name, calls_in
+from grader.package.source.names import called_name, calls_in, last_part
 from grader.package.source.node import NodeSource
 
 
@@ -14,7 +14,7 @@ def timer_after_spin(source: NodeSource) -> tuple[ast.Call, ast.Call] | None:
     None if a timer may be created in another way, before spin.
     """
     makers = _makers(source)
-    for spin in source.calls_of("spin"):
+    for spin in _spinning(source):
         function = source.function_around(spin)
         if function is None:
             continue
@@ -36,11 +36,19 @@ def calls_after_spin(source: NodeSource) -> list[tuple[ast.Call, ast.Call]]:
     """Return the calls in lines below spin, each with the call of spin."""
     return [
         (call, spin)
-        for spin in source.calls_of("spin")
+        for spin in _spinning(source)
         if (function := source.function_around(spin)) is not None
         for call, _ in calls_in(function)
         if _is_below(source, call, spin)
     ]
+
+
+def _spinning(source: NodeSource) -> list[ast.Call]:
+    """Return the calls of spin, and those of functions that spin."""
+    spins = source.calls_of("spin")
+    around = [source.function_around(spin) for spin in spins]
+    names = {f.name for f in around if f is not None and f is not source.main}
+    return [*spins, *(call for call, name in source.calls if last_part(name) in names)]
 
 
 def _makers(source: NodeSource) -> set[str]:

@@ -314,7 +314,7 @@ def _hyphens(reader: _Reader, head: int, dashes: int) -> XmlFault:
     inside = found[head + 4 : close].strip(b"-")
     if b"<" in inside:
         return reader.fault("hyphens_lines", "!--", dashes)
-    inside = re.sub(rb"-{2,}", b"-", inside)
+    inside = re.sub(rb"-{2,}", b"-", re.sub(rb"(?<!-)--(?=\w)", b"- -", inside))
     inside = inside if b"\n" in inside else b" " + inside.strip() + b" "
     right = b"<!--" + inside + b"-->"
     change = (head, close + 3, right)

@@ -295,11 +295,22 @@ def _repeated(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator
             yield of_piece(module, "repeated", node, f"{one} + str({other})")
 
 
+def _list_behind_percent(module: Module, node: ast.BinOp) -> Iterator[Change]:
+    """Yield the elements of a list behind % as a tuple, or the only one alone."""
+    text, given = module.text, node.right
+    if isinstance(given, ast.List) and given.elts and "\n" not in text.code(node):
+        parts = [text.code(part) for part in given.elts]
+        new = f"({', '.join(parts)})" if len(parts) > 1 else parts[0]
+        yield of_piece(module, "listed", given, new, text.code(given))
+
+
 def _listed(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
     """Yield the elements of a list or tuple as a text, in place of the list as a text."""
     del wanted, before
     text = module.text
     for node in module.nodes:
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mod):
+            yield from _list_behind_percent(module, node)
         if not isinstance(node, ast.Call) or len(node.args) != 1 or node.keywords:
             continue
         given = node.args[0]

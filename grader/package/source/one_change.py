@@ -402,6 +402,23 @@ def _logged_twice(module: Module, wanted: Wanted, before: Sequence[str]) -> Iter
                 yield from _without(module, "logged", node)
 
 
+def _both_twice(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
+    """Yield the file without a call that stands alone and the addition below it."""
+    del wanted, before
+    text, added = module.text, set(additions(module))
+    for node in module.nodes:
+        if not isinstance(node, ast.Expr) or not isinstance(node.value, ast.Call):
+            continue
+        block = block_of(module, node)
+        after = block[block.index(node) + 1 :]
+        if not after or after[0] not in added or len(block) == 2 or after[0].lineno <= node.lineno:
+            continue
+        rows = range(node.lineno, (after[0].end_lineno or 0) + 1)
+        splices = tuple(text.without(row) for row in rows)
+        lines = f"{rows[0]}-{rows[-1]}"
+        yield Change("logged_and_counted", node, text.code(node), "", splices, lines)
+
+
 def _kept(module: Module, wanted: Wanted, before: Sequence[str]) -> Iterator[Change]:
     """Yield an assignment in place of a call whose result is dropped: `x = x.next()`."""
     del wanted, before
@@ -463,6 +480,7 @@ SORTS: dict[str, Callable[[Module, Wanted, Sequence[str]], Iterator[Change]]] = 
     "digit": _digits,
     "condition": _conditions,
     "logged": _logged_twice,
+    "logged_and_counted": _both_twice,
     "kept": _kept,
     "next": _next_once,
     "next_line": _next_lines,

@@ -422,7 +422,8 @@ class _Player:
             return UNKNOWN
         if isinstance(op, ast.Mod) and isinstance(values[0], str):
             given = values[1] if isinstance(values[1], tuple) else values[1:]
-            wide = TOO_WIDE.search(values[0]) or not all(map(_is_plain, given))
+            flat = [v for part in given for v in (part if isinstance(part, list) else [part])]
+            wide = TOO_WIDE.search(values[0]) or not all(map(_is_plain, flat))
             if wide:
                 return UNKNOWN
         return self.python(done, *values)

@@ -6,7 +6,7 @@ import ast
 from dataclasses import dataclass
 
 from grader.package.source.counter import targets_of
-from grader.package.source.module import Function
+from grader.package.source.module import Function, is_text
 from grader.package.source.names import called_name, calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 
@@ -101,7 +101,7 @@ def _passed(
     given = call.args[0] if len(call.args) == 1 else None
     quiet = all(keyword.arg == "flush" for keyword in call.keywords)
     if isinstance(function, Function):
-        body = [s for s in function.body if not _is_text(s)]
+        body = [s for s in function.body if not is_text(s)]
         alone = len(body) == 1 and isinstance(body[0], ast.Expr) and body[0].value is call
         static = any(dotted(d) == "staticmethod" for d in function.decorator_list)
         decorated = len(function.decorator_list) - static
@@ -122,10 +122,6 @@ def _by_class(source: NodeSource, owner: ast.ClassDef, function: Callable) -> bo
         dotted(call.func) == f"{owner.name}.{name}" and len(call.args) == len(function.args.args)
         for call, _ in source.calls
     )
-
-
-def _is_text(statement: ast.stmt) -> bool:
-    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
 
 
 def node_at(source: NodeSource, call: ast.Call) -> str:

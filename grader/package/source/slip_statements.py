@@ -365,7 +365,9 @@ def _backslash(text: Broken) -> Slip | None:
     """Return a backslash in a text before a letter for which Python expects a code."""
     if "(unicode error)" not in text.fault.text:
         return None
-    rows = range(max(1, text.number - 1), len(text.source.lines) + 1)
+    first = max(1, text.number - 1)
+    # (Python names the first or the last line of a long string)
+    rows = [*range(first, len(text.source.lines) + 1), *range(first, 0, -1)]
     at = next((n for n in rows if ESCAPE.search(text.source.line(n))), None)
     if at is None:
         return None

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from grader.package.source.counter import targets_of
 from grader.package.source.imported import full_name, imports
-from grader.package.source.module import Function, Module
+from grader.package.source.module import Function, Module, is_text
 from grader.package.source.names import dotted, own_name
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of
@@ -173,7 +173,7 @@ class _Useless:
     def spread(self) -> None:
         """Add the conditions and methods of which nothing is left, and the calls of the latter."""
         for statement in self.statements:
-            block = [s for s in block_of(self.module, statement) if not _is_text(s)]
+            block = [s for s in block_of(self.module, statement) if not is_text(s)]
             around = self.module.parents.get(statement)
             if any(s not in self.statements for s in block) or around in self.statements:
                 continue
@@ -220,10 +220,6 @@ class _Useless:
             if all(n.lineno in rows for n in used):
                 rows.add(statement.lineno)
         return rows
-
-
-def _is_text(statement: ast.stmt) -> bool:
-    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
 
 
 def row_ranges(rows: tuple[int, ...]) -> str:
