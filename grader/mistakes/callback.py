@@ -18,7 +18,7 @@ from grader.package.source.endless import goes_on
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
 from grader.package.source.parameters import def_after, needed_besides_self, only_self, uses_of
-from grader.package.source.sleeps import longest_sleep
+from grader.package.source.sleeps import literal_sleeps, longest_sleep
 
 DECORATORS = ("staticmethod", "classmethod", "property")
 NO_PARAMETER = (
@@ -100,13 +100,17 @@ def _sleeps(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a sleep that delays the lines although the timer's period is right."""
     slept = longest_sleep(suspect.source)
     timers = [timer.seconds for timer in suspect.source.timers]
+    total = sum(seconds for _, seconds in literal_sleeps(suspect.source))
     if (
         slept is None
-        or slept[1] <= suspect.output.period
+        or total <= suspect.output.period
         or timers not in ([suspect.output.period], [None])
     ):
         return None
     found = suspect.finding("sleeps_in_callback", slept[0], seconds=slept[1])
+    if slept[1] <= suspect.output.period:
+        words = {**found.words, "total": f"{total:g}"}
+        return replace(found, words=words, variant="several")
     method = suspect.source.function_around(slept[0])
     return replace(found, words={**found.words, "callback": method.name}) if method else found
 
@@ -228,9 +232,31 @@ KINDS = (
         ),
         msg("Remove the sleep from {callback}: the timer alone makes the pauses."),
         links.EXECUTORS,
+        whys={
+            "several": msg(
+                "While a callback sleeps, nothing else in the node runs. The sleeps of one call take "
+                "{total} s together: the timer has to wait, and each line comes late."
+            )
+        },
+        fixes={
+            "several": msg(
+                "Remove the sleeps from {callback}: the timer alone makes the pauses. What comes after a "
+                "sleep belongs in the next call of a timer."
+            )
+        },
         behind={"run.wrong_period": _sleeps},
         deletes=("",),
         examples=(
+            example(
+                "sleeps_twice_in_callback",
+                Replace(NODE, "import rclpy\nfrom", "import time\nimport rclpy\nfrom"),
+                Replace(
+                    NODE,
+                    "self.counter_ += 1",
+                    "self.counter_ += 1\n        time.sleep(1)\n        time.sleep(1)",
+                ),
+                fails="run.period",
+            ),
             example(
                 "sleeps_in_callback",
                 Replace(NODE, "import rclpy\nfrom", "import time\nimport rclpy\nfrom"),

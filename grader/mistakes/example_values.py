@@ -125,6 +125,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "lab.not_installed": {"package": "turtlesim"},
     "node.arrow": {"name": "self.counter", "written": "self.counter = 0", "line": "9"},
     "node.default_shared": {"name": "Timing()", "written": "field(default_factory=Timing)"},
+    "node.def_below": {"name": "callback", "line": "14", "function": "__init__"},
+    "node.function_of_module": {"name": "random", "line": "2", "attribute": "choice"},
     "node.property_counts": {"name": "self.number", "lines": "21, 22"},
     "node.text_repeated": {
         "name": "'Count: ' * self.counter",

@@ -151,14 +151,22 @@ def _counts_if(suspect: Suspect) -> RecognisedMistake | None:
         return None
     changed = [n for n in ast.walk(callback) if logged[1] in targets_of(n)]
     for block in _blocks(suspect):
-        if not isinstance(block, ast.If) or _chooses(block):
+        if not isinstance(block, ast.If) or (_chooses(block) and not _stands(suspect)):
             continue
         inside = list(ast.walk(block))
         if changed and all(change in inside for change in changed):
-            return suspect.finding(
+            found = suspect.finding(
                 "count_if", block, name=logged[1], text=ast.unparse(block.test)[:60]
             )
+            line = changed[0].lineno if isinstance(changed[0], ast.stmt) else block.lineno
+            words = {**found.words, "line": line}
+            return replace(found, words=words, variant="line") if _chooses(block) else found
     return None
+
+
+def _stands(suspect: Suspect) -> bool:
+    """Whether the last three lines are the same: the number does not change any more."""
+    return len(suspect.lines) > 2 and len(set(suspect.lines[-3:])) == 1
 
 
 def _counts_in_else(suspect: Suspect) -> RecognisedMistake | None:
@@ -560,16 +568,30 @@ KINDS = (
             )
         },
         fixes={
+            "line": msg(
+                "Move line {line} out of this if: below the if and its else, indented as far as the if, so "
+                "that it runs in each call."
+            ),
             "else": msg(
                 "Delete the line else: above it, and indent {written} as far as the if in line {line} is "
                 "indented, so that it runs in each call."
-            )
+            ),
         },
         behind=dict.fromkeys(
             ("run.constant_counter", "run.wrong_step"), first_of(_counts_if, _counts_in_else)
         ),
         fixed_by=(lines.unwrapped,),
         examples=(
+            example(
+                "counts_only_at_even_numbers",
+                Replace(
+                    NODE,
+                    STEP_LINE,
+                    f"        if self.counter_ % 2 == 0:\n    {STEP_LINE}"
+                    "        else:\n            self.odd_ = True\n",
+                ),
+                fails="run.output",
+            ),
             example(
                 "counts_in_the_else",
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.first_ = True"),

@@ -19,11 +19,13 @@ from types import MappingProxyType
 from grader.base.i18n.message import msg
 from grader.base.shown import shown
 from grader.mistakes import links
+from grader.mistakes.brackets import OF_FUNCTION
 from grader.mistakes.example import NODE, example
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, on_line
 from grader.package.edit.tree import Replace
 from grader.package.source.module import Function, Module
+from grader.package.source.names import dotted
 from grader.package.source.place import statement_at
 from grader.package.source.scopes import Bound, bindings, scope_of, seen_from
 
@@ -112,8 +114,54 @@ def _defines(part: ast.AST) -> bool:
     return isinstance(part, ast.Import | ast.ImportFrom | Function | ast.ClassDef)
 
 
+def _of_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The name is a function that has the name of its module: `from random import random`."""
+    statement = statement_at(raised.module, raised.line)
+    owners = [
+        dotted(part.value)
+        for part in (ast.walk(statement) if statement is not None else ())
+        if isinstance(part, ast.Attribute) and part.attr == match["name"]
+    ]
+    for node in raised.module.nodes:
+        if not isinstance(node, ast.ImportFrom) or node.module not in owners:
+            continue
+        if any((alias.asname or alias.name) == node.module for alias in node.names):
+            params = {"name": node.module, "line": str(node.lineno), "attribute": match["name"]}
+            return raised.finding("function_of_module", params=params)
+    return None
+
+
 _node = Family("node", links.PYTHON_ERRORS)
 KINDS = (
+    _node(
+        "function_of_module",
+        "start",
+        msg("A name is a function of a module, and not the module"),
+        msg(
+            "Line {line} imports the function {name} that is in the module {name}. {attribute} is in the "
+            "module, which the file does not import."
+        ),
+        msg(
+            "Write import {name} in line {line}. Then write {name}.{name} wherever the function {name} is "
+            "called, and leave {name}.{attribute} as it is."
+        ),
+        links.PYTHON_MODULES,
+        raised={OF_FUNCTION: _of_module},
+        examples=(
+            example(
+                "random_of_random",
+                Replace(
+                    NODE, "import rclpy\nfrom", "from random import random\n\nimport rclpy\nfrom"
+                ),
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "self.counter_ = random.choice([0]) if random() else 0",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
     _node(
         "name_reused",
         "start",

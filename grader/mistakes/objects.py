@@ -355,6 +355,18 @@ def _taken_inside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     return None
 
 
+def _executor_replaced(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The class gives the node's own property executor something that is no executor of ROS."""
+    del match
+    statement = statement_at(raised.module, raised.line)
+    for part in ast.walk(statement) if statement is not None else ():
+        stored = isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store)
+        if stored and isinstance(part, ast.Attribute) and dotted(part) == "self.executor":
+            found = raised.finding("name_taken", at=part, name="executor", written="executor_")
+            return replace(found, variant="property")
+    return None
+
+
 def _hides_property(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A method has the name of what rclpy reads from the node, and the error comes from rclpy."""
     del match
@@ -729,6 +741,7 @@ KINDS = (
             OWN_METHOD: _taken,
             "'RcutilsLogger' object is not callable": _taken,
             IN_NODE: _taken_inside,
+            r"has no attribute 'add_node'": _executor_replaced,
             r"(?:Type|Attribute)Error: ": _hides_property,
         },
         behind={"run.no_lines": _own_logger},
@@ -741,6 +754,20 @@ KINDS = (
             example(
                 "attribute_timers",
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.timers = []"),
+                fails="run.starts",
+            ),
+            example(
+                "executor_of_python_in_executor",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "from concurrent.futures import ThreadPoolExecutor\n\nimport rclpy\nfrom",
+                ),
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "self.counter_ = 0\n        self.executor = ThreadPoolExecutor(max_workers=1)",
+                ),
                 fails="run.starts",
             ),
             example(

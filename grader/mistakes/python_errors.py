@@ -20,7 +20,14 @@ from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.format_fields import text_of
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import FromError, Raised, RecognisedMistake, always, on_line
+from grader.mistakes.recognised import (
+    FromError,
+    Raised,
+    RecognisedMistake,
+    always,
+    first_of,
+    on_line,
+)
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace, Write
 from grader.package.source.counter import targets_of
@@ -400,6 +407,26 @@ def _alternatives(given: ast.expr) -> list[ast.expr]:
     return [given]
 
 
+def _doubled_plus(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Two texts are joined by ++, as in Haskell: the second + stands in front of a text."""
+    for node in _on_line(raised):
+        right = node.right if isinstance(node, ast.BinOp) else None
+        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Add):
+            continue
+        if not isinstance(right, ast.UnaryOp) or not isinstance(right.op, ast.UAdd):
+            continue
+        code = raised.module.text.code
+        name = code(node)
+        params = {
+            **match.groupdict(""),
+            "name": name,
+            "written": f"{code(node.left)} + {code(right.operand)}",
+        }
+        if "\n" not in name and len(name) <= MOST_CODE:
+            return replace(raised.finding("types_do_not_fit", params=params), variant="doubled")
+    return None
+
+
 def _comma(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A comma at the end of the line makes a tuple of the number that is added."""
     statement = statement_at(raised.module, raised.line)
@@ -596,6 +623,10 @@ KINDS = (
         ),
         whys={
             "items": msg("name[…] reads one item. The type {first} has no items."),
+            "doubled": msg(
+                "One + joins two texts. The second + stands in front of the text behind it, where + needs "
+                "a number."
+            ),
             "function": msg("name[…] reads one item. A function has no items: it is called."),
             "each": msg(
                 "Only a value that consists of items can be unpacked or used behind in. The type {first} has none."
@@ -617,6 +648,7 @@ KINDS = (
             "returned": msg("Python calls {operator} and needs a {first} from it."),
         },
         fixes={
+            "doubled": msg("Write {written} instead of {name}."),
             "items": msg("Look in which line this value is set, or remove the […]."),
             "function": ROUND,
             "each": msg(
@@ -664,8 +696,8 @@ KINDS = (
                 _told("types_do_not_fit", "set")
             ),
             r"expected str instance, (?P<first>\w{1,60}) found": _told("types_do_not_fit", "join"),
-            r"bad operand type for unary (?P<operator>\S{1,3}): '(?P<first>\w{1,60})'": (
-                _told("types_do_not_fit", "sign")
+            r"bad operand type for unary (?P<operator>\S{1,3}): '(?P<first>\w{1,60})'": first_of(
+                _doubled_plus, _told("types_do_not_fit", "sign")
             ),
             r"'(?P<first>\w{1,60})' object cannot be interpreted as an integer": (
                 _told("types_do_not_fit", "whole")
@@ -683,6 +715,12 @@ KINDS = (
         },
         fixed_by=(_without_comma,),
         examples=(
+            example(
+                "texts_joined_by_two_plus",
+                Replace(NODE, "'Hello time: ' + str", "'Hello time: ' ++ str"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "comma_behind_the_step",
                 Replace(NODE, "self.counter_ += 1", "self.counter_ += 1,"),

@@ -48,10 +48,11 @@ def _in_loop(
     source = suspect.source
     function = source.function_around(loop)
     once = [call for call, name in calls_in(loop) if last_part(name) in SPINS]
-    if function is source.main and once and source.timers:
+    only_sleeps = len(loop.body) == 1 and isinstance(loop.body[0], ast.Expr)
+    if function is source.main and (once or only_sleeps) and source.timers:
         made = ", ".join(map(str, _rows_of_rates(source)))
         words_of: dict[str, Value] = {**found.words, "line": made}
-        if once[0].args:
+        if once and once[0].args:
             words_of["node"] = ast.unparse(once[0].args[0])
         return replace(found, words=words_of, variant="spins")
     if function is source.main:
@@ -188,6 +189,17 @@ KINDS = (
         },
         fixed_by=(node_rates.spin_for_rate, node_rates.timer_for_loop),
         examples=(
+            example(
+                "rate_in_place_of_spin_beside_a_timer",
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n    except",
+                    "        rate = node.create_rate(1)\n        while rclpy.ok():\n"
+                    "            rate.sleep()\n    except",
+                ),
+                fails="run.spins",
+                blocks=("run.output", "run.logger", "run.period"),
+            ),
             example(
                 "rate_in_callback",
                 Replace(

@@ -17,7 +17,7 @@ from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.module import Function, Module
-from grader.package.source.names import dotted
+from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.place import block_of, function_at, place_of
 
 RECURSION = "RecursionError"
@@ -30,7 +30,10 @@ def _without_end(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
     if function is None:
         return None
     return (
-        _own_class(raised, function) or _own_property(raised, function) or _itself(raised, function)
+        _spins_by_itself(raised, function)
+        or _own_class(raised, function)
+        or _own_property(raised, function)
+        or _itself(raised, function)
     )
 
 
@@ -165,6 +168,16 @@ def _sets_property(raised: Raised, function: Function) -> RecognisedMistake | No
     return replace(found, variant="setter_only")
 
 
+def _spins_by_itself(raised: Raised, function: Function) -> RecognisedMistake | None:
+    """A function spins once and calls itself, in place of a loop or of spin."""
+    calls = list(calls_in(function))
+    again = [call for call, name in calls if last_part(name) == function.name]
+    if not again or not any(last_part(name) == "spin_once" for _, name in calls):
+        return None
+    params = {"name": "", "function": function.name, "spins": "yes"}
+    return replace(raised.finding("calls_itself", at=again[0], params=params), variant="spins")
+
+
 def _itself(raised: Raised, function: Function) -> RecognisedMistake | None:
     """A function calls itself each time."""
     method = isinstance(raised.module.parents.get(function), ast.ClassDef)
@@ -190,6 +203,11 @@ def _callback(suspect: Suspect) -> RecognisedMistake | None:
         return None
     where = place_of(source, callback)
     return _itself(Raised("", where, source, suspect.assignment), callback)
+
+
+def _deleted(case: Case) -> Files | None:
+    """Delete the call, unless the function spins the node with it."""
+    return None if case.finding.params.get("spins") else lines.deleted(case)
 
 
 _node = Family("node", links.PYTHON_CLASSES)
@@ -268,12 +286,22 @@ KINDS = (
         msg("Each call of {function} comes to this line, which calls {function} again."),
         msg("Delete this line: {name}"),
         whys={
+            "spins": msg(
+                "{function} calls itself to go on. Python keeps a place for each call that has not "
+                "returned, and stops the program after about 1000 of them."
+            ),
             "timed": msg(
                 "Each call of {function} comes to this line, which calls {function} again. The timer "
                 "calls {function} in each period already."
-            )
+            ),
         },
-        fixes={"alone": msg("Write pass instead of this line: its block has no other line.")},
+        fixes={
+            "spins": msg(
+                "Delete the function {function}, and write rclpy.spin({node}) where it is called: spin "
+                "repeats by itself, until Ctrl+C."
+            ),
+            "alone": msg("Write pass instead of this line: its block has no other line."),
+        },
         behind=dict.fromkeys(
             (
                 *("run.wrong_step", "run.wrong_start", "run.twice", "run.wrong_period"),
@@ -281,8 +309,20 @@ KINDS = (
             ),
             _callback,
         ),
-        fixed_by=(lines.deleted,),
+        fixed_by=(_deleted,),
         examples=(
+            example(
+                "spins_by_calling_itself",
+                Replace(
+                    NODE,
+                    "def main(",
+                    "def run(node):\n    rclpy.spin_once(node, timeout_sec=0.01)\n"
+                    "    return run(node)\n\n\ndef main(",
+                ),
+                Replace(NODE, "        rclpy.spin(node)\n", "        run(node)\n"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
             example(
                 "callback_calls_itself",
                 Replace(NODE, STEP_LINE, f"{STEP_LINE}        self.timer_callback()\n"),

@@ -34,8 +34,44 @@ def _no_value(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     return raised.finding("variable_not_set", params=params)
 
 
+def _def_below(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The only thing that gives the name a value is a def further down in the same function."""
+    name, module = match["name"], raised.module
+    use = use_of(module, raised.line, name)
+    here = scope_of(module, use) if use is not None else None
+    found = [b for b in bindings(module, name) if b.scope is here]
+    if len(found) != 1 or not isinstance(here, Function) or not isinstance(found[0].part, Function):
+        return None
+    if found[0].line <= (raised.line or 0):
+        return None
+    return raised.finding("def_below", name=name, line=str(found[0].line), function=here.name)
+
+
 _node = Family("node", links.PYTHON_ERRORS)
 KINDS = (
+    _node(
+        "def_below",
+        "start",
+        msg("A function is used above its def"),
+        msg(
+            "A def inside of {function} is a line like any other: {name} exists only after line {line} "
+            "has run, and this line runs before it."
+        ),
+        msg("Move def {name} (line {line}), with all of its lines, above this line."),
+        raised={UNBOUND: _def_below},
+        examples=(
+            example(
+                "callback_inside_below_the_timer",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)\n",
+                    "        self.create_timer(1.0, call)\n\n        def call():\n"
+                    "            self.timer_callback()\n",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
     _node(
         "variable_not_set",
         "start",

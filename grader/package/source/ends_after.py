@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator, Sequence
 
 from grader.package.intake.model import SourceFile
-from grader.package.source.module import Module
+from grader.package.source.module import Function, Module
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node_modules import node_modules
 from grader.package.source.period import number_in
@@ -17,6 +17,8 @@ MOST_COUNT = 60
 """Larger numbers that a count is compared with are not waited for."""
 WAITS = ("Timer", "alarm", "setitimer", "sleep")
 """Functions of Python whose first or second value is a time in seconds of wall time."""
+DEEPEST = 1000
+"""How often a function may call itself (sys.getrecursionlimit)."""
 LIMITED = "spin_until_future_complete"
 TIMEOUTS = (3, 1)
 """The position of timeout_sec: rclpy's function has node, future and executor before it, an
@@ -98,6 +100,19 @@ def _times(module: Module) -> Iterator[float]:
     for node in module.nodes:
         if isinstance(node, ast.Compare):
             yield from _compared(module, node)
+        if isinstance(node, Function):
+            yield from _recurses(module, node)
+
+
+def _recurses(module: Module, function: Function) -> Iterator[float]:
+    """Yield after how many seconds a function that spins once and calls itself has done it too often."""
+    calls = list(calls_in(function))
+    if any(last_part(name) == function.name for _, name in calls):
+        for call, name in calls:
+            if last_part(name) == "spin_once":
+                named = [word.value for word in call.keywords if word.arg == "timeout_sec"]
+                given = [*named, *call.args[1:]]
+                yield DEEPEST * (constant(module, given[0]) or 0.0) if given else 0.0
 
 
 def _compared(module: Module, node: ast.Compare) -> Iterator[float]:

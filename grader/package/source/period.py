@@ -26,6 +26,8 @@ PARTS_OF_SECOND = {
 """The seconds in the units that the names of numbers say."""
 RATES = {"rate", "hz", "freq", "frequency", "fps", "bpm"}
 UNITS = (1e-3, 1e-6, 1e-9, 1.0)
+ENVIRONMENT = ("os.environ.get", "os.getenv", "environ.get", "getenv")
+"""What reads a variable of the environment, with its default behind the name."""
 READ = ("value", "double_value", "integer_value")
 TYPES = {"double_value": float, "integer_value": int}
 MOST_STEPS = 12
@@ -180,6 +182,10 @@ def seconds_of(source: NodeSource, period: ast.expr, steps: int = MOST_STEPS) ->
         if right == 0:
             return None
         return left // right if isinstance(period.op, ast.FloorDiv) else left / right
+    if isinstance(period, ast.Call) and dotted(period.func) in ENVIRONMENT and period.args[1:]:
+        text = period.args[1]
+        found = str(text.value) if isinstance(text, ast.Constant) else ""
+        return float(found) if re.fullmatch(r"\d{1,9}(\.\d{0,9})?", found) else None
     if isinstance(period, ast.Call) and dotted(period.func) in ("int", "float"):
         inner = seconds_of(source, period.args[0], steps - 1) if len(period.args) == 1 else None
         return float(int(inner)) if inner is not None and dotted(period.func) == "int" else inner

@@ -28,11 +28,15 @@ def _is_chosen(source: NodeSource, call: ast.Call) -> bool:
 
 def longest_sleep(source: NodeSource) -> tuple[ast.Call, float] | None:
     """Return the callback's longest sleep of those with a literal number of seconds."""
-    found = [
+    return max(literal_sleeps(source), key=lambda sleep: sleep[1], default=None)
+
+
+def literal_sleeps(source: NodeSource) -> list[tuple[ast.Call, float]]:
+    """Return the callback's sleeps with a literal number of seconds, and these seconds."""
+    return [
         (call, float(call.args[0].value))
         for call in sleeps_of(source)
         if call.args
         and isinstance(call.args[0], ast.Constant)
         and isinstance(call.args[0].value, int | float)
     ]
-    return max(found, key=lambda sleep: sleep[1], default=None)
