@@ -15,11 +15,13 @@ $(foreach v,$(VARIABLES),$(if $(filter-out undefined,$(origin $v)),$(eval overri
 BOOTSTRAP := python3 grader/bootstrap.py $${PYTHON:+--python "$$PYTHON"}
 # one process more than cores: a node under observation leaves them mostly idle
 PYTEST := .venv/bin/python -m pytest -q --dist worksteal -n $$(( $$(getconf _NPROCESSORS_ONLN) + 1 ))
+# those with containers and real runs wait for a third of their time
+PYTEST_FULL := .venv/bin/python -m pytest -q --dist worksteal -n $$(( 2 * $$(getconf _NPROCESSORS_ONLN) ))
 # those that keep every core busy run after the others (PYTEST_ARGS chooses a part: all at once)
 ALONE := .venv/bin/python -m pytest -q -p no:xdist tests/test_load.py
 define run_tests
-if [ -n "$${PYTEST_ARGS:-}" ]; then $(PYTEST) -m "$(1)" $${PYTEST_ARGS}; \
-  else $(PYTEST) -m "($(1)) and not alone" && $(ALONE) -m "$(1)"; fi
+if [ -n "$${PYTEST_ARGS:-}" ]; then $(PYTEST_FULL) -m "$(1)" $${PYTEST_ARGS}; \
+  else $(PYTEST_FULL) -m "($(1)) and not alone" && $(ALONE) -m "$(1)"; fi
 endef
 # the tests whose verdicts are from recorded evidence
 RECORDED := tests/test_verdicts.py tests/test_build_check.py tests/fix tests/mistakes/test_korean_verdicts.py \
