@@ -2,7 +2,8 @@
 
 A fix that leaves the failure as it was shows that the diagnosis does not explain it. The check is
 then diagnosed again without that kind of mistake. Another diagnosis has to have a fix that helps;
-if none has, the report only says what was seen.
+if none has, the report only says what was seen. A fix of what the files alone show has to let the
+package get further; what they show stays true without it.
 """
 
 from __future__ import annotations

@@ -73,6 +73,19 @@ def test_a_file_moved_there_and_back_gives_no_diff() -> None:
     assert diff(old, old.with_move("a", "b").with_move("b", "a")) == b""
 
 
+@pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: str(tool[0]))
+def test_a_change_of_files_that_were_moved_before_is_one_diff(tool: tuple[str, ...]) -> None:
+    old = files({"a.py": b"one\n", "setup.py": b"two\n"})
+    moved = old.with_move("a.py", "b.py")
+    later = Files(moved.by_path).with_data("setup.py", b"three\n").with_move("b.py", "c.py")
+    new = later.moved_since(moved)
+    assert new.moved == {"c.py": "a.py"}
+    assert made_by(tool, {"a.py": b"one\n", "setup.py": b"two\n"}, diff(old, new)) == {
+        "c.py": b"one\n",
+        "setup.py": b"three\n",
+    }
+
+
 def test_modes_are_the_two_that_git_records() -> None:
     old = files({"a": b"1\n"}, mode=0o640)
     assert diff(old, old.with_mode("a", 0o750)) == (

@@ -7,18 +7,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.translator import Translator
+from grader.base.unheard import unheard
 from grader.package.submission import Submission
 from grader.report.model import CheckResult
 from grader.verdict.evaluate import evaluate_checks
 from grader.verdict.evidence import Evidence
 from grader.verdict.evidence_file import EvidenceFile, Judged, evidence_bytes
-from grader.verdict.mark import replay
+from grader.verdict.mark import mark, replay
 from grader.verdict.recording import Recording, evidence_of, record
 from grader.verdict.try_fixes import MOST_TRIED, with_tried_fix
 from tests import marking, recorded
@@ -217,3 +219,19 @@ def test_a_fix_of_what_prevents_nothing_is_not_tried(tmp_path: Path) -> None:
     result, found = static_failure("exec_bit_missing", tmp_path, "solution")
     assert result.patch
     assert not found.tried
+
+
+@pytest.mark.full
+def test_the_fixes_of_a_real_verdict_are_tried_and_recorded(tmp_path: Path) -> None:
+    package = BY_NAME["asks_after_ctrl_c_and_spins_again"]
+    root = write(package, tmp_path)
+    kept: list[Judged] = []
+    order = replace(marking.order(root), tries_fixes=True)
+    report = mark(marking.taken_in(root), order, unheard, keep=kept.append)
+    check = next(check for check in report.checks if check.status == "failed")
+    assert ids(check)[0] == "node.waits_at_end"
+    assert kept[0].recording.fixed
+    again = replay(kept[0].recording, kept[0].submission, marking.ASSIGNMENT)
+    assert [(c.id, c.mistakes, c.patch) for c in again.checks] == [
+        (c.id, c.mistakes, c.patch) for c in report.checks
+    ]
