@@ -19,6 +19,7 @@ from grader.package.source.module import Function
 from grader.package.source.names import called_name, calls_in, dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS, NodeSource
 from grader.package.source.place import block_of, statement_at
+from grader.package.source.played import SHOWN_LEVELS, played
 from grader.package.source.printed import as_log, imitates_record, writes_line
 
 
@@ -32,7 +33,7 @@ def _arguments(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
             c for c, _ in raised.source.calls if c.lineno == raised.line and _is_alias(raised, c)
         ]
     if not logs and not raised.inside:
-        return _passed_on(raised)
+        return _passed_on(raised) or _of_partial(raised)
     return raised.finding("logger_arguments", at=logs[0]) if logs else None
 
 
@@ -57,6 +58,36 @@ def _passed_on(raised: Raised) -> RecognisedMistake | None:
     found = raised.finding("logger_arguments", at=calls[0])
     words = {**found.words, "function": around.name, "line": str(logs[0].lineno)}
     return replace(found, words=words, variant="passed_on")
+
+
+def _of_partial(raised: Raised) -> RecognisedMistake | None:
+    """The line calls a partial of info, which gives the logger a text of its own."""
+    here = [call for call, _ in raised.source.calls if call.lineno == raised.line]
+    for statement in (n for n in raised.source.own_nodes if isinstance(n, ast.Assign)):
+        made = statement.value
+        if not isinstance(made, ast.Call) or last_part(dotted(made.func)) != "partial":
+            continue
+        method = made.args[0] if len(made.args) == 2 else None
+        if not isinstance(method, ast.Attribute) or method.attr not in LOG_METHODS:
+            continue
+        names = [name for name in map(dotted, statement.targets) if name]
+        calls = [call for call in here if dotted(call.func) in names and len(call.args) == 1]
+        if len(calls) != 1:
+            continue
+        code = raised.source.module_of(made).text.code
+        text, given = (
+            code(made.args[1]),
+            raised.source.module_of(calls[0]).text.code(calls[0].args[0]),
+        )
+        found = raised.finding("logger_arguments", at=calls[0], name=dotted(calls[0].func))
+        words = {
+            **found.words,
+            "line": statement.lineno,
+            "written": f"{code(method)}({text} + {given})",
+            "text": text,
+        }
+        return replace(found, words=words, variant="partial")
+    return None
 
 
 def _is_alias(raised: Raised, call: ast.Call) -> bool:
@@ -210,6 +241,8 @@ def _debug(suspect: Suspect) -> RecognisedMistake | None:
         return suspect.finding("debug_level", fit[0]) if fit else None
     # (in a lambda or a helper, of a logger that a parameter is; the only line that is logged)
     found = _methods_of_loggers(source)
+    if (hidden := _logged_hidden(suspect)) is not None:
+        return suspect.finding("debug_level", hidden)
     if len(found) != 1 or found[0].attr != "debug":
         return None
     module = source.module_of(found[0])
@@ -217,6 +250,17 @@ def _debug(suspect: Suspect) -> RecognisedMistake | None:
     written = f"{name.removesuffix('debug')}info"
     mistake = suspect.finding("debug_level", found[0], name=name, written=written)
     return replace(mistake, variant="written")
+
+
+def _logged_hidden(suspect: Suspect) -> ast.Call | None:
+    """Return the call of debug that the first callbacks come to, if the program can be worked out."""
+    source = suspect.source
+    if source.module is not source.entry or source.main is None:
+        return None
+    lines = played(source.module.tree, source.main.name, 3, (*SHOWN_LEVELS, "debug")) or []
+    calls = {line.call for line in lines}
+    hidden = [call for call in calls if last_part(dotted(call.func)) == "debug"]
+    return hidden[0] if len(calls) == len(hidden) == 1 else None
 
 
 def _can_begin(log: ast.Call, line: str) -> bool:
@@ -446,16 +490,21 @@ KINDS = (
         msg("Make one string of them: {sum}, or an f-string."),
         links.LOGGING,
         whys={
+            "partial": msg(
+                "{name} gives info() the text {text} (line {line}), and this line gives it another value. "
+                "info() takes one string."
+            ),
             "passed_on": msg(
                 "{function} gives all values of this call to info() in line {line}. info() takes one "
                 "string, and puts no values into it."
-            )
+            ),
         },
         fixes={
+            "partial": msg("Make one string of both, for example: {written}"),
             "passed_on": msg(
                 "Make one string of the values in this call, as an f-string does, and give {function} "
                 "only this string."
-            )
+            ),
         },
         seen=r"\.info\(\) takes 2 positional arguments but \d{1,3} were given",
         raised={
@@ -463,6 +512,23 @@ KINDS = (
         },
         fixed_by=(node_log.comma,),
         examples=(
+            example(
+                "partial_of_info_with_a_text",
+                Replace(
+                    NODE,
+                    "import rclpy\nfrom",
+                    "from functools import partial\n\nimport rclpy\nfrom",
+                ),
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "self.counter_ = 0\n"
+                    "        self.hello = partial(self.get_logger().info, 'Hello time: ')",
+                ),
+                Replace(NODE, LOG, "self.hello(str(self.counter_))"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "method_of_logger_with_comma",
                 Replace(
@@ -630,6 +696,23 @@ KINDS = (
         behind={"run.no_lines": _debug, "run.wrong_step": _debug, "run.wrong_start": _debug},
         fixed_by=(node_log.level, lines.written),
         examples=(
+            example(
+                "level_chosen_by_a_helper",
+                Replace(
+                    NODE,
+                    "self.get_logger().info('Hello time: ' + str(self.counter_))",
+                    "self.say('Hello time: ' + str(self.counter_), 'green')",
+                ),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def say(self, text, colour):\n        if colour == 'green':\n"
+                    "            self.get_logger().debug(text)\n        else:\n"
+                    "            self.get_logger().warn(text)\n\n    def timer_callback",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
             example(
                 "each_second_line_as_debug",
                 Replace(

@@ -167,17 +167,23 @@ class Line:
     call: ast.Call
 
 
-def played(module: ast.Module, function: str, ticks: int) -> list[Line] | None:
-    """Return the lines that the first callbacks of a file's only timer write; None if unknown."""
+def played(
+    module: ast.Module, function: str, ticks: int, levels: Sequence[str] = SHOWN_LEVELS
+) -> list[Line] | None:
+    """Return the lines that the first callbacks of a file's only timer write; None if unknown.
+
+    They are those that are logged with one of the levels.
+    """
     try:
-        return _Player(module).lines(function, ticks)
+        return _Player(module, levels).lines(function, ticks)
     except (UnplayableError, RecursionError, _ReturnedError, _SpunError, *ERRORS):
         return None
 
 
 class _Player:
-    def __init__(self, module: ast.Module) -> None:
+    def __init__(self, module: ast.Module, levels: Sequence[str]) -> None:
         self.module = module
+        self.levels = levels
         self.names: dict[str, object] = {}
         self.written: list[Line] = []
         self.timers: list[object] = []
@@ -545,7 +551,7 @@ class _Player:
     def log(self, method: _Log, text: object, node: ast.Call) -> None:
         if not isinstance(text, str) and self.ticking:
             raise UnplayableError
-        if method.level in SHOWN_LEVELS and isinstance(text, str):
+        if method.level in self.levels and isinstance(text, str):
             self.written.append(Line(text, node))
 
     def printed(self, given: list[object], named: dict[str, object], node: ast.Call) -> None:
