@@ -88,6 +88,25 @@ def _chooses(block: ast.If) -> bool:
     return bool(block.orelse) or nth
 
 
+def _logs_each_nth(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a condition that lets only each n-th call log, where at most one line came.
+
+    A condition on the counter itself can be meant.
+    """
+    source, callback = suspect.source, suspect.source.callback
+    logged = logged_counter(source)
+    for block in _blocks(suspect):
+        logs = source.logs(block)
+        if not isinstance(block, ast.If) or block.orelse or callback is None:
+            continue
+        nth = any(isinstance(n, ast.Mod) for n in ast.walk(block.test))
+        if logged is not None and logged[1] in map(dotted, ast.walk(block.test)):
+            continue
+        if nth and logs and len(logs) == len(source.logs(callback)) and len(suspect.lines) < 2:
+            return suspect.finding("log_if", block, name=ast.unparse(block.test)[:60])
+    return None
+
+
 def _logs_if(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a condition that decides whether the callback logs."""
     source, callback = suspect.source, suspect.source.callback
@@ -508,8 +527,9 @@ KINDS = (
             )
         },
         behind={
-            "run.no_lines": _and_period(_logs_if),
-            "run.stops": _and_period(_logs_if),
+            **dict.fromkeys(
+                ("run.no_lines", "run.stops"), _and_period(first_of(_logs_if, _logs_each_nth))
+            ),
             "run.wrong_start": _and_period(first_of(_needless_if, _logs_if)),
             "run.wrong_step": _and_period(_needless_if),
             "run.wrong_period": _and_period(first_of(_needless_if, _logs_if)),
@@ -520,6 +540,18 @@ KINDS = (
                 "logs_until_five",
                 Replace(NODE, LOG_LINE, f"        if self.counter_ < 5:\n    {LOG_LINE}"),
                 fails="run.output",
+            ),
+            example(
+                "logs_each_sixtieth_frame",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.frame_ = 0"),
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    f"        if self.frame_ % 60 == 0:\n    {LOG_LINE}    {STEP_LINE}"
+                    "        self.frame_ += 1\n",
+                ),
+                fails="run.output",
+                blocks=("run.period",),
             ),
             example(
                 "logs_at_the_rising_edge_of_a_bit",

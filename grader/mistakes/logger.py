@@ -241,10 +241,9 @@ def _debug(suspect: Suspect) -> RecognisedMistake | None:
         return suspect.finding("debug_level", fit[0]) if fit else None
     # (in a lambda or a helper, of a logger that a parameter is; the only line that is logged)
     found = _methods_of_loggers(source)
-    if (hidden := _logged_hidden(suspect)) is not None:
-        return suspect.finding("debug_level", hidden)
     if len(found) != 1 or found[0].attr != "debug":
-        return None
+        hidden = _logged_hidden(suspect)
+        return suspect.finding("debug_level", hidden) if hidden is not None else None
     module = source.module_of(found[0])
     name = module.text.code(found[0])
     written = f"{name.removesuffix('debug')}info"

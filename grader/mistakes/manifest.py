@@ -236,6 +236,10 @@ KINDS = (
             ),
             "comment_start": msg("Write <!-- where the comment begins, and --> where it ends."),
             "less": msg("Write &lt; instead of this <."),
+            "version": msg(
+                "Write only the name of the package, as in {wanted}: this tag has no version in it, unlike "
+                "a requirement of pip."
+            ),
         },
         fixed_by=(manifest.well_formed, manifest.declared_encoding),
         examples=(
@@ -344,6 +348,12 @@ KINDS = (
             example(
                 "comment_without_end",
                 Replace(MANIFEST, "  <depend>", "  <!-- TODO: licence\n  <depend>"),
+                fails="package.manifest",
+                blocks=UNBUILT,
+            ),
+            example(
+                "version_of_pip_in_a_dependency",
+                Replace(MANIFEST, "<depend>rclpy</depend>", "<depend>rclpy>=7.1,<8.0</depend>"),
                 fails="package.manifest",
                 blocks=UNBUILT,
             ),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Mapping
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
@@ -67,7 +68,16 @@ NOT_AN_EXECUTOR = (
     r"'(?:add_node|remove_node)'"
 )
 OWN_IMPORT = r"cannot import name '(?P<name>\w{1,120})' from partially initialized module '(?P<module>[\w.]{1,200})'"
-OPERATOR = r"unsupported operand type\(s\) for (?P<name>[-&|^/%]|//): '(?:str|int|float)' and '(?:str|int|float)'"
+OPERATOR = r"unsupported operand type\(s\) for (?P<name>[-&|^/%@]|//|<<|>>): '(?:str|int|float)' and '(?:str|int|float)'"
+SIGNS: Mapping[str, type[ast.operator]] = {
+    "&": ast.BitAnd,
+    "|": ast.BitOr,
+    "^": ast.BitXor,
+    "<<": ast.LShift,
+    ">>": ast.RShift,
+    "@": ast.MatMult,
+}
+"""Signs that join nothing in Python, with what they are in its syntax tree."""
 NOT_A_NUMBER = (
     r"can only concatenate (?:tuple|list) \(not \"int\"\)"
     r"|unsupported operand type\(s\) for [+-]=?: '(?!str)\w{1,120}' and '(?:int|float)'"
@@ -295,7 +305,7 @@ def _callback_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
 def _operator(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A text and something else are joined with another sign than +."""
     statement = statement_at(raised.module, raised.line)
-    texts = match["name"] in "&|^" and "'str' and 'str'" in match[0]
+    texts = match["name"] in SIGNS and "'str' and 'str'" in match[0]
     for part in ast.walk(statement) if statement is not None else ():
         if isinstance(part, ast.BinOp) and (_is_text(part.left) or (texts and _is(part, match))):
             return raised.finding("text_operator", at=part, name=match["name"], written="+")
@@ -304,8 +314,7 @@ def _operator(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
 
 def _is(part: ast.BinOp, match: re.Match[str]) -> bool:
     """Whether a part of the line is the operation of the error."""
-    signs = {"&": ast.BitAnd, "|": ast.BitOr, "^": ast.BitXor}
-    return isinstance(part.op, signs[match["name"]])
+    return isinstance(part.op, SIGNS[match["name"]])
 
 
 def _is_text(part: ast.expr) -> bool:
@@ -687,6 +696,12 @@ KINDS = (
         raised={OPERATOR: on_line(_operator)},
         fixed_by=(node_objects.plus,),
         examples=(
+            example(
+                "stream_sign_for_plus",
+                Replace(NODE, "'Hello time: ' +", "'Hello time: ' <<"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "ampersand_for_plus",
                 Replace(NODE, "'Hello time: ' +", "'Hello time: ' &"),

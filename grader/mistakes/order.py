@@ -300,8 +300,8 @@ KINDS = (
         "shutdown",
         msg("The clean-up comes before spin"),
         msg(
-            "After {name} the node has no timer any more that spin could serve. Clean-up is the last "
-            "thing that a program does."
+            "After {name}, the node or ROS is shut down, and no line below can use it any more. Clean-up "
+            "is the last thing that a program does."
         ),
         msg("Move {name} to the end of {function}, below the line that spins."),
         links.RCLPY,

@@ -25,7 +25,7 @@ TAGS = (
 Variant = Literal[
     "unclosed", "again", "unopened", "closed_twice", "misspelt", "unfinished", "quotes", "ampersand", "before",
     "after", "outside", "bare", "comment", "declaration", "blank", "declared_twice", "package_twice", "no_tags", "end_twice", "root_first", "typed", "typed_lines", "line_twice", "lines_swapped",
-    "hyphens", "hyphens_lines", "comment_start", "less",
+    "hyphens", "hyphens_lines", "comment_start", "less", "version",
 ]  # fmt: skip
 END_TAG = re.compile(rb"</\s{0,9}(?P<name>[^<>\s]{1,100})\s{0,9}>")
 TYPOGRAPHIC = re.compile(rb"\xe2\x80[\x98-\x9f]")  # U+2018 to U+201F in UTF-8
@@ -36,6 +36,10 @@ DASH = rb"(?:-|\xe2\x80[\x90-\x95])"  # with U+2010 to U+2015 in UTF-8
 COMMENT_START = re.compile(rb"<!?" + DASH + rb"{1,3}")
 COMMENT_END = re.compile(rb"[ \t]*" + DASH + rb"{1,3}!?>")
 BARE_LESS = re.compile(rb"<(?=[\s\d=<-]|[\w.+-]{1,60}@[\w.-]{1,60}>)")
+VERSIONS = re.compile(
+    rb"<[a-z_]{0,30}depend>\s*(?P<name>[\w-]{1,60})"
+    rb"(?P<versions>\s*[<>=~!]=?[^\n]{0,60}?)(?P<end></[a-z_]{0,30}depend>)"
+)
 MOST_SHOWN = 120
 ENTITY = re.compile(rb"&(#?\w{1,30});")
 
@@ -340,6 +344,12 @@ def _tag_start(reader: _Reader, at: int) -> XmlFault | None:
         if begin[0].startswith(b"<!") or not found[line_start:start].strip():
             return reader.fault("comment_start", begin[0].decode(), start)
     bare = [m.start() for m in BARE_LESS.finditer(found, line_start, end)]
+    versions = VERSIONS.search(found, line_start, end)
+    if versions is not None and start in range(*versions.span("versions")):
+        wanted = found[versions.start() : versions.end("name")] + versions["end"]
+        gone = (*versions.span("versions"), b"")
+        shown = wanted.strip().decode("utf-8", "replace")
+        return reader.fault("version", "", start, gone, wanted=shown)
     if start in bare and reader.open:
         fault = reader.fault("less", "", start, *((i, i + 1, b"&lt;") for i in bare))
         return fault if fault.fixed is not None else None

@@ -202,6 +202,7 @@ def _described(fault: XmlFault) -> Message:
         "hyphens_lines": say("two hyphens (--) are inside of a comment"),
         "comment_start": say("{tag} does not begin a comment: a comment begins with <!--", **words),
         "less": say("there is a bare <"),
+        "version": say("a version with < is inside of a tag for a dependency"),
         "declaration": say(
             "there is something above <?xml …?>, which is in line {wanted}", **words
         ),
