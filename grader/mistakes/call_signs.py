@@ -77,7 +77,13 @@ def _super(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     del match
     for call, name in raised.source.calls:
         if name == "super" and call.args and raised.line in lines_of(call):
-            code = raised.source.module_of(call).text.code(call)
+            module = raised.source.module_of(call)
+            code, alone = module.text.code(call), module.parents.get(call)
+            if isinstance(alone, ast.Expr) and all(isinstance(a, ast.Constant) for a in call.args):
+                given = ", ".join(map(module.text.code, call.args))
+                params = {"name": code, "written": f"super().__init__({given})"}
+                found = raised.finding("super_arguments", at=call, params=params)
+                return replace(found, variant="alone")
             return raised.finding("super_arguments", at=call, name=code, written="super()")
     return None
 
@@ -156,9 +162,20 @@ KINDS = (
         msg("In a class, super() needs no arguments: it knows the class and the object."),
         msg("Write {written} instead of {name}"),
         links.PYTHON_CLASSES,
+        whys={
+            "alone": msg(
+                "super() itself takes no values and calls nothing: it stands for the base class. The name "
+                "goes to the __init__ of the base class."
+            )
+        },
         raised={OF_SUPER: _super},
         fixed_by=(lines.written,),
         examples=(
+            example(
+                "super_called_as_in_java",
+                Replace(NODE, "super().__init__('my_first_node')", "super('my_first_node')"),
+                fails="run.starts",
+            ),
             example(
                 "super_of_class_alone",
                 Replace(NODE, "super().__init__", "super(MyFirstNode).__init__"),

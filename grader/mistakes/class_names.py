@@ -31,12 +31,14 @@ def _private(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return None
     here = class_of(module, function_at(module, raised.line))
     owners = {_owner(module, part) for part in _set(module, name)} - {None}
-    if not owners or (here is not None and here[0] in owners):
+    first = {_owner(module, part) for part in _set(module, name) if not _adds(module, part)}
+    set_outside = here is not None and first == {None}
+    if not set_outside and (not owners or (here is not None and here[0] in owners)):
         return None
     rows = sorted({part.lineno for part in _named(module, name)})
     params = {"name": name, "written": name[1:], "lines": ", ".join(map(str, rows))}
     found = raised.finding("private_name", params=params)
-    if here is None or len(owners) != 1:
+    if here is None or set_outside or len(owners) != 1:
         return found
     owner = next(owner.name for owner in owners if owner is not None)
     words = {**found.words, "type": owner, "class": here[0].name}
@@ -50,6 +52,10 @@ def _named(module: Module, name: str) -> list[ast.Attribute]:
 
 def _set(module: Module, name: str) -> list[ast.Attribute]:
     return [n for n in _named(module, name) if isinstance(n.ctx, ast.Store)]
+
+
+def _adds(module: Module, part: ast.Attribute) -> bool:
+    return isinstance(module.parents.get(part), ast.AugAssign)
 
 
 def _owner(module: Module, part: ast.Attribute) -> ast.ClassDef | None:
@@ -129,6 +135,17 @@ KINDS = (
                     "        print(node.__counter)\n        node.destroy_node()",
                 ),
                 fails="run.interrupt",
+            ),
+            example(
+                "private_counter_set_by_main",
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(NODE, "str(self.counter_)", "str(self.__counter)"),
+                Replace(NODE, "self.counter_ += 1", "self.__counter += 1"),
+                Replace(
+                    NODE, "node = MyFirstNode()\n", "node = MyFirstNode()\n    node.__counter = 0\n"
+                ),
+                fails="run.output",
+                blocks=DEAD,
             ),
             example(
                 "private_counter_of_base",

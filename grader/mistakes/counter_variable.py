@@ -128,7 +128,11 @@ def _anew(suspect: Suspect) -> RecognisedMistake | None:
         mistake = suspect.finding("counts_in_variable", steps[0], name=name)
         words = {**mistake.words, "function": callback.name, "written": step}
         if name in _with_default(callback) and not others:
-            return replace(mistake, words=words, variant="default")
+            back = [n for n in ast.walk(callback) if isinstance(n, ast.Return) and n.value]
+            if not back:
+                return replace(mistake, words=words, variant="default")
+            rows = ", ".join(str(n.lineno) for n in back)
+            return replace(mistake, words={**words, "line": rows}, variant="default_returned")
         given = others[0].value if len(others) == 1 else None
         if given is not None and "get_parameter" in ast.unparse(given):
             return replace(mistake, words={**words, "line": str(others[0].lineno)})
@@ -231,16 +235,36 @@ KINDS = (
             "default": msg(
                 "{name} is a parameter of {function}. The timer gives it no value, so each call begins "
                 "with its default value again."
-            )
+            ),
+            "default_returned": msg(
+                "{name} is a parameter of {function}. The timer gives it no value, so each call begins "
+                "with its default value again. Nobody keeps what {function} returns (line {line})."
+            ),
         },
         fixes={
             "default": msg(
                 "Write self.{name} = {start} in __init__. In {function}, delete the parameter {name}, "
                 "and write self.{name} instead of {name} in the log line, and {written} in this line."
-            )
+            ),
+            "default_returned": msg(
+                "Set self.{name} = {start} in __init__, if no line does. In {function}, delete the "
+                "parameter {name} and line {line}, and write self.{name} instead of {name} in the log "
+                "line, and {written} in this line."
+            ),
         },
         behind={"run.constant_counter": _anew},
         examples=(
+            example(
+                "counts_in_a_default_and_returns_it",
+                Replace(NODE, "def timer_callback(self)", "def timer_callback(self, number=0)"),
+                Replace(NODE, "str(self.counter_)", "str(number)"),
+                Replace(
+                    NODE,
+                    "        self.counter_ += 1\n",
+                    "        number = number + 1\n        return number\n",
+                ),
+                fails="run.output",
+            ),
             example(
                 "counts_in_a_default",
                 Replace(NODE, "        self.counter_ = 0\n", ""),

@@ -118,9 +118,15 @@ def _makes_another(suspect: Suspect) -> RecognisedMistake | None:
             continue
         if not isinstance(last.value, ast.Name) or last.value.id != inner[0].name:
             continue
-        code = source.module_of(given).text.code(given)
-        found = suspect.finding("makes_callback", given, name=code, written=f"{code}()")
-        return replace(found, words={**found.words, "method": made.name, "inner": inner[0].name})
+        text = source.module_of(given).text
+        words = {"method": made.name, "inner": inner[0].name}
+        if any(isinstance(n, ast.Nonlocal) for n in ast.walk(inner[0])):  # (it keeps a value)
+            code = text.code(given)
+            found = suspect.finding("makes_callback", given, name=code, written=f"{code}()")
+            return replace(found, words={**found.words, **words}, variant="made_once")
+        written = f"{inner[0].name}()"
+        found = suspect.finding("makes_callback", last, name=text.code(last), written=written)
+        return replace(found, words={**found.words, **words})
     return None
 
 
@@ -134,10 +140,28 @@ KINDS = (
             "{method} returns the function {inner} and does not call it. The timer calls {method} in "
             "each period, and does nothing with what it returns."
         ),
-        msg("Write {written} instead of {name}: create_timer gets what {method} returns then."),
+        msg("Write {written} instead of {name}: {method} calls {inner} then, in each period."),
+        fixes={
+            "made_once": msg(
+                "Write {written} instead of {name}: create_timer gets what {method} returns then."
+            )
+        },
         behind={"run.no_lines": _makes_another},
         fixed_by=(lines.written,),
         examples=(
+            example(
+                "callback_with_a_count_of_its_own_is_made_in_each_period",
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    "        number = 0\n\n        def handler():\n            nonlocal number\n"
+                    "            self.get_logger().info('Hello time: ' + str(number))\n"
+                    "            number += 1\n\n        return handler\n",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
             example(
                 "callback_is_made_in_each_period",
                 Replace(

@@ -308,17 +308,20 @@ KINDS = (
         "logger",
         msg("The lines go through Python's logging module"),
         msg("ROS does not know that logger: its lines have another form and do not reach /rosout."),
-        msg("Write self.get_logger().info(…) in the callback, and remove the logging module."),
+        msg(
+            "Write self.get_logger().info(…) in the callback. Change all other lines that use the logging "
+            "module as well, then remove it."
+        ),
         links.LOGGING,
         whys={"hidden": HIDDEN_LOG, "hidden_written": HIDDEN_LOG},
         fixes={
             "hidden_written": msg(
-                "Write {written} on this line: the node's own logger, which takes one string. Then "
-                "remove the logging module."
+                "Write {written} on this line: the node's own logger, which takes one string. Change all "
+                "other lines that use the logging module as well, then remove it."
             ),
             "hidden": msg(
-                "Write self.get_logger().info(…) on this line: the node's own logger. Then remove "
-                "the logging module."
+                "Write self.get_logger().info(…) on this line: the node's own logger. Change all other "
+                "lines that use the logging module as well, then remove it."
             ),
         },
         behind={

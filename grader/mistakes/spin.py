@@ -716,7 +716,7 @@ KINDS = (
     _node(
         "spin_missing",
         "spin",
-        msg("Nothing in the program spins the node"),
+        msg("Nothing that ros2 run starts spins the node"),
         SPIN,
         msg("Call rclpy.spin({node}) in {function}, after creating the node."),
         links.EXECUTORS,

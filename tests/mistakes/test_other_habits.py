@@ -258,6 +258,19 @@ def test_a_function_that_only_makes_the_callback() -> None:
     assert found is not None
     assert found.kind == "node.makes_callback"
     assert fix_of(found).startswith(
+        "Write handler() instead of return handler: timer_callback calls handler then"
+    )
+
+
+def test_a_function_that_makes_a_callback_with_a_value_of_its_own_is_called_once() -> None:
+    rows = (
+        "        number = 0\n\n        def handler():\n            nonlocal number\n"
+        "            self.get_logger().info(f'Hello time: {number}')\n            number += 1\n\n"
+        "        return handler\n"
+    )
+    found = look("run.no_lines", changed((LOG + STEP, rows)))
+    assert found is not None
+    assert fix_of(found).startswith(
         "Write self.timer_callback() instead of self.timer_callback: create_timer gets what"
     )
 
