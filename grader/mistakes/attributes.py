@@ -782,8 +782,9 @@ KINDS = (
             "logger": msg("Write {written} instead of {name}."),
             "logger_lines": msg("Write {written} instead of {name}, here and in the other lines."),
             "no_method": msg(
-                "Write def {name}(self): with its lines in the class, write the name of the method "
-                "that you mean, or delete the call if it is not needed."
+                "If {name} is a method of yours, write its def in the class. If it is one of ROS, look it up "
+                "in the documentation of your distro: it may have another name there, as from one release "
+                "to the next. If nothing needs the call, delete it."
             ),
             "object": msg(
                 "Delete this line if it belongs to another example. If the node needs it, create "

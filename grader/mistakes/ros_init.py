@@ -133,7 +133,10 @@ def _init_twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     inits = [call for call, name in raised.source.calls if name == "rclpy.init"]
     if len(inits) == 1:
         return replace(raised.finding("init_twice"), variant="imported")
-    return raised.finding("init_twice", at=inits[1] if inits else None)
+    main = raised.source.main
+    others = [call for call in inits if raised.source.function_around(call) is not main]
+    surplus = others if 0 < len(others) < len(inits) else inits[1:]
+    return raised.finding("init_twice", at=surplus[0] if surplus else None)
 
 
 def _without_keyword(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:

@@ -119,7 +119,9 @@ KINDS = (
                 "with brackets, without : and without spaces before them. Delete the spaces before the "
                 "lines below them too. Then build again."
             ),
-            "twice": msg("Delete the second one: each name appears only once."),
+            "twice": msg(
+                "Delete the second one, with the lines that belong to it: each name appears only once."
+            ),
             "encoding": msg(
                 "Save the file again with the encoding UTF-8, without a BOM. Windows PowerShell "
                 "writes UTF-16 with >."
