@@ -55,10 +55,24 @@ def with_tried_fix(result: CheckResult, evidence: Evidence, translate: Translato
                 other = _other_cause(result, tried, evidence, translate)
                 return other or _with_change(result, old, new, tried.files, translate)
         root = None if result.id in STATIC else _root(result)
+        if root is None and fixes and not without:
+            return _without_fix(result, translate)
         if root is None or not (fixes or without) or root.id in without:
             return result
         without.add(root.id)
         result = evaluate_again(result.id, evidence, translate, without=without)
+
+
+def _without_fix(result: CheckResult, translate: Translator) -> CheckResult:
+    """Return the result of what was only seen, whose usual fix does not help: its text asks for it."""
+    if not any(mistake.id.startswith("run.") for mistake in result.mistakes):
+        return result
+    follow = say(
+        "The usual change for this was tried, and the check still fails with it. Follow the program step "
+        "by step to the line that logs: log the values that each step uses, and compare them with what "
+        "you expect."
+    )
+    return result.model_copy(update={"fix": translate(follow)})
 
 
 @dataclass(frozen=True)

@@ -102,6 +102,7 @@ def test_a_fix_of_what_was_seen_is_left_out_if_it_changes_nothing(tmp_path: Path
     result, _ = tried("text_capital", tmp_path, *["text_capital"] * MOST_TRIED)
     assert before.mistakes == result.mistakes
     assert result.patch == ""
+    assert result.fix.startswith("The usual change for this was tried")
 
 
 def test_two_mistakes_with_one_effect_are_followed_to_the_end(tmp_path: Path) -> None:
