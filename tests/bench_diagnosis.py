@@ -1,7 +1,7 @@
 """`python -m tests.bench_diagnosis`: the time that the diagnosis and the fix add to a verdict.
 
 Real verdicts on broken packages of every stage; seconds of wall time within `diagnose` and
-`patch_for`, all failed checks of a package together.
+`with_tried_fix` (which tries nothing here), all failed checks of a package together.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from typing import Any
 from unittest import mock
 
 from grader.verdict import diagnose as diagnosing
-from grader.verdict import fix as fixing
+from grader.verdict import try_fixes
 from tests.bench import bound
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
@@ -55,7 +55,7 @@ def main() -> int:
             watch = Stopwatch()
             with (
                 mock.patch.object(diagnosing, "diagnose", watch.on(diagnosing.diagnose)),
-                mock.patch.object(fixing, "patch_for", watch.on(fixing.patch_for)),
+                mock.patch.object(try_fixes, "with_tried_fix", watch.on(try_fixes.with_tried_fix)),
             ):
                 mark(write(package, Path(folder)))
             taken[package.name] = watch.seconds

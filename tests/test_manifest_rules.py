@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from grader.verdict.checks import package, source
-from grader.verdict.fix import patch_for
 from grader.verdict.static import static_results
 from grader.verdict.take_in import take_in_for
+from tests.fixing import patch_for
 
 from .static_bench import FILES, NODE, Bench, line, mistake
 

@@ -31,8 +31,8 @@ from grader.run.run import Run
 from grader.run.workspace import Build
 from grader.verdict.evaluate import evaluate_checks
 from grader.verdict.evidence import Evidence
-from grader.verdict.fix import patch_for
 from tests import processes, weather
+from tests.fixing import patch_for
 from tests.mistakes.filled import filled
 from tests.weather import LOG, NODE, SETUP, STEP, TIMER
 

@@ -253,8 +253,8 @@ KINDS = (
         },
         fixes={
             "finally": msg(
-                "Delete the try and the finally of {called}, but keep the lines of the try. Write {name} as the last line of "
-                "{function} instead, below the line that spins."
+                "Delete the try and the finally of {called}, but keep the lines of the try. Write {name} "
+                "as the last line of {function} instead, below the line that spins."
             )
         },
         raised={NO_CONTEXT: _not_running},

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import NODE, example
+from grader.mistakes.example import CACHED_PROPERTY_IMPORTED, NODE, example
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
@@ -105,11 +105,7 @@ KINDS = (
         examples=(
             example(
                 "text_in_cached_property",
-                Replace(
-                    NODE,
-                    "import rclpy\nfrom",
-                    "from functools import cached_property\n\nimport rclpy\nfrom",
-                ),
+                CACHED_PROPERTY_IMPORTED,
                 Replace(
                     NODE,
                     "    def timer_callback(self)",
@@ -121,11 +117,7 @@ KINDS = (
             ),
             example(
                 "cached_property_of_a_helper",
-                Replace(
-                    NODE,
-                    "import rclpy\nfrom",
-                    "from functools import cached_property\n\nimport rclpy\nfrom",
-                ),
+                CACHED_PROPERTY_IMPORTED,
                 Replace(
                     NODE,
                     "class MyFirstNode",

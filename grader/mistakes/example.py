@@ -36,6 +36,12 @@ SPIN_UNTIL_CTRL_C = (
 DATACLASS_IMPORTED = Replace(
     NODE, "import rclpy\nfrom", "from dataclasses import dataclass\n\nimport rclpy\nfrom"
 )
+CACHED_PROPERTY_IMPORTED = Replace(
+    NODE, "import rclpy\nfrom", "from functools import cached_property\n\nimport rclpy\nfrom"
+)
+PARTIAL_IMPORTED = Replace(
+    NODE, "import rclpy\nfrom", "from functools import partial\n\nimport rclpy\nfrom"
+)
 BODY_OF_MAIN = f"    rclpy.init(args=args)\n    node = MyFirstNode()\n{SPIN_UNTIL_CTRL_C}"
 
 UNBUILT = ("build.colcon",)

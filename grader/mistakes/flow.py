@@ -88,33 +88,34 @@ def _chooses(block: ast.If) -> bool:
     return bool(block.orelse) or nth
 
 
+def _around_all_logs(suspect: Suspect) -> Iterator[ast.If]:
+    """Yield the conditions that have all log calls of the callback in their block."""
+    source, callback = suspect.source, suspect.source.callback
+    for block in _blocks(suspect):
+        logs = source.logs(block)
+        all_logs = source.logs(callback) if callback is not None else []
+        if isinstance(block, ast.If) and logs and len(logs) == len(all_logs):
+            yield block
+
+
 def _logs_each_nth(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a condition that lets only each n-th call log, where at most one line came.
 
     A condition on the counter itself can be meant.
     """
-    source, callback = suspect.source, suspect.source.callback
-    logged = logged_counter(source)
-    for block in _blocks(suspect):
-        logs = source.logs(block)
-        if not isinstance(block, ast.If) or block.orelse or callback is None:
-            continue
+    logged = logged_counter(suspect.source)
+    for block in _around_all_logs(suspect):
         nth = any(isinstance(n, ast.Mod) for n in ast.walk(block.test))
-        if logged is not None and logged[1] in map(dotted, ast.walk(block.test)):
-            continue
-        if nth and logs and len(logs) == len(source.logs(callback)) and len(suspect.lines) < 2:
+        meant = logged is not None and logged[1] in map(dotted, ast.walk(block.test))
+        if nth and not meant and not block.orelse and len(suspect.lines) < 2:
             return suspect.finding("log_if", block, name=ast.unparse(block.test)[:60])
     return None
 
 
 def _logs_if(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a condition that decides whether the callback logs."""
-    source, callback = suspect.source, suspect.source.callback
-    for block in _blocks(suspect):
-        logs = source.logs(block)
-        if not isinstance(block, ast.If) or _chooses(block) or callback is None:
-            continue
-        if logs and len(logs) == len(source.logs(callback)) and not _has_effect(source, block.test):
+    for block in _around_all_logs(suspect):
+        if not _chooses(block) and not _has_effect(suspect.source, block.test):
             return suspect.finding("log_if", block, name=ast.unparse(block.test)[:60])
     return None
 

@@ -9,7 +9,15 @@ from dataclasses import replace
 
 from grader.base.i18n.message import Value, msg
 from grader.mistakes import links
-from grader.mistakes.example import DATACLASS_IMPORTED, LOG, NODE, SILENT, STEP_LINE, example
+from grader.mistakes.example import (
+    DATACLASS_IMPORTED,
+    LOG,
+    NODE,
+    PARTIAL_IMPORTED,
+    SILENT,
+    STEP_LINE,
+    example,
+)
 from grader.mistakes.fixes import lines, node_clock
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.node_clock import count_of
@@ -806,11 +814,7 @@ KINDS = (
         examples=(
             example(
                 "argument_frozen",
-                Replace(
-                    NODE,
-                    "import rclpy\nfrom",
-                    "from functools import partial\n\nimport rclpy\nfrom",
-                ),
+                PARTIAL_IMPORTED,
                 Replace(
                     NODE,
                     "self.create_timer(1.0, self.timer_callback)",

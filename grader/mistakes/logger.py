@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links, print_elsewhere
-from grader.mistakes.example import DEAD, LOG, LOG_LINE, NODE, SILENT, example
+from grader.mistakes.example import DEAD, LOG, LOG_LINE, NODE, PARTIAL_IMPORTED, SILENT, example
 from grader.mistakes.fixes import lines, node_count, node_log, node_words, node_worked_out
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Suspect, first_of
@@ -513,11 +513,7 @@ KINDS = (
         examples=(
             example(
                 "partial_of_info_with_a_text",
-                Replace(
-                    NODE,
-                    "import rclpy\nfrom",
-                    "from functools import partial\n\nimport rclpy\nfrom",
-                ),
+                PARTIAL_IMPORTED,
                 Replace(
                     NODE,
                     "self.counter_ = 0",

@@ -8,7 +8,7 @@ import re
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.constructor import lines_of
-from grader.mistakes.example import NODE, example
+from grader.mistakes.example import NODE, PARTIAL_IMPORTED, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
@@ -53,11 +53,7 @@ KINDS = (
         examples=(
             example(
                 "partial_of_a_call",
-                Replace(
-                    NODE,
-                    "import rclpy\nfrom",
-                    "from functools import partial\n\nimport rclpy\nfrom",
-                ),
+                PARTIAL_IMPORTED,
                 Replace(NODE, "self.timer_callback)", "partial(self.timer_callback(5)))"),
                 Replace(NODE, "timer_callback(self)", "timer_callback(self, step)"),
                 fails="run.starts",

@@ -15,7 +15,15 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.base.shown import shown
 from grader.mistakes import links
-from grader.mistakes.example import BODY_OF_MAIN, DEAD, LOG, LOG_LINE, NODE, example
+from grader.mistakes.example import (
+    BODY_OF_MAIN,
+    DATACLASS_IMPORTED,
+    DEAD,
+    LOG,
+    LOG_LINE,
+    NODE,
+    example,
+)
 from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.format_fields import text_of
@@ -1065,11 +1073,7 @@ KINDS = (
         examples=(
             example(
                 "object_as_default_of_a_field",
-                Replace(
-                    NODE,
-                    "import rclpy\nfrom",
-                    "from dataclasses import dataclass\n\nimport rclpy\nfrom",
-                ),
+                DATACLASS_IMPORTED,
                 Replace(
                     NODE,
                     "class MyFirstNode",

@@ -16,7 +16,6 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, always, first_of
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
 from grader.package.source.node import NodeSource
@@ -64,11 +63,8 @@ def _part_of_duration(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _is_timedelta(source: NodeSource, part: ast.expr) -> bool:
-    """Whether a name is set once, to what timedelta() makes."""
-    name = dotted(part)
-    sets = [n for n in source.all_nodes if isinstance(n, ast.Assign | ast.AnnAssign)]
-    made = [n.value for n in sets if name and name in set(targets_of(n))]
-    call = part if isinstance(part, ast.Call) else made[0] if len(made) == 1 else None
+    """Whether a value is what timedelta() makes, or a name that is set once, to that."""
+    call = part if isinstance(part, ast.Call) else node_timer.value_of(source, part)
     return isinstance(call, ast.Call) and last_part(dotted(call.func)) == "timedelta"
 
 

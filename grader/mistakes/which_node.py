@@ -8,7 +8,13 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import NODE, SILENT, SPIN_UNTIL_CTRL_C, example
+from grader.mistakes.example import (
+    CACHED_PROPERTY_IMPORTED,
+    NODE,
+    SILENT,
+    SPIN_UNTIL_CTRL_C,
+    example,
+)
 from grader.mistakes.fixes import (
     lines,
     node_executor,
@@ -760,11 +766,7 @@ KINDS = (
             ),
             example(
                 "timer_in_a_cached_property",
-                Replace(
-                    NODE,
-                    "import rclpy\nfrom",
-                    "from functools import cached_property\n\nimport rclpy\nfrom",
-                ),
+                CACHED_PROPERTY_IMPORTED,
                 Replace(
                     NODE,
                     "        self.create_timer(1.0, self.timer_callback)\n",

@@ -28,7 +28,7 @@ class Evidence:
     `not_blocking` has the failed checks that prevent no other check, `distro` is the ROS that the
     package is for (None: unknown). The build and the run are made on first access. `with_fix` opens
     the evidence of the package as it is after a fix, or of None; `tried` has what that showed, by
-    the fix's SHA-256.
+    the fix's SHA-256, and `untried` all results without a fix, once a fix was compared with them.
     """
 
     def __init__(
@@ -56,6 +56,7 @@ class Evidence:
         self.run_failed: Inconclusive | None = None
         self.with_fix = with_fix
         self.tried: dict[str, Evidence] = {}
+        self.untried: dict[str, CheckResult] = {}
 
     @cached_property
     def build(self) -> Build:

@@ -47,19 +47,13 @@ class FixPlan:
         return diff(self.old, self.new)
 
 
-def patch_for(result: CheckResult, submission: Submission, assignment: Assignment) -> str:
-    """Return the diff with which a failed check passes; empty if no fix is certain.
-
-    Checks that need a run are not evaluated again: their fix relies on the form of the mistake.
-    """
-    new = next(fixes_of(result, submission, assignment), None)
-    return "" if new is None else patch_text(Files.of(submission), new)
-
-
 def fixes_of(
     result: CheckResult, submission: Submission, assignment: Assignment
 ) -> Iterator[Files]:
-    """Yield the files after each fix of a failed check, in the order to try them."""
+    """Yield the files after each fix of a failed check, in the order to try them.
+
+    Checks that need a run are not evaluated again: their fix relies on the form of the mistake.
+    """
     finding = finding_of(result)
     follows = result.consequence_of and result.id in STATIC
     if finding is None or submission.root is None or follows:
@@ -69,7 +63,9 @@ def fixes_of(
         if not any(f.check == finding.check for f in plan.left):
             yield plan.new
     else:
-        yield from _tries(Case(Files.of(submission), finding, assignment), fixes_for(finding))
+        yield from certain_fixes(
+            Case(Files.of(submission), finding, assignment), fixes_for(finding)
+        )
 
 
 def patch_text(old: Files, new: Files) -> str:
@@ -128,7 +124,7 @@ def _step(
 ) -> tuple[Finding, Files, list[Finding]] | None:
     for finding in found:
         case = Case(files, finding, assignment)
-        for new in _tries(case, fixes_for(finding)):
+        for new in certain_fixes(case, fixes_for(finding)):
             after = judge(new)
             gone = finding.known_by not in [f.known_by for f in after]
             if gone and _no_worse(found, after, case):
@@ -144,7 +140,8 @@ def _no_worse(before: list[Finding], after: list[Finding], case: Case) -> bool:
     return all(order.index(check) > at for check in new)
 
 
-def _tries(case: Case, fixes: Iterable[Fix]) -> Iterator[Files]:
+def certain_fixes(case: Case, fixes: Iterable[Fix]) -> Iterator[Files]:
+    """Yield the files after each of these fixes that is certain."""
     for attempt in fixes:
         new = attempt(case)
         if new is not None and not _breaks_python(case.files, new):
@@ -161,11 +158,6 @@ def _breaks_python(old: Files, new: Files) -> bool:
         if syntax.fault_of(file.data) is not None and syntax.fault_of(before.data) is None:
             return True
     return False
-
-
-def first_fix(case: Case, fixes: Iterable[Fix]) -> Files | None:
-    """Return the files after the first fix that is certain; None if none is."""
-    return next(iter(_tries(case, fixes)), None)
 
 
 def _advised(plan: FixPlan, assignment: Assignment, judge: Judge, lang: str) -> FixPlan:

@@ -69,14 +69,7 @@ def mark(
     translate = Translator(order.lang)
     opening = say("opening the sandbox for ROS {distro}", distro=order.distro.name)
     listener(events.StageStarted("setup", translate(opening)))
-    sandbox = open_sandbox(
-        order.sandbox,
-        order.distro,
-        order.limits,
-        interfaces=assignment.needs_interfaces,
-        own_code=order.own_code,
-        notify=lambda text: listener(events.Note(text)),
-    )
+    sandbox = _open(order, assignment, lambda text: listener(events.Note(text)))
     setup = time.monotonic() - begin - intake
     listener(events.StageFinished("setup", setup))
     with Session(sandbox, assignment) as session:
@@ -169,6 +162,17 @@ def _evidence(session: Session, submission: Submission, listener: events.Listene
     return evidence
 
 
+def _open(order: Order, assignment: Assignment, notify: Callable[[str], None]) -> Sandbox:
+    return open_sandbox(
+        order.sandbox,
+        order.distro,
+        order.limits,
+        interfaces=assignment.needs_interfaces,
+        own_code=order.own_code,
+        notify=notify,
+    )
+
+
 def _with_fix(
     order: Order, session: Session, listener: events.Listener, translate: Translator
 ) -> WithFix:
@@ -177,14 +181,7 @@ def _with_fix(
     @contextmanager
     def opened(_digest: str, fixed: Submission) -> Iterator[Evidence | None]:
         listener(events.StageStarted("fix", translate(say("Trying a fix of this package"))))
-        sandbox = open_sandbox(
-            order.sandbox,
-            order.distro,
-            order.limits,
-            interfaces=session.assignment.needs_interfaces,
-            own_code=order.own_code,
-            notify=unheard,
-        )
+        sandbox = _open(order, session.assignment, unheard)
         with Session(sandbox, session.assignment, deadline=session.deadline) as again:
             evidence = _evidence(again, fixed, unheard)
             evidence.distro = order.distro

@@ -12,7 +12,6 @@ import hashlib
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import islice
 
 from grader.base.errors import GraderError
@@ -46,19 +45,19 @@ def with_tried_fix(result: CheckResult, evidence: Evidence, translate: Translato
     """
     old, without = Files.of(evidence.submission), set[str]()
     while True:
-        found = fixes_of(result, evidence.submission, evidence.assignment)
-        fixes = list(islice(found, MOST_ALTERNATIVES))
-        trial = _Trial(result, evidence, translate)
-        for new in fixes:
+        trial, refuted = _Trial(result, evidence, translate), bool(without)
+        fixes = fixes_of(result, evidence.submission, evidence.assignment)
+        for new in islice(fixes, MOST_ALTERNATIVES):
             tried = trial.of_files(new) if result.id in STATIC else trial.helps(new)
             if tried.helps or (tried.helps is None and not without):
                 other = _other_cause(result, tried, evidence, translate)
                 return other or _with_change(result, old, new, tried.files, translate)
-        root = None if result.id in STATIC else _root(result)
-        if root is None and fixes and not without:
-            return _without_fix(result, translate)
-        if root is None or not (fixes or without) or root.id in without:
+            refuted = True
+        root = _root(result)
+        if result.id in STATIC or not refuted:
             return result
+        if root is None or root.id in without:
+            return result if without else _without_fix(result, translate)
         without.add(root.id)
         result = evaluate_again(result.id, evidence, translate, without=without)
 
@@ -118,17 +117,19 @@ class _Trial:
         self._translate = translate
         self._old = Files.of(evidence.submission)
 
-    @cached_property
+    @property
     def _all(self) -> dict[str, CheckResult]:
-        """The results of all checks without the fix: those after this one are evaluated now."""
+        """The results of all checks without a fix: those after this one are evaluated now."""
         evidence = self._evidence
-        kept, evidence.results = evidence.results, {}
-        try:
-            for _ in evaluate_checks(evidence, self._translate):
-                pass
-            return evidence.results
-        finally:
-            evidence.results = kept
+        if not evidence.untried:
+            kept, evidence.results = evidence.results, {}
+            try:
+                for _ in evaluate_checks(evidence, self._translate):
+                    pass
+                evidence.untried = evidence.results
+            finally:
+                evidence.results = kept
+        return evidence.untried
 
     def of_files(self, new: Files, on_top: int = MOST_ON_TOP) -> Tried:
         """Return whether the package gets further with a fix of what the files alone show.
@@ -136,6 +137,8 @@ class _Trial:
         It has to help only if the mistake prevents other checks. If another check fails instead, a
         fix of that is tried on top.
         """
+        if self._evidence.with_fix is None:
+            return Tried(None, new)
         if not any(result.blocked_by == self._before.id for result in self._all.values()):
             return Tried(True, new)
         fixed = self._fixed(new)

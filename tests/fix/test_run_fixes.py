@@ -12,12 +12,12 @@ from grader.mistakes.fixes.case import Case, Finding
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.report.model import CheckResult, Mistake
-from grader.verdict.fix import first_fix, patch_for
 from grader.verdict.order import make_orders
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import SOLUTION, write
 from tests.corpus.model import NODE, SETUP, Package
 from tests.fix.corpus_fixes import TOOLS, edited, with_tool
+from tests.fixing import first_fix, patch_for
 from tests.marking import ASSIGNMENT, taken_in
 from tests.recorded import mark
 

@@ -8,12 +8,12 @@ import pytest
 
 from grader.mistakes.example import INIT, SETUP
 from grader.package.edit.tree import Crlf, Edit, Move, Replace, Write
-from grader.verdict.fix import patch_for
 from grader.verdict.static import static_results
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
 from tests.corpus.model import Package
 from tests.fix.corpus_fixes import NODE, TOOLS, contents, plan_of, with_tool
+from tests.fixing import patch_for
 from tests.marking import ASSIGNMENT, taken_in
 
 STATIC = ("package.", "source.", "entry_point.mapping")

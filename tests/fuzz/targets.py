@@ -30,9 +30,10 @@ from grader.package.source.slips import slip_of
 from grader.run.terminal import Terminal
 from grader.sandbox.base import Console
 from grader.verdict.checks.build_log import python_error
-from grader.verdict.fix import first_fix, fix_files
+from grader.verdict.fix import fix_files
 from tests.corpus.build import SOLUTION
 from tests.corpus.model import CFG, MANIFEST, MARKER, NODE, SETUP
+from tests.fixing import first_fix
 from tests.marking import ASSIGNMENT
 
 Target = Callable[[bytes], None]

@@ -13,9 +13,9 @@ from grader.package.source.remarks import remarks_on
 from grader.run.run import Run
 from grader.verdict.evaluate import evaluate_checks
 from grader.verdict.evidence import Evidence
-from grader.verdict.fix import patch_for
 from tests.corpus.build import SOLUTION, write
 from tests.corpus.model import CFG, MANIFEST, NODE, SETUP, STATIC, Package
+from tests.fixing import patch_for
 from tests.marking import ASSIGNMENT, taken_in
 from tests.static_bench import BUILT
 

@@ -11,7 +11,7 @@ from grader.mistakes.recognised import Raised
 from grader.package.edit.files import Files
 from grader.package.source.node import read_node
 from grader.report.model import Where
-from grader.verdict.fix import first_fix
+from tests.fixing import first_fix
 from tests.marking import ASSIGNMENT
 from tests.mistakes.other_forms import RIGHT, changed
 from tests.mistakes.test_other_forms import submitted

@@ -11,7 +11,7 @@ from grader.mistakes.catalogue import CATALOGUE, fixes_for
 from grader.mistakes.fixes.case import Case, Finding
 from grader.mistakes.recognised import RecognisedMistake
 from grader.package.edit.files import Files
-from grader.verdict.fix import first_fix
+from tests.fixing import first_fix
 from tests.marking import ASSIGNMENT, taken_in
 from tests.mistakes.test_diagnose import RIGHT
 from tests.mistakes.test_from_source import line_of, look, raised

@@ -22,8 +22,8 @@ from grader.run.probe_link import LogRecord
 from grader.run.run import Run
 from grader.verdict.checks.faults import line_of as line_in
 from grader.verdict.diagnose import Diagnosis, diagnose
-from grader.verdict.fix import first_fix
 from grader.verdict.outcome import Failed
+from tests.fixing import first_fix
 from tests.marking import ASSIGNMENT
 from tests.mistakes.other_forms import (
     CASES,

@@ -12,7 +12,7 @@ from grader.package.edit.files import Files
 from grader.package.source.node import NodeSource, read_node
 from grader.package.source.period import origin_of, wrong_number
 from grader.verdict.checks.timing import told_of_period
-from grader.verdict.fix import first_fix
+from tests.fixing import first_fix
 from tests.marking import ASSIGNMENT
 from tests.mistakes.other_forms import RIGHT, changed
 from tests.mistakes.test_other_forms import submitted

@@ -6,9 +6,9 @@ from pathlib import Path
 
 from grader.package.edit.tree import Crlf, Replace
 from grader.report.shown_patch import COMMAND, LINE_ENDS, shown_patch
-from grader.verdict.fix import patch_for
 from grader.verdict.static import static_results
 from tests.fix.corpus_fixes import NODE, edited
+from tests.fixing import patch_for
 from tests.marking import ASSIGNMENT, taken_in
 
 

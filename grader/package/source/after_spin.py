@@ -15,10 +15,7 @@ def timer_after_spin(source: NodeSource) -> tuple[ast.Call, ast.Call] | None:
     """
     makers = _makers(source)
     for spin in _spinning(source):
-        function = source.function_around(spin)
-        if function is None:
-            continue
-        below = [call for call, _ in calls_in(function) if _is_below(source, call, spin)]
+        function, below = source.function_around(spin), _below(source, spin)
         late = [call for call in below if called_name(call) in {"create_timer", *makers}]
         named = [n for n in source.all_nodes if isinstance(n, ast.Attribute) and n.attr in makers]
         called = {call.func for call in late}
@@ -34,13 +31,14 @@ def timer_after_spin(source: NodeSource) -> tuple[ast.Call, ast.Call] | None:
 
 def calls_after_spin(source: NodeSource) -> list[tuple[ast.Call, ast.Call]]:
     """Return the calls in lines below spin, each with the call of spin."""
-    return [
-        (call, spin)
-        for spin in _spinning(source)
-        if (function := source.function_around(spin)) is not None
-        for call, _ in calls_in(function)
-        if _is_below(source, call, spin)
-    ]
+    return [(call, spin) for spin in _spinning(source) for call in _below(source, spin)]
+
+
+def _below(source: NodeSource, spin: ast.Call) -> list[ast.Call]:
+    """Return the calls in lines below a call of spin; none if it is in no function."""
+    function = source.function_around(spin)
+    calls = calls_in(function) if function is not None else ()
+    return [call for call, _ in calls if _is_below(source, call, spin)]
 
 
 def _spinning(source: NodeSource) -> list[ast.Call]:
