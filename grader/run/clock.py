@@ -70,13 +70,15 @@ class VirtualClock:
         *,
         deadline: float,
         fine: bool = False,
+        grid: float = GRID,
         real_time: bool = False,
         more_ticks: int = 0,
         stay_until: float = 0,
     ) -> None:
         """Watch `more_ticks` beyond the announced ones, the last not before `stay_until`.
 
-        With `real_time` ROS time runs in `fine` steps and as fast as the wall clock.
+        A period has `grid` steps where the clock goes in `fine` steps, and where a period is
+        measured. With `real_time` ROS time runs in `fine` steps and as fast as the wall clock.
         """
         self._fine = fine or real_time
         self._real_time = real_time
@@ -96,6 +98,7 @@ class VirtualClock:
         self._due: int | None = None
         self._due_at = -1
         self._period = round(output.period * SECOND)
+        self._grid_step = max(round(self._period / grid), MILLISECOND)
 
     def drive(self, watch: Watch, on_event: Callable[[Event], None]) -> None:
         """Fill `watch`: check that one tick comes at each due instant and none 1 ms before it."""
@@ -210,7 +213,7 @@ class VirtualClock:
         """
         events: list[Event] = []
         if self._fine:
-            step = self._period // GRID
+            step = self._grid_step
             for between in range(self._at - self._at % step + step, at, step):
                 if not self._over():
                     events += self._step(between)
@@ -240,7 +243,7 @@ class VirtualClock:
 
     def _find_period(self, watch: Watch, on_event: Callable[[Event], None]) -> None:
         """Measure the period in small steps; if it is right, check the phase to 1 ms."""
-        step = max(self._period // GRID, MILLISECOND)
+        step = self._grid_step
         before = {id(event) for event in watch.before_start}
         seen: list[float] = [e.virtual for e in watch.counted if id(e) not in before]
         stop = self._at + MEASURED * self._period
@@ -276,7 +279,7 @@ class VirtualClock:
         events: list[Event] = []
         for at in (2 * only - step, 2 * only, 2 * only + step, 2 * only + self._period):
             if at > self._at and not events and not self._over():
-                events += self._step(at)
+                events += self._go_to(at)
         return events
 
     def _few_more(self, instants: list[int], step: int) -> list[Event]:
@@ -286,14 +289,14 @@ class VirtualClock:
         for k in range(1, FEW + 1 - len(instants)):
             for at in (last + k * gap - step, last + k * gap, last + k * gap + step):
                 if at > self._at and not self._over():
-                    events += self._step(at)
+                    events += self._go_to(at)
         return events
 
     def _verify_phase(
         self, watch: Watch, last: int, step: int, on_event: Callable[[Event], None]
     ) -> None:
         """Find the phase to 1 ms and check the due instants again: the timer may be late."""
-        events = self._step(last + self._period - step)
+        events = self._go_to(last + self._period - step)
         watch.events += events
         at = self._at
         while at < last + self._period and not events and not self._over():

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from grader.base.i18n.message import say
 from grader.course.assignment import Assignment
 from grader.ros.distro import Distro
-from grader.run.clock import STILL, ForeignClock, VirtualClock, watch_wall
+from grader.run.clock import GRID, STILL, ForeignClock, VirtualClock, watch_wall
 from grader.run.observations import Observations
 from grader.run.observer import Event, Observer, Watch, number_reader
 from grader.run.probe_link import NodeSeen, ProbeError, ProbeLink
@@ -128,6 +128,7 @@ def observe(
     *,
     until: float = math.inf,
     fine: bool = False,
+    grid: float = GRID,
     real_time: bool = False,
     more_ticks: int = 0,
     stay_seconds: float = 0,
@@ -135,7 +136,7 @@ def observe(
 ) -> Run:
     """Run the node, drive its clock (in `fine` steps or coarse), press Ctrl+C, return the result.
 
-    With `real_time` ROS time is as fast as the wall clock. With `plain` the command has no arguments
+    A period has `grid` fine steps. With `real_time` ROS time is as fast as the wall clock. With `plain` the command has no arguments
     of ours, so that the node follows the wall clock. The clock shows `more_ticks` beyond those that the assignment announces; the last of them comes
     `stay_seconds` of wall time after the node at the earliest.
 
@@ -164,6 +165,7 @@ def observe(
                 assignment.output,
                 deadline=deadline,
                 fine=fine,
+                grid=grid,
                 real_time=real_time,
                 more_ticks=more_ticks,
                 stay_until=time.monotonic() + stay_seconds if stay_seconds else 0,

@@ -50,6 +50,7 @@ TENTHS = f"""\
         if self.tenths % 10 == 0:
             {LINE}
             {STEP}"""
+HUNDREDTHS = TENTHS.replace("10 ==", "100 ==")
 AT_MOST_TWICE_A_SECOND = f"""\
 now = time.monotonic()
         if now - self.last < 0.5:
@@ -113,6 +114,9 @@ TIMING = (
     right("tenths", _timer("self.tenths = 0\n        self.create_timer(0.1, self.timer_callback)"),
           Replace(NODE, f"        {LINE}\n        {STEP}", TENTHS),
           note="ten short periods a line: a clock that jumps by a second skips nine of them"),
+    right("hundredths", _timer("self.tenths = 0\n        self.create_timer(0.01, self.timer_callback)"),
+          Replace(NODE, f"        {LINE}\n        {STEP}", HUNDREDTHS),
+          note="a timer that is faster than the usual fine steps of the clock"),
     right("throttled_below_its_period",
           Replace(NODE, LINE, f"{LINE[:-1]}, throttle_duration_sec=0.5)"),
           note="the logger leaves out nothing in real time, but most lines on a faster clock"),
