@@ -595,6 +595,7 @@ KINDS = (
         msg("Add this line to console_scripts, then build again: '{wanted}',"),
         {
             "renamed": msg("Write entry_points instead of {argument}, then build again."),
+            "swapped": msg("Write '{wanted}' instead of '{entry}', then build again."),
             "comment": msg("Remove the # before '{wanted}', then build again."),
             "empty": msg(
                 "Write in setup() instead of the entry_points that is there, then build again: "
@@ -622,6 +623,7 @@ KINDS = (
         },
         fixed_by=(
             entries.keyword,
+            entries.swapped,
             entries.header,
             entries.uncommented,
             entries.added,
@@ -631,6 +633,16 @@ KINDS = (
                 "entry_missing",
                 Replace(
                     SETUP, "            'test_node = my_robot_controller.my_first_node:main',\n", ""
+                ),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
+            example(
+                "names_of_the_entry_swapped",
+                Replace(
+                    SETUP,
+                    "'test_node = my_robot_controller.my_first_node:main'",
+                    "'my_first_node = my_robot_controller.test_node:main'",
                 ),
                 fails="entry_point.mapping",
                 blocks=UNINSTALLED,

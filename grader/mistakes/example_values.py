@@ -617,6 +617,12 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.zero_is_false": {"name": "self.n or ''", "written": "self.n"},
     "node.waits_for_spin": {"name": "pause()", "written": "rclpy.spin(node)"},
+    "node.called_at_once": {
+        "name": "rclpy.shutdown()",
+        "written": "rclpy.try_shutdown",
+        "function": "atexit.register",
+    },
+    "node.small_change": {"name": "self.n & 7", "written": "self.n", "form": "if self.n:"},
     "node.any_change": {"name": "self.n = 1 - self.n", "written": "self.n += 1"},
     "node.environment": {"name": "os.environ['PERIOD']", "variable": "PERIOD"},
     "node.dot_for_sign": {"name": "period. self.tick", "written": "period, self.tick"},

@@ -145,6 +145,10 @@ def _tiny(suspect: Suspect) -> RecognisedMistake | None:
     if source.method(timer.method) is not callback or not any(c in inside for c in logged):
         return None
     loops = [n for n in inside if isinstance(n, ast.While | ast.For | ast.ListComp)]
+    always = [s.value for s in callback.body if isinstance(s, ast.Expr)]
+    leaves = any(isinstance(n, ast.Return | ast.Raise) for n in inside)
+    if leaves or not any(call in always for call in logged):
+        return None  # (not each call logs)
     if loops or any(call not in inside for call in logged):
         return None
     seconds = seconds_of(source, timer.period)

@@ -20,6 +20,7 @@ from grader.mistakes.fixes import (
     node_executor,
     node_life,
     node_main,
+    node_order,
     node_rename,
     node_setup,
 )
@@ -364,15 +365,24 @@ def _main_twice(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _daemon(suspect: Suspect) -> RecognisedMistake | None:
-    """Look for a daemon thread that spins, while the function comes to its end."""
+    """Look for a thread that spins, while the function comes to its end or cleans up."""
     for call in suspect.source.calls_of("Thread"):
         given = {keyword.arg: keyword.value for keyword in call.keywords}
         target, daemon = given.get("target"), given.get("daemon")
         spins = target is not None and last_part(dotted(target)) in SPINS
         if any(last_part(name) == "join" for _, name in suspect.source.calls):
             return None
-        if spins and isinstance(daemon, ast.Constant) and daemon.value is True:
+        is_daemon = isinstance(daemon, ast.Constant) and daemon.value is True
+        later = [
+            name
+            for other, name in suspect.source.calls
+            if last_part(name) in node_order.CLEANUP and other.lineno > call.lineno
+        ]
+        if spins and (is_daemon or later):
             found = suspect.finding("spin_in_daemon", call)
+            if not is_daemon:
+                words = {**found.words, "called": f"{later[0]}()"}
+                return replace(found, words=words, variant="cleaned_up")
             owner = dotted(target).rpartition(".")[0] if target is not None else ""
             if owner not in executors(suspect):
                 return found
@@ -558,9 +568,15 @@ KINDS = (
     _node(
         "spin_in_daemon",
         "spin",
-        msg("A daemon thread spins the node, and nothing waits for it"),
+        msg("A thread spins the node, and nothing waits for it"),
         msg("When {function} comes to its end, the program ends, and its daemon threads with it."),
         msg("Call rclpy.spin({node}) in {function} itself, without the thread."),
+        whys={
+            "cleaned_up": msg(
+                "A thread runs beside {function}, which does not wait for it: {function} comes to "
+                "{called} at once, and the node ends."
+            )
+        },
         fixes={"executor": msg("Call {name}.spin() in {function} itself, without the thread.")},
         behind=dict.fromkeys(("run.exits_at_once", "run.ended_early"), _daemon),
         examples=(
@@ -571,6 +587,16 @@ KINDS = (
                     NODE,
                     SPIN_UNTIL_CTRL_C,
                     "    threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()\n",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "spin_in_a_thread_that_nothing_waits_for",
+                Replace(NODE, "import rclpy\nfrom", "import threading\n\nimport rclpy\nfrom"),
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n",
+                    "        threading.Thread(target=rclpy.spin, args=(node,)).start()\n",
                 ),
                 fails="run.starts",
             ),

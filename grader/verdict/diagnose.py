@@ -90,17 +90,23 @@ class Diagnosis:
         )
 
 
-def diagnose(failed: Failed, evidence: Evidence, without: Collection[str] = ()) -> Diagnosis:
+def diagnose(
+    failed: Failed,
+    evidence: Evidence,
+    without: Collection[str] = (),
+    found: RecognisedMistake | None = None,
+) -> Diagnosis:
     """Return the diagnosis of a failed check, with the root cause first if it is found.
 
-    The root cause is none of the kinds `without`: their fixes were tried and did not help.
+    The root cause is none of the kinds `without`: their fixes were tried and did not help. It is
+    `found`, if that is given.
     """
     diagnosis = Diagnosis.of(failed)
     symptom = failed.mistake.id
     if symptom not in SYMPTOMS and symptom not in RAISES and not symptom.startswith("run."):
         return _following(diagnosis, evidence)
     try:
-        found = _root(symptom, diagnosis, evidence, without)
+        found = found or _root(symptom, diagnosis, evidence, without)
     except RecursionError:  # (a hostile source; the check's own diagnosis is kept)
         found = None
     if found is not None:

@@ -11,6 +11,7 @@ from grader.base.errors import GraderError
 from grader.base.i18n.message import Message, say
 from grader.base.i18n.translator import Translator
 from grader.course.assignment import Assignment, CheckUse
+from grader.mistakes.recognised import RecognisedMistake
 from grader.report.model import CheckResult, CheckStatus, Mistake, Visibility, Where
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.checks.declare import Check
@@ -86,11 +87,16 @@ def evaluate_checks(
 
 
 def evaluate_again(
-    check_id: str, evidence: Evidence, translate: Translator, *, without: Collection[str]
+    check_id: str,
+    evidence: Evidence,
+    translate: Translator,
+    *,
+    without: Collection[str] = (),
+    found: RecognisedMistake | None = None,
 ) -> CheckResult:
-    """Return a check's result with a diagnosis of none of the kinds `without`."""
+    """Return a check's result with a diagnosis of none of the kinds `without`, or as `found`."""
     assigned = {one.use.id: one for one in assigned_checks(evidence.assignment)}
-    return _evaluate(assigned[check_id], evidence, translate, without)
+    return _evaluate(assigned[check_id], evidence, translate, without, found)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,10 +122,11 @@ def _evaluate(
     evidence: Evidence,
     translate: Translator,
     without: Collection[str] = (),
+    cause: RecognisedMistake | None = None,
 ) -> CheckResult:
     begin = time.monotonic()
     try:
-        found = _found(assigned, evidence, without)
+        found = _found(assigned, evidence, without, cause)
     except GraderError:
         raise
     except (Exception, SystemExit):  # a bug in one check must not lose the results of the others
@@ -150,7 +157,12 @@ def _evaluate(
     )
 
 
-def _found(assigned: AssignedCheck, evidence: Evidence, without: Collection[str]) -> _Result:
+def _found(
+    assigned: AssignedCheck,
+    evidence: Evidence,
+    without: Collection[str],
+    cause: RecognisedMistake | None,
+) -> _Result:
     blocker = _blocker(assigned, evidence)
     outcome = Blocked(by=blocker) if blocker else assigned.check.evaluate(evidence, assigned.use)
     if isinstance(outcome, Passed):
@@ -165,7 +177,7 @@ def _found(assigned: AssignedCheck, evidence: Evidence, without: Collection[str]
         evidence.not_blocking.add(assigned.use.id)
     from grader.verdict.diagnose import diagnose  # noqa: PLC0415 - it imports all mistakes
 
-    diagnosis = diagnose(outcome, evidence, without)
+    diagnosis = diagnose(outcome, evidence, without, cause)
     return _Result(
         status="failed",
         rationale=diagnosis.rationale,

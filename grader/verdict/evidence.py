@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from grader.course.assignment import Assignment
 from grader.course.scenario import RunPlan
@@ -17,6 +18,11 @@ from grader.run.workspace import Build
 from grader.verdict.outcome import Inconclusive
 from grader.verdict.own_names import own_executable, with_own_names
 
+if TYPE_CHECKING:
+    from grader.verdict.found_change import FoundChange
+
+Search = Callable[["Evidence"], "list[FoundChange]"]
+"""Looks for small changes of a package after which its node counts."""
 WithFix = Callable[[str, Submission], "AbstractContextManager[Evidence | None]"]
 """Opens the evidence of a fixed package; the text is the fix's SHA-256."""
 
@@ -29,6 +35,8 @@ class Evidence:
     package is for (None: unknown). The build and the run are made on first access. `with_fix` opens
     the evidence of the package as it is after a fix, or of None; `tried` has what that showed, by
     the fix's SHA-256, and `untried` all results without a fix, once a fix was compared with them.
+    `search` looks for small changes after which the node counts; `found_changes` has them (None: not
+    looked for).
     """
 
     def __init__(
@@ -40,6 +48,7 @@ class Evidence:
         run: Callable[[], Run],
         run_of: Callable[[RunPlan], Run] | None = None,
         with_fix: WithFix | None = None,
+        search: Search | None = None,
     ) -> None:
         self.asked = assignment
         self.assignment = with_own_names(assignment, submission)
@@ -55,6 +64,8 @@ class Evidence:
         self._runs_failed: dict[str, Inconclusive] = {}
         self.run_failed: Inconclusive | None = None
         self.with_fix = with_fix
+        self.search = search
+        self.found_changes: list[FoundChange] | None = None
         self.tried: dict[str, Evidence] = {}
         self.untried: dict[str, CheckResult] = {}
 

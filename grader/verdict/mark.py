@@ -25,13 +25,14 @@ from grader.sandbox.base import Sandbox
 from grader.sandbox.choose import open_sandbox
 from grader.verdict.compose import compose
 from grader.verdict.evaluate import AssignedCheck, evaluate_checks
-from grader.verdict.evidence import Evidence, WithFix
+from grader.verdict.evidence import Evidence, Search, WithFix
 from grader.verdict.follows import without_repeated
 from grader.verdict.order import Order
 from grader.verdict.take_in import take_in_for
 
 if TYPE_CHECKING:
     from grader.verdict.evidence_file import Judged
+    from grader.verdict.found_change import FoundChange
     from grader.verdict.recording import Recording
 
 Keep = Callable[["Judged"], None]
@@ -77,6 +78,7 @@ def mark(
         evidence.distro = order.distro
         if order.tries_fixes:
             evidence.with_fix = _with_fix(order, session, listener, translate)
+            evidence.search = _search(session, listener, translate)
         results = _decide(evidence, listener, translate)
         environment = _environment(sandbox)
     if keep is not None:
@@ -188,6 +190,18 @@ def _with_fix(
             yield evidence
 
     return opened
+
+
+def _search(session: Session, listener: events.Listener, translate: Translator) -> Search:
+    """Return what looks for small changes after which the node counts, in the session's sandbox."""
+
+    def search(evidence: Evidence) -> list[FoundChange]:
+        from grader.verdict.search import search_in  # noqa: PLC0415 - only a failed check needs it
+
+        listener(events.StageStarted("search", translate(say("Trying small changes of the node"))))
+        return search_in(session.sandbox, session.deadline)(evidence)
+
+    return search
 
 
 def _decide(

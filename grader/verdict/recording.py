@@ -34,6 +34,7 @@ from grader.run.run import Run
 from grader.run.session import Unobserved
 from grader.run.workspace import Build
 from grader.verdict.evidence import Evidence
+from grader.verdict.found_change import FoundChange
 
 EVENT_LISTS = ("events", "before_start", "early")  # of a Watch; they share their events
 
@@ -119,7 +120,8 @@ class Recording(Part):
     `build` and `run` are None if no check needed them; `unobserved` is the reason if the run was
     tried and could not be observed. In JSON, `run` lists its events once (see `_run_as_json`).
     `scenarios` are the runs of an assignment of schema 2, and `unobserved_runs` the reasons by name.
-    `fixed` has the recordings of the package with the fixes that were tried, by the fix's SHA-256.
+    `fixed` has the recordings of the package with the fixes that were tried, by the fix's SHA-256,
+    `found_changes` the small changes after which the node counts.
     """
 
     schema_: Literal[1] = Field(default=1, alias="schema")
@@ -132,13 +134,15 @@ class Recording(Part):
     scenarios: tuple[RecordedRun, ...] = ()
     unobserved_runs: dict[str, str] = Field(default_factory=dict)
     fixed: dict[str, Recording] = Field(default_factory=dict)
+    found_changes: tuple[FoundChange, ...] = ()
 
     @model_serializer(mode="wrap")
     def _without_scenarios(self, handler: Any) -> dict[str, Any]:
-        """Leave out the keys of schema 2 in a recording of schema 1, and `fixed` if it is empty."""
+        """Leave out the keys of schema 2 in a recording of schema 1, and fixes if there are none."""
         found: dict[str, Any] = handler(self)
         left_out = [] if self.asked.runs else ["scenarios", "unobserved_runs"]
-        for key in left_out if self.fixed else [*left_out, "fixed"]:
+        left_out += [key for key in ("fixed", "found_changes") if not getattr(self, key)]
+        for key in left_out:
             found.pop(key, None)  # (pydantic calls this twice for a recording in a recording)
         return found
 
@@ -170,6 +174,7 @@ def record(evidence: Evidence, environment: Environment) -> Recording:
         unobserved_runs=evidence.unobserved,
         unobserved="" if evidence.run_failed is None else evidence.run_failed.reason,
         fixed={digest: record(tried, environment) for digest, tried in evidence.tried.items()},
+        found_changes=tuple(evidence.found_changes or ()),
     )
 
 
@@ -208,7 +213,15 @@ def evidence_of(recording: Recording, submission: Submission, assignment: Assign
         found = recording.fixed.get(digest)
         return nullcontext(None if found is None else evidence_of(found, fixed, assignment))
 
-    return Evidence(assignment, submission, build=build, run=run, run_of=run_of, with_fix=with_fix)
+    return Evidence(
+        assignment,
+        submission,
+        build=build,
+        run=run,
+        run_of=run_of,
+        with_fix=with_fix,
+        search=lambda _: list(recording.found_changes),
+    )
 
 
 def _asked(assignment: Assignment) -> Asked:

@@ -25,8 +25,10 @@ from grader.verdict.diagnose import RAISES
 from grader.verdict.evaluate import evaluate_again, evaluate_checks
 from grader.verdict.evidence import Evidence
 from grader.verdict.fix import fixes_of, patch_text
+from grader.verdict.found_change import FAR, FoundChange
+from grader.verdict.search import KIND, fix_text, recognised
 
-MOST_TRIED = 4
+MOST_TRIED = 6
 """The most fixes of one package that are tried: each takes a build and a run."""
 MOST_ALTERNATIVES = 2
 """The most fixes of one mistake that are tried."""
@@ -39,6 +41,53 @@ ERRORS = (*RAISES, "build.setup_error")
 
 
 def with_tried_fix(result: CheckResult, evidence: Evidence, translate: Translator) -> CheckResult:
+    """Return a failed check's result with a fix that helps, if one is known or can be found."""
+    found = _with_known_fix(result, evidence, translate)
+    if found.patch or found.consequence_of or found.id in STATIC:
+        return found
+    return _with_small_change(found, evidence, translate) or found
+
+
+def _with_small_change(
+    result: CheckResult, evidence: Evidence, translate: Translator
+) -> CheckResult | None:
+    """Return the result with a small change that was found and helps; None if there is none.
+
+    A known mistake keeps its reason, and gets a change of its own line only. What was only seen is
+    replaced by the change.
+    """
+    if evidence.search is None or evidence.with_fix is None:
+        return None
+    if evidence.found_changes is None:
+        evidence.found_changes = evidence.search(evidence)
+    old, told, root = Files.of(evidence.submission), _told(evidence), _root(result)
+    changes = [one for one in evidence.found_changes if root is None or _fits(one, result)]
+    changes.sort(
+        key=lambda one: (recognised(one).mistake not in told, one.distance(result.where), one.cost)
+    )
+    for change in changes[:MOST_ALTERNATIVES]:
+        new = change.of(old)
+        if _Trial(result, evidence, translate).helps(new, on_top=0).helps:
+            if root is None:
+                result = evaluate_again(result.id, evidence, translate, found=recognised(change))
+            fix = result.fix if result.consequence_of else translate(fix_text(change, result.where))
+            other = translate(say("Another change may fit what you want to do better."))
+            update = {"fix": fix, "patch": patch_text(old, new), "advice": [*result.advice, other]}
+            return result.model_copy(update=update)
+    return None
+
+
+def _fits(change: FoundChange, result: CheckResult) -> bool:
+    """Whether a change can be shown with the reason of a diagnosis: it is of the same line."""
+    return change.distance(result.where) < FAR and change.explains_itself
+
+
+def _told(evidence: Evidence) -> list[Mistake]:
+    """Return the small changes that earlier checks have been told."""
+    return [m for r in evidence.results.values() for m in r.mistakes if m.id == KIND]
+
+
+def _with_known_fix(result: CheckResult, evidence: Evidence, translate: Translator) -> CheckResult:
     """Return a failed check's result with a fix that helps, if its mistake has one.
 
     A fix that could not be tried is kept: the form of the mistake is all that it relies on.
@@ -169,12 +218,13 @@ class _Trial:
         further = _further(after, fixed, new)
         if further is not None and on_top:
             return self.helps(further, on_top - 1)
+        worse = _score(fixed.results) < _score(self._all)
         if after.status != "failed":
-            return Tried(False if self._breaks_a_check(fixed) else None, new)
+            return Tried(False if worse or self._breaks_a_check(fixed) else None, new)
         root, same = _root(after), _seen(after) == _seen(self._before)
         if root is None or root == _root(self._before) or (same and _is_error(after)):
             return Tried(False, new)
-        if _score(fixed.results) < _score(self._all):
+        if worse:
             return Tried(False, new)
         return Tried(None, new, root.id if same else "")
 

@@ -64,6 +64,25 @@ def replaced(case: Case) -> Files | None:
     return _written_out(case, entry)
 
 
+def swapped(case: Case) -> Files | None:
+    """Write the required entry in the place of one with the node's file before the =."""
+    text = _source(case, case.finding.file)
+    line = case.finding.line
+    if text is None or line is None:
+        return None
+    stem, module = case.assignment.node_file.removesuffix(".py"), case.assignment.target
+    other = module.partition(":")[0].removesuffix(stem) + case.assignment.executable
+    form = re.compile(rf"(?P<q>['\"])\s*{stem}\s*=\s*{re.escape(other)}\s*:[\w.]+\s*(?P=q)")
+    found = list(form.finditer(text.line(line)))
+    if len(found) != 1:
+        return None
+    start, quote = text.start_of(line), found[0]["q"]
+    place = (start + found[0].start(), start + found[0].end())
+    return case.with_data(
+        case.finding.file, text.spliced([Splice(*place, f"{quote}{case.entry}{quote}")])
+    )
+
+
 def _written_out(case: Case, entry: Entry) -> Files | None:
     """Write the required entry in place of the only expression that makes the wrong one."""
     setup = read_setup_call(case) if entry.file == FILE else None

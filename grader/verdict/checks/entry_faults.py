@@ -226,13 +226,17 @@ def _no_entry(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed
     in_cfg = bool(points.groups) and _has_no_points(setup)
     if names:
         actual = say("there are only: {names}", names=names)
+    swapped = _swapped(evidence, points)
     stray = f"{evidence.assignment.folder}/setup.py"
     if evidence.assignment.target.encode() in (data_of(evidence, stray) or b""):
         actual = say(
             "console_scripts has no entry; it is in {path}, which colcon does not read: delete that file",
             path=stray,
         )
-    if comment is not None:
+    if swapped is not None:
+        line, variant = swapped.line, "swapped"
+        actual = say("the two names have changed places: {entry}", entry=shown(swapped.text))
+    elif comment is not None:
         line, variant = comment[0], "comment"
         actual = say("the entry is commented out: # {comment}", comment=shown(comment[1]))
     elif not points.groups and (close := _near_argument(setup)):
@@ -260,8 +264,19 @@ def _no_entry(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed
         where=Where(file="setup.cfg" if in_cfg else "setup.py", line=line),
         variant=variant,
         params={"argument": shown(close)} if close else {},
-        words={"wanted": wanted_entry(evidence)},
+        words={"wanted": wanted_entry(evidence), "entry": shown(swapped.text) if swapped else ""},
     )
+
+
+def _swapped(evidence: Evidence, points: EntryPoints) -> Entry | None:
+    """Return the entry that has the node's file before the = and the executable's name behind it."""
+    wanted = evidence.assignment
+    stem, module = wanted.node_file.removesuffix(".py"), wanted.target.partition(":")[0]
+    other = module.removesuffix(stem) + wanted.executable
+    for entry in points.group("console_scripts"):
+        if entry.name == stem and entry.target.partition(":")[0].strip() == other:
+            return entry
+    return None
 
 
 def _without_header(setup: SetupPy, wanted: str) -> int:

@@ -1,0 +1,110 @@
+"""A small change with which a check passes, found by trying it, where no other record has one."""
+
+from __future__ import annotations
+
+from grader.base.i18n.message import msg
+from grader.mistakes import links
+from grader.mistakes.kind import Family
+
+_node = Family("node", links.FIRST_NODE)
+KINDS = (
+    _node(
+        "small_change",
+        "callback",
+        msg("A small change here lets the check pass"),
+        msg(
+            "The grader ran the node with {written} instead of {name} in this line, and then this "
+            "check passes."
+        ),
+        msg("Write {written} instead of {name}."),
+        whys={
+            "long": msg(
+                "The grader ran the node with this line changed, and then this check passes."
+            ),
+            "condition": msg(
+                "The lines below {name} run only when its condition is true. The grader ran the node "
+                "with these lines each time, and then this check passes."
+            ),
+            "else": msg(
+                "The grader ran the node without the condition {name}, with only the lines of its "
+                "else, and then this check passes."
+            ),
+            "loop": msg(
+                "The grader ran the node without the loop {name}, so that the lines in it run once, "
+                "and then this check passes."
+            ),
+            "with": msg(
+                "The grader ran the node with the lines below {name} outside of this block, and then "
+                "this check passes."
+            ),
+            "out": msg(
+                "This line is in the block of {form}. The grader ran the node with this line below "
+                "that block, and then this check passes."
+            ),
+            "moved": msg(
+                "The order of these lines matters. The grader ran the node with this line above "
+                "{written}, and then this check passes."
+            ),
+            "deleted": msg(
+                "The grader ran the node without this line, and then this check passes."
+            ),
+            "deleted_lines": msg(
+                "The grader ran the node without the lines that begin here, and then this check passes."
+            ),
+            "emptied": msg(
+                "The grader ran the node with pass instead of this line, and then this check passes."
+            ),
+            "below": msg(
+                "The grader ran the node with one more line below this one, {written}, and then this "
+                "check passes."
+            ),
+            "above": msg(
+                "The grader ran the node with one more line above this one, {written}, and then this "
+                "check passes."
+            ),
+            "own": msg(
+                "{name} is a variable of one function: other functions do not have it, and it is gone "
+                "when the function ends. The grader ran the node with {written}, which belongs to the "
+                "node, and then this check passes."
+            ),
+            "renamed": msg(
+                "Node, from which the class inherits, uses the name {name} itself. The grader ran the "
+                "node with another name, and then this check passes."
+            ),
+            "argument": msg(
+                "The grader ran the node without one of the arguments in this line, and then this "
+                "check passes."
+            ),
+            "called": msg(
+                "{name} only names the function. The grader ran the node with {written}, which calls "
+                "it, and then this check passes."
+            ),
+            "not_called": msg(
+                "{name} calls the function in this line. The grader ran the node with {written}, "
+                "which only names it, and then this check passes."
+            ),
+        },
+        fixes={
+            "long": msg("Make the change below."),
+            "condition": msg(
+                "Delete the line {name}, and indent the lines of its block one step less."
+            ),
+            "else": msg(
+                "Delete the line {name} with the lines below it, and keep the lines of its else, "
+                "indented one step less."
+            ),
+            "loop": msg("Delete the line {name}, and indent the lines of its block one step less."),
+            "with": msg("Delete the line {name}, and indent the lines of its block one step less."),
+            "out": msg("Move this line out of the block of {form}, to below it."),
+            "moved": msg("Move this line above {written}."),
+            "deleted": msg("Delete this line."),
+            "deleted_lines": msg("Delete the lines that the change below takes away."),
+            "emptied": msg("Write pass instead of this line."),
+            "below": msg("Write {written} below this line."),
+            "above": msg("Write {written} above this line."),
+            "own": msg("Write {written} instead of {name} wherever the change below does."),
+            "renamed": msg("Use another name everywhere in the file, such as {written}."),
+            "argument": msg("Write {written}."),
+        },
+    ),
+)

@@ -1,0 +1,60 @@
+"""All small changes of a node's files: one piece of code written differently, moved or removed.
+
+Which of them help is not known here: a caller runs the node with each.
+"""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import dataclass
+
+from grader.package.source import small_orders, small_values
+from grader.package.source.change import Change
+from grader.package.source.module import Module
+from grader.package.source.node import NodeSource
+from grader.package.source.small_values import Goal
+
+UTF_8 = ("utf-8", "ascii")
+
+
+@dataclass(frozen=True)
+class SmallChange:
+    """A change of one file, with the file's new text; `cost` is how far it is from the old one."""
+
+    path: str
+    change: Change
+    text: str
+    cost: int
+
+    @property
+    def line(self) -> int:
+        """The first line of the file that it changes."""
+        return self.change.at.lineno
+
+
+def lines_as_script(module: Module) -> set[int]:
+    """Return the lines of a file that run only when it is run as a script."""
+    guards = [
+        s for s in module.tree.body if isinstance(s, ast.If) and "__name__" in ast.dump(s.test)
+    ]
+    return {line for s in guards for line in range(s.lineno, (s.end_lineno or s.lineno) + 1)}
+
+
+def small_changes(source: NodeSource, goal: Goal) -> list[SmallChange]:
+    """Return the changes of all files of a node, the smallest first; each gives another text.
+
+    Only files in UTF-8 are changed, and not what runs only when a file is run as a script.
+    """
+    found: list[SmallChange] = []
+    for module in source.known_modules:
+        if module.text.encoding not in UTF_8:
+            continue
+        seen, script = {module.text.text}, lines_as_script(module)
+        for sort in (*small_values.SORTS, *small_orders.SORTS):
+            for cost, change in sort(module, source, goal):
+                new = module.edited(change.splices)
+                text = new.decode() if new is not None else ""
+                if text and text not in seen and change.at.lineno not in script:
+                    seen.add(text)
+                    found.append(SmallChange(module.path, change, text, cost))
+    return sorted(found, key=lambda one: one.cost)

@@ -1,0 +1,170 @@
+"""Small changes of statements: one moved, removed or added, or a block without its head."""
+
+from __future__ import annotations
+
+import ast
+
+from grader.package.edit.text import Splice, indent_of
+from grader.package.source.change import Change, of_piece
+from grader.package.source.module import Function, Module, is_text
+from grader.package.source.names import called_name
+from grader.package.source.node import LOG_METHODS, NodeSource
+from grader.package.source.place import block_of, blocks_in
+from grader.package.source.small_values import MOST_NAMES, Found, Goal, Sort, counters_of
+
+SIMPLE = (
+    *(ast.Expr, ast.Assign, ast.AugAssign, ast.AnnAssign, ast.Return, ast.Break, ast.Continue),
+    *(ast.Delete, ast.Raise, ast.Assert, ast.Global, ast.Nonlocal),
+)
+HEADED = ast.If | ast.While | ast.For | ast.With
+
+
+def _blocks(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield the lines of a block without its head, and lines moved out of a block."""
+    del source, goal
+    for node in module.nodes:
+        if not isinstance(node, HEADED | ast.Try) or not _owns_lines(module, node):
+            continue
+        if not module.line(node.lineno).startswith("elif"):
+            if isinstance(node, HEADED):
+                sort = "condition" if isinstance(node, ast.If) else "loop"
+                yield 3, _only(module, node, node.body, "with" if _is_with(node) else sort)
+            rest = [] if isinstance(node, ast.With) else node.orelse
+            if isinstance(node, ast.If) and rest and module.line(rest[0].lineno)[:4] != "elif":
+                yield 5, _only(module, node, rest, "else")
+            for block in (node.body, rest):
+                yield from _moved_out(module, node, block)
+
+
+def _is_with(node: ast.stmt) -> bool:
+    return isinstance(node, ast.With)
+
+
+def _only(module: Module, node: ast.stmt, block: list[ast.stmt], sort: str) -> Change:
+    """Return the change that leaves of a statement only one of its blocks."""
+    text = module.text
+    indent, old = indent_of(text.line(node.lineno)), indent_of(text.line(block[0].lineno))
+    rows = []
+    for row in range(_first_row(block[0]), (block[-1].end_lineno or 0) + 1):
+        line = text.lines[row - 1]
+        rows.append(indent + line[len(old) :] if line.startswith(old) else line)
+    start, end = text.start_of(node.lineno), text.start_of((node.end_lineno or 0) + 1)
+    return Change(sort, node, module.line(node.lineno), "", (Splice(start, end, "".join(rows)),))
+
+
+def _moved_out(module: Module, node: ast.stmt, block: list[ast.stmt]) -> Found:
+    """Yield a block's statements, each below the statement that the block belongs to."""
+    text = module.text
+    indent = indent_of(text.line(node.lineno))
+    for moved in block:
+        if not isinstance(moved, SIMPLE) or isinstance(moved, ast.Break | ast.Continue):
+            continue
+        if not _owns_lines(module, moved):
+            continue
+        lines = [indent + text.line(row).strip() for row in _rows(moved)]
+        gone = tuple(text.without(row) for row in _rows(moved))
+        if len(block) == 1:
+            gone = (text.swap(moved, "pass"),)
+        put = text.before((node.end_lineno or 0) + 1, *lines)
+        head = module.line(node.lineno)
+        yield 3, Change("out", moved, module.line(moved.lineno), "", (*gone, put), head)
+
+
+def _order(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield the statements of a block in another order."""
+    del source, goal
+    text = module.text
+    for block in blocks_in(module.tree):
+        own = [s for s in block if _owns_lines(module, s) and not is_text(s)]
+        for at, moved in enumerate(own):
+            if isinstance(moved, ast.Import | ast.ImportFrom):
+                continue
+            code = [text.line(row) for row in _rows(moved)]
+            gone = tuple(text.without(row) for row in _rows(moved))
+            for to, other in enumerate(own):
+                if to not in (at, at + 1):
+                    put = text.before(_first_row(other), *code)
+                    shown = module.line(other.lineno)
+                    change = Change("moved", moved, module.line(moved.lineno), shown, (*gone, put))
+                    yield 4 + (abs(at - to) > 1), change
+
+
+def _added(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield the file with a line more: one that counts, or a name that a function may set."""
+    text = module.text
+    outside = {name for s in module.tree.body for name in _stored(s)}
+    for function in (n for n in module.nodes if isinstance(n, Function)):
+        first, last = function.body[0], function.body[-1]
+        if not _owns_lines(module, function) or first.lineno == function.lineno:
+            continue
+        indent = indent_of(text.line(first.lineno))
+        if any(
+            isinstance(n, ast.Call) and called_name(n) in LOG_METHODS for n in ast.walk(function)
+        ):
+            for name in counters_of(source):
+                line = f"{name} += {goal.step}"
+                put = text.before((last.end_lineno or 0) + 1, indent + line)
+                yield 3, Change("below", last, module.line(last.lineno), line, (put,))
+        names = _stored(function) & outside - {a.arg for a in function.args.args}
+        for name in sorted(names)[:MOST_NAMES]:
+            put = text.before(first.lineno, f"{indent}global {name}")
+            code = module.line(first.lineno)
+            yield 4, Change("above", first, code, f"global {name}", (put,))
+
+
+def _stored(node: ast.AST) -> set[str]:
+    """Return the names that a part of a file sets."""
+    names = [n for n in ast.walk(node) if isinstance(n, ast.Name)]
+    return {n.id for n in names if isinstance(n.ctx, ast.Store)}
+
+
+def _removed(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield the file without a statement, a decorator, `async`, or a second definition."""
+    del source, goal
+    text = module.text
+    for node in module.nodes:
+        if isinstance(node, SIMPLE) and not is_text(node) and _owns_lines(module, node):
+            if len(block_of(module, node)) > 1:
+                yield 5, _without(module, node)
+            else:
+                yield 5, of_piece(module, "emptied", node, "pass")
+        elif isinstance(node, Function):
+            names = [n.name for n in block_of(module, node) if isinstance(n, Function)]
+            if names.count(node.name) > 1 and _owns_lines(module, node):
+                yield 3, _without(module, node)
+            for decorator in node.decorator_list:
+                rows = range(decorator.lineno, (decorator.end_lineno or 0) + 1)
+                gone = tuple(text.without(row) for row in rows)
+                yield 4, Change("deleted", decorator, "@" + text.code(decorator), "", gone)
+            if isinstance(node, ast.AsyncFunctionDef):
+                start, _ = text.span(node)
+                splice = Splice(start, text.text.find("def", start), "")
+                yield 2, Change("value", node, "async def", "def", (splice,))
+
+
+def _without(module: Module, node: ast.stmt) -> Change:
+    gone = tuple(module.text.without(row) for row in _rows(node))
+    return Change(
+        "deleted_lines" if len(gone) > 1 else "deleted", node, module.line(node.lineno), "", gone
+    )
+
+
+def _first_row(node: ast.stmt) -> int:
+    decorators: list[ast.expr] = getattr(node, "decorator_list", [])
+    return min([node.lineno, *(decorator.lineno for decorator in decorators)])
+
+
+def _rows(node: ast.stmt) -> range:
+    return range(_first_row(node), (node.end_lineno or node.lineno) + 1)
+
+
+def _owns_lines(module: Module, node: ast.stmt) -> bool:
+    """Whether no other code is on the lines of a statement."""
+    text = module.text
+    start, end = text.span(node)
+    before = text.text[text.start_of(node.lineno) : start]
+    after = text.text[end : text.end_of(node.end_lineno or node.lineno)].strip()
+    return not before.strip() and (not after or after.startswith("#"))
+
+
+SORTS: tuple[Sort, ...] = (_blocks, _added, _order, _removed)

@@ -1,0 +1,320 @@
+"""Small changes of an expression: another number, operator, name, argument, or a part of it."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from grader.package.edit.text import Splice
+from grader.package.source.change import Change, of_piece
+from grader.package.source.module import Function, Module
+from grader.package.source.names import called_name, dotted, own_name
+from grader.package.source.node import LOG_METHODS, NodeSource
+
+SHOWN = ("info", "warn", "warning", "error", "fatal")
+MOST_NAMES = 6  # other names that are tried in the place of one
+SIGNS: dict[type[ast.AST], str] = {
+    ast.Add: "+",
+    ast.Sub: "-",
+    ast.Eq: "==",
+    ast.NotEq: "!=",
+    ast.Lt: "<",
+    ast.LtE: "<=",
+    ast.Gt: ">",
+    ast.GtE: ">=",
+}
+SUMS: tuple[type[ast.AST], ...] = (ast.Add, ast.Sub)
+COMPARED: tuple[type[ast.AST], ...] = (ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq)
+NEAR = ({ast.Lt, ast.LtE}, {ast.Gt, ast.GtE}, {ast.Lt, ast.Gt}, {ast.LtE, ast.GtE})
+BUILTINS = frozenset(dir(builtins))
+SCALES = (10, 60, 100, 1000, 3600, 10**6, 10**9)
+"""A period in another unit is so many times the required one, or so small a part of it."""
+
+
+@dataclass(frozen=True)
+class Goal:
+    """What the node has to log: the text before and after the number, its start, step and period."""
+
+    before: str
+    after: str
+    start: int
+    step: int
+    period: float
+
+
+Found = Iterator[tuple[int, Change]]
+Sort = Callable[[Module, NodeSource, Goal], Found]
+
+
+def _numbers(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield other numbers, truth values and names in the place of the constants."""
+    del source
+    for node in module.nodes:
+        if not isinstance(node, ast.Constant) or isinstance(module.parents.get(node), ast.Expr):
+            continue
+        value = node.value
+        if isinstance(value, bool):
+            yield 3, of_piece(module, "value", node, str(not value))
+        elif value is None:
+            for number in (goal.start, goal.period):
+                yield 4, of_piece(module, "value", node, str(number))
+        elif isinstance(value, int | float):
+            near: list[float] = [value + 1, value - 1] if isinstance(value, int) else []
+            near += [round(value * 10, 9), round(value / 10, 9)]
+            wanted = dict.fromkeys([goal.start, goal.step, goal.period, *near])
+            for number in (n for n in wanted if n != value and n >= -1):
+                yield _cost(value, number, goal), of_piece(module, "value", node, str(number))
+        elif isinstance(value, str) and value.isidentifier():
+            for other in dict.fromkeys(_words(module)):
+                yield 4, of_piece(module, "value", node, repr(other))
+
+
+def _cost(value: float, number: float, goal: Goal) -> int:
+    """Return how far another number is from the one that is written."""
+    if number == goal.period and value > 0:
+        times = max(value / number, number / value)
+        if any(abs(times - scale) < 1e-9 * scale for scale in SCALES):
+            return 2
+    return 4 if number in (goal.start, goal.step) else 5
+
+
+def _words(module: Module) -> Iterator[str]:
+    """Yield the strings that are names, such as those of parameters and keys."""
+    for node in module.nodes:
+        value = node.value if isinstance(node, ast.Constant) else None
+        if isinstance(value, str) and value.isidentifier() and value != "__main__":
+            yield value
+
+
+def _timers(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield the required period and other callbacks in the calls of create_timer."""
+    for call in calls_of(module):
+        if called_name(call) != "create_timer":
+            continue
+        given = {keyword.arg: keyword.value for keyword in call.keywords}
+        period = call.args[0] if call.args else given.get("timer_period_sec")
+        if period is not None:
+            yield 3, of_piece(module, "value", period, str(goal.period))
+        callback = call.args[1] if len(call.args) > 1 else given.get("callback")
+        if callback is not None:
+            for name in source.methods:
+                if not name.startswith("__"):
+                    yield 3, of_piece(module, "value", callback, f"self.{name}")
+
+
+def _operators(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield other operators in the place of those that are written."""
+    del source, goal
+    text = module.text
+    for node in module.nodes:
+        if isinstance(node, ast.BinOp):
+            for kind in SUMS:
+                if not isinstance(node.op, kind):
+                    yield 2, _between(module, node, node.left, node.right, SIGNS[kind])
+        elif isinstance(node, ast.Compare) and len(node.ops) == 1:
+            if dotted(node.left) == "__name__":
+                continue
+            for kind in COMPARED:
+                if not isinstance(node.ops[0], kind):
+                    cost = 2 if {type(node.ops[0]), kind} in NEAR else 4
+                    right = node.comparators[0]
+                    yield cost, _between(module, node, node.left, right, SIGNS[kind])
+        elif isinstance(node, ast.BoolOp) and len(node.values) == 2:
+            sign = "or" if isinstance(node.op, ast.And) else "and"
+            yield 2, _between(module, node, node.values[0], node.values[1], sign)
+        elif isinstance(node, ast.AugAssign) and not isinstance(node.op, ast.Add):
+            new = f"{text.code(node.target)} += {text.code(node.value)}"
+            yield 2, of_piece(module, "value", node, new)
+        elif isinstance(node, ast.Assign) and len(node.targets) == 1 and is_name(node.targets[0]):
+            new = f"{text.code(node.targets[0])} += {text.code(node.value)}"
+            if module.parents.get(node) is not module.tree:
+                yield 3, of_piece(module, "value", node, new)
+
+
+def _between(module: Module, whole: ast.expr, left: ast.expr, right: ast.expr, sign: str) -> Change:
+    """Return the change of the operator between two operands."""
+    text = module.text
+    (begin, stop), first, last = text.span(whole), text.span(left)[1], text.span(right)[0]
+    middle = text.text[first:last]
+    closed = middle[: middle.rfind(")") + 1]
+    opened = middle[middle.find("(") :] if "(" in middle else ""
+    new = f"{closed} {sign} {opened}"
+    written = text.text[begin:first] + new + text.text[last:stop]
+    return Change("value", whole, text.code(whole), written, (Splice(first, last, new),))
+
+
+def _called(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield calls of what is only named, and names of what is called."""
+    del source, goal
+    uses = ast.Expr | ast.Return | ast.If | ast.While | ast.Assign
+    inner = ast.Call | ast.BinOp | ast.UnaryOp | ast.FormattedValue
+    for node in module.nodes:
+        around = module.parents.get(node)
+        if isinstance(node, ast.Name | ast.Attribute) and dotted(node):
+            function = isinstance(around, ast.Call) and around.func is node
+            if isinstance(node.ctx, ast.Load) and isinstance(around, uses | inner) and not function:
+                yield 2, of_piece(module, "called", node, f"{module.text.code(node)}()")
+        elif isinstance(node, ast.Call) and isinstance(around, ast.Call | ast.keyword):
+            yield 3, of_piece(module, "not_called", node, module.text.code(node.func))
+
+
+def _arguments(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield calls without one of their arguments, and with two of them the other way round."""
+    del source, goal
+    text = module.text
+    for call in calls_of(module):
+        given: list[ast.expr | ast.keyword] = [*call.args, *call.keywords]
+        function = text.code(call.func)
+        for gone in given:
+            rest = ", ".join(text.code(one) for one in given if one is not gone)
+            yield 3, of_piece(module, "argument", call, f"{function}({rest})")
+        if len(call.args) == 2 and not call.keywords:
+            first, second = (text.code(one) for one in call.args)
+            yield 2, of_piece(module, "value", call, f"{function}({second}, {first})")
+        if called_name(call) in LOG_METHODS and len(call.args) > 1:
+            form, rest = text.code(call.args[0]), ", ".join(text.code(a) for a in call.args[1:])
+            star = len(call.args) == 2 and isinstance(call.args[1], ast.Starred)
+            for new in (
+                f"{form} % {rest[1:] if star else f'({rest},)'}",
+                f"{form}.format({rest})",
+                f"{form} + str({rest})",
+            ):
+                yield 2, of_piece(module, "value", call, f"{function}({new})")
+
+
+def _logged(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield a method of the logger whose lines are shown, and another text for a line."""
+    text = goal.before + goal.after
+    for call in calls_of(module):
+        method, function = called_name(call), call.func
+        if method not in (*LOG_METHODS, "log") or not call.args:
+            continue
+        if isinstance(function, ast.Attribute) and method not in SHOWN:
+            code = module.text.code(function.value)
+            yield 1, of_piece(module, "value", function, f"{code}.info")
+            continue
+        for name in counters_of(source):
+            if not set(text) & set("'{}\\"):
+                new = f"f'{goal.before}{{{name}}}{goal.after}'"
+                yield 4, of_piece(module, "value", call.args[0], new)
+
+
+def _parts(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield a part of an expression in the place of the whole."""
+    del source, goal
+    for node in module.nodes:
+        if isinstance(node, ast.expr):
+            for part in _parts_of(node, module.parents.get(node)):
+                if not isinstance(part, ast.Starred):
+                    yield 3, of_piece(module, "value", node, module.text.code(part))
+
+
+def _parts_of(node: ast.expr, around: ast.AST | None) -> list[ast.expr]:
+    """Return the parts that can stand for the whole; a call of a function of its own is kept."""
+    if isinstance(node, ast.Call):
+        if isinstance(around, ast.stmt) and dotted(node.func) not in BUILTINS:
+            return []
+        on = [node.func.value] if isinstance(node.func, ast.Attribute) else []
+        return [*node.args[:2], *(keyword.value for keyword in node.keywords[:1]), *on]
+    if isinstance(node, ast.BinOp):
+        return [node.left, node.right]
+    if isinstance(node, ast.BoolOp):
+        return node.values
+    if isinstance(node, ast.IfExp):
+        return [node.body, node.orelse]
+    if isinstance(node, ast.List | ast.Tuple | ast.Set) and len(node.elts) == 1:
+        return [node.elts[0]]
+    if isinstance(node, ast.UnaryOp):
+        return [node.operand]
+    if isinstance(node, ast.Subscript | ast.Starred | ast.Await):
+        return [node.value]
+    if isinstance(node, ast.Yield) and node.value is not None:
+        return [node.value]
+    return []
+
+
+def _names(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield other names of the same function or class in the place of a name."""
+    del goal
+    own = [name for name in dict.fromkeys(_own_names(module)) if name not in source.methods]
+    for function in (n for n in module.nodes if isinstance(n, Function)):
+        local = [name for name in dict.fromkeys(_local_names(function)) if name != "self"]
+        for node in ast.walk(function):
+            if isinstance(node, ast.Attribute) and own_name(node) in own:
+                for name in own[:MOST_NAMES]:
+                    yield 3, of_piece(module, "value", node, f"self.{name}")
+                for name in local[:MOST_NAMES] if isinstance(node.ctx, ast.Load) else ():
+                    yield 3, of_piece(module, "value", node, name)
+            elif isinstance(node, ast.Name) and node.id in local:
+                if node.id in own or isinstance(node.ctx, ast.Store):
+                    yield 2, of_piece(module, "value", node, f"self.{node.id}")
+                for name in local[:MOST_NAMES] if isinstance(node.ctx, ast.Load) else ():
+                    yield 3, of_piece(module, "value", node, name)
+
+
+def _renamed(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield an attribute under another name everywhere, and local names as attributes."""
+    del source, goal
+    text = module.text
+    for name in dict.fromkeys(_own_names(module)):
+        found = [n for n in module.nodes if isinstance(n, ast.Attribute) and own_name(n) == name]
+        new = f"self.own_{name.strip('_')}"
+        first = min(found, key=lambda n: n.lineno)
+        splices = tuple(text.swap(node, new) for node in found)
+        yield 5, Change("renamed", first, f"self.{name}", new, splices)
+    blocks: list[Function | ast.ClassDef] = [n for n in module.nodes if isinstance(n, Function)]
+    for block in (*blocks, *module.classes):
+        functions = [n for n in ast.walk(block) if isinstance(n, Function)]
+        given = {a.arg for f in functions for a in f.args.args}
+        for name in dict.fromkeys(n for f in functions for n in _local_names(f)):
+            uses = [n for n in ast.walk(block) if isinstance(n, ast.Name) and n.id == name]
+            if name in given or not uses:
+                continue
+            outside = [n for n in ast.walk(block) if isinstance(n, ast.Global | ast.Nonlocal)]
+            gone = [text.without(n.lineno) for n in outside if n.names == [name]]
+            splices = (*gone, *(text.swap(node, f"self.{name}") for node in uses))
+            at = min(uses, key=lambda n: n.lineno)
+            yield 3, Change("own", at, name, f"self.{name}", splices)
+
+
+def counters_of(source: NodeSource) -> list[str]:
+    """Return the names that the files add to, and the attributes that they set."""
+    added: dict[str, None] = {}
+    for module in source.known_modules:
+        for node in module.nodes:
+            if isinstance(node, ast.AugAssign) and is_name(node.target):
+                added[module.text.code(node.target)] = None
+    for module in source.known_modules:
+        added |= {f"self.{name}": None for name in _own_names(module)}
+    return list(added)[:MOST_NAMES]
+
+
+def _own_names(module: Module) -> Iterator[str]:
+    for node in module.nodes:
+        if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store) and own_name(node):
+            yield node.attr
+
+
+def _local_names(function: Function) -> Iterator[str]:
+    for argument in (*function.args.posonlyargs, *function.args.args, *function.args.kwonlyargs):
+        yield argument.arg
+    for node in ast.walk(function):
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.id
+
+
+def calls_of(module: Module) -> Iterator[ast.Call]:
+    """Yield all calls of a file."""
+    return (node for node in module.nodes if isinstance(node, ast.Call))
+
+
+def is_name(node: ast.AST) -> bool:
+    """Whether an expression is a name, such as x or self.x."""
+    return isinstance(node, ast.Name | ast.Attribute) and bool(dotted(node))
+
+
+SORTS: tuple[Sort, ...] = (
+    *(_logged, _called, _timers, _numbers, _operators, _arguments, _names, _parts, _renamed),
+)

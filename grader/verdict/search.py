@@ -1,0 +1,205 @@
+"""Looks for a small change with which a package passes, where its mistake has no fix.
+
+All small changes of the node's files are run for some milliseconds each. The best of them are then
+built and marked as a fix is, and only one that helps is shown.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+from grader.base.i18n.message import Message, joined, say
+from grader.base.shown import shown
+from grader.course.assignment import Assignment, Output
+from grader.mistakes.catalogue import CATALOGUE
+from grader.mistakes.recognised import RecognisedMistake
+from grader.package.source.names import module_name
+from grader.package.source.node import NodeSource, read_node
+from grader.package.source.small_changes import SmallChange, small_changes
+from grader.package.source.small_values import Goal
+from grader.report.model import Where
+from grader.run.observer import number_reader
+from grader.run.variants import ShortRun, run_variants
+from grader.sandbox.base import Sandbox
+from grader.verdict.checks.actual_node import actual_path
+from grader.verdict.checks.parsed import data_of
+from grader.verdict.evidence import Evidence, Search
+from grader.verdict.found_change import FoundChange, Step
+
+KIND = "node.small_change"
+SECONDS = 8.0
+"""The most wall time for all changes, and again for two changes together."""
+LEAST_SECONDS = 40.0
+"""The least wall time that has to be left of the verdict: the best changes are marked afterwards."""
+MOST_SECOND = 150
+"""The most second changes that are tried with a first one."""
+MOST_FIRST = 3
+"""The most first changes that are tried with a second one."""
+MOST_FOUND = 12
+LEAST_LINES = 6
+LONGEST = 90  # characters of a piece of code that a text shows
+NEARLY, WHOLE = 8, 9  # how far a node gets that counts, and that counts in the right period
+
+
+def search_in(sandbox: Sandbox, until: float) -> Search:
+    """Return what looks for changes in a sandbox whose workspace has been built.
+
+    It does not begin if less than `LEAST_SECONDS` are left until then (of `time.monotonic`).
+    """
+
+    def search(evidence: Evidence) -> list[FoundChange]:
+        if until - time.monotonic() < LEAST_SECONDS or evidence.assignment.runs:
+            return []
+        path = actual_path(evidence)
+        read = partial(data_of, evidence)
+        source = read_node(read, path, evidence.assignment.function)
+        if source is None or source.main is None:
+            return []
+        return _Search(sandbox, evidence.assignment, source, read).found()
+
+    return search
+
+
+@dataclass(frozen=True)
+class _Tried:
+    steps: tuple[Step, ...]
+    texts: Mapping[str, str]
+    cost: int
+    level: int
+    ended: str
+
+
+class _Search:
+    """Runs the changes of one package."""
+
+    def __init__(
+        self,
+        sandbox: Sandbox,
+        assignment: Assignment,
+        source: NodeSource,
+        read: Callable[[str], bytes | None],
+    ) -> None:
+        self._sandbox = sandbox
+        self._output = assignment.output
+        self._function = assignment.function
+        self._source = source
+        self._read = read
+        before, after = assignment.output.text.split("{n}")
+        output = assignment.output
+        self._goal = Goal(before, after, output.start, output.step, output.period)
+
+    def found(self) -> list[FoundChange]:
+        """Return the changes that help, the smallest first."""
+        first = [self._step(change) for change in small_changes(self._source, self._goal)]
+        base, *tried = self._run([_Tried((), {}, 0, 0, ""), *first])
+        if base.level >= WHOLE:
+            return []  # (what is wrong does not show in so short a run)
+        good = [one for one in tried if one.level >= NEARLY and one.level > base.level]
+        if not good:
+            good = self._twice(base, tried)
+        good.sort(key=lambda one: (one.level < WHOLE, one.cost))
+        return [
+            FoundChange(one.steps, one.texts, one.cost, one.level >= WHOLE)
+            for one in good[:MOST_FOUND]
+        ]
+
+    def _twice(self, base: _Tried, tried: Sequence[_Tried]) -> list[_Tried]:
+        """Return the pairs of changes that help."""
+        further = [one for one in tried if one.level > base.level]
+        further += [
+            one
+            for one in tried
+            if one.level == base.level and one.ended != base.ended and one not in further
+        ]
+        further.sort(key=lambda one: (-one.level, one.cost))
+        pairs: list[_Tried] = []
+        for one in further[:MOST_FIRST]:
+            read = partial(self._changed, one.texts)
+            source = read_node(read, self._source.entry.path, self._function)
+            if source is not None:
+                changes = small_changes(source, self._goal)[:MOST_SECOND]
+                pairs += [self._step(change, one) for change in changes]
+        return [one for one in self._run(pairs) if one.level >= NEARLY]
+
+    def _changed(self, texts: Mapping[str, str], path: str) -> bytes | None:
+        return texts[path].encode() if path in texts else self._read(path)
+
+    def _step(self, found: SmallChange, before: _Tried | None = None) -> _Tried:
+        steps, texts, cost = (before.steps, before.texts, before.cost) if before else ((), {}, 0)
+        change = found.change
+        step = Step(
+            change.sort,
+            found.path,
+            found.line,
+            one_line(change.name).removesuffix(":"),
+            one_line(change.written).removesuffix(":"),
+            one_line(change.form).removesuffix(":"),
+        )
+        return _Tried((*steps, step), {**texts, found.path: found.text}, cost + found.cost, 0, "")
+
+    def _run(self, tried: Sequence[_Tried]) -> list[_Tried]:
+        """Return the changes that were run, with how far the node gets."""
+        seen = run_variants(
+            self._sandbox,
+            module_name(self._source.entry.path),
+            self._function,
+            [{module_name(path): text for path, text in one.texts.items()} for one in tried],
+            period=self._output.period,
+            seconds=SECONDS,
+        )
+        return [
+            _Tried(one.steps, one.texts, one.cost, level(run, self._output), run.ended)
+            for one, run in zip(tried, seen)
+            if run is not None
+        ]
+
+
+def level(run: ShortRun, output: Output) -> int:
+    """Return how far a node gets: 0 if it ends before it waits, up to `WHOLE`."""
+    if not run.lives and run.ended != "waits":
+        return 1 if run.steps else 0
+    number = number_reader(output)
+    counted = [(at, n) for at, _, text in run.lines if (n := number(text)) is not None]
+    if len(counted) < LEAST_LINES:
+        return 3 if run.lines else 2
+    if [n for _, n in counted] != [output.start + k * output.step for k in range(len(counted))]:
+        return 5
+    instants = [at for at, _ in counted]
+    apart = {later - earlier for earlier, later in zip(instants, instants[1:])}
+    return WHOLE if apart == {round(output.period * 1e9)} else NEARLY
+
+
+def recognised(change: FoundChange) -> RecognisedMistake:
+    """Return a change as a mistake of the catalogue, at its first step."""
+    step = change.steps[0]
+    return RecognisedMistake(
+        kind=KIND,
+        params={"name": step.name, "written": step.written},
+        words={"form": step.form},
+        variant=_variant(step),
+        where=Where(file=step.path, line=step.line),
+    )
+
+
+def fix_text(change: FoundChange, where: Where | None) -> Message | str:
+    """Return what to do, for one change or two; lines are named unless the place is shown."""
+    texts: list[Message | str] = []
+    for step in change.steps:
+        values = {"name": step.name, "written": step.written, "form": step.form}
+        text = CATALOGUE[KIND].fix_text(values, _variant(step))
+        here = where is not None and where.line == step.line and len(change.steps) == 1
+        texts.append(text if here else say("Line {line}: {fix}", line=step.line, fix=text))
+    return joined(*texts, by=" ")
+
+
+def _variant(step: Step) -> str:
+    long = max(len(step.name), len(step.written), len(step.form)) > LONGEST
+    return "long" if long else step.sort
+
+
+def one_line(code: str) -> str:
+    """Return code in one line, as a text shows it."""
+    return shown(" ".join(code.split()))

@@ -1,0 +1,151 @@
+"""Small changes of a node's files: what they write, that Python can read them, and their order."""
+
+from __future__ import annotations
+
+import ast
+
+import pytest
+
+from grader.package.source.node import read_node
+from grader.package.source.small_changes import SmallChange, small_changes
+from grader.package.source.small_values import Goal
+
+PATH = "my_robot_controller/my_first_node.py"
+GOAL = Goal("Hello time: ", "", 0, 1, 1.0)
+NODE = """\
+import rclpy
+from rclpy.node import Node
+
+
+class MyFirstNode(Node):
+    def __init__(self):
+        super().__init__("my_first_node")
+        self.counter_ = 0
+        self.create_timer(1.0, self.timer_callback)
+
+    def timer_callback(self):
+        self.get_logger().info("Hello time: " + str(self.counter_))
+        self.counter_ += 1
+
+
+def main(args=None):
+    rclpy.init(args=args)
+    node = MyFirstNode()
+    rclpy.spin(node)
+    rclpy.shutdown()
+
+
+if __name__ == "__main__":
+    main()
+"""
+MISTAKES = [
+    ("self.create_timer(1.0,", "self.create_timer(1000,", "value"),
+    ("self.create_timer(1.0,", "self.create_timer(0.001,", "value"),
+    (".info(", ".debug(", "value"),
+    ('"Hello time: " + ', '"Hello time: " - ', "value"),
+    ("str(self.counter_)", "str([self.counter_])", "value"),
+    ("str(self.counter_))", "str(self.counter_ & 7))", "value"),
+    ("str(self.counter_))", "str(self.counter_), self)", "argument"),
+    ("MyFirstNode()\n", "MyFirstNode\n", "called"),
+    ("self.timer_callback)", "self.timer_callback())", "not_called"),
+    ("        self.counter_ += 1\n", "", "below"),
+    ("    def timer_callback", "    @property\n    def timer_callback", "deleted"),
+    ("    rclpy.spin(node)\n", "    rclpy.shutdown()\n    rclpy.spin(node)\n", "deleted"),
+    (
+        "    rclpy.init(args=args)\n    node = MyFirstNode()\n",
+        "    node = MyFirstNode()\n    rclpy.init(args=args)\n",
+        "moved",
+    ),
+    (
+        "        self.counter_ += 1\n",
+        "        if self.counter_ < 0:\n            self.counter_ += 1\n",
+        "condition",
+    ),
+    (
+        "        self.counter_ += 1\n",
+        "        while self.counter_ < 3:\n            self.counter_ += 1\n",
+        "loop",
+    ),
+    ("    def timer_callback", "    async def timer_callback", "value"),
+]
+
+
+def changes(text: str, **more: str) -> list[SmallChange]:
+    files = {PATH: text, **{f"my_robot_controller/{name}.py": code for name, code in more.items()}}
+    encoded = {path: code.encode() for path, code in files.items()}
+    source = read_node(encoded.get, PATH, "main")
+    assert source is not None
+    return small_changes(source, GOAL)
+
+
+def same(text: str) -> str:
+    """Return a program without what does not matter: comments, blank lines and quotes."""
+    return ast.dump(ast.parse(text.replace("self.create_timer(1,", "self.create_timer(1.0,")))
+
+
+@pytest.mark.parametrize(("right", "wrong", "sort"), MISTAKES)
+def test_one_of_the_changes_undoes_a_mistake(right: str, wrong: str, sort: str) -> None:
+    text = NODE.replace(right, wrong, 1)
+    assert text != NODE
+    found = [one for one in changes(text) if same(one.text) == same(NODE)]
+    assert [one.change.sort for one in found][:1] == [sort]
+
+
+def test_a_line_is_moved_out_of_a_branch() -> None:
+    branch = (
+        "        if self.counter_ % 2:\n            print('odd')\n            self.counter_ += 1\n"
+    )
+    text = NODE.replace("        self.counter_ += 1\n", branch)
+    after = "        if self.counter_ % 2:\n            print('odd')\n        self.counter_ += 1\n"
+    found = [one for one in changes(text) if after in one.text]
+    assert [(one.change.sort, one.change.form) for one in found] == [
+        ("out", "if self.counter_ % 2:")
+    ]
+
+
+def test_a_local_name_becomes_an_attribute_in_the_whole_class() -> None:
+    text = NODE.replace("self.counter_ = 0", "counter_ = 0")
+    text = text.replace("(self.counter_)", "(counter_)").replace("self.counter_ +=", "counter_ +=")
+    text = text.replace(
+        "(self):\n        self.get", "(self):\n        global counter_\n        self.get"
+    )
+    assert [one.change.sort for one in changes(text) if one.text == NODE] == ["own"]
+
+
+def test_other_modules_of_the_package_are_changed_too() -> None:
+    text = NODE.replace(
+        "import rclpy\n", "import rclpy\nfrom my_robot_controller import settings\n", 1
+    )
+    text = text.replace("(1.0,", "(settings.PERIOD,")
+    found = changes(text, settings="PERIOD = 1000\n")
+    assert ("my_robot_controller/settings.py", "PERIOD = 1\n") in [
+        (one.path, one.text.replace("1.0", "1")) for one in found
+    ]
+
+
+def test_each_change_can_be_read_and_is_another_text() -> None:
+    found = changes(NODE)
+    assert len({one.text for one in found} | {NODE}) == len(found) + 1
+    for one in found:
+        ast.parse(one.text)
+
+
+def test_the_smallest_changes_come_first() -> None:
+    costs = [one.cost for one in changes(NODE)]
+    assert costs == sorted(costs)
+    assert len(set(costs)) > 2
+
+
+def test_the_guard_at_the_end_is_left_alone() -> None:
+    assert not [one for one in changes(NODE) if 'if __name__ == "__main__":' not in one.text]
+
+
+def test_a_file_in_another_encoding_is_left_alone() -> None:
+    assert changes("# coding: latin-1\n" + NODE) == []
+
+
+def test_all_other_bytes_stay() -> None:
+    text = NODE.replace("\n", "\r\n").replace("import rclpy\r\n", "import rclpy  # é\r\n", 1)
+    for one in changes(text):
+        assert "# é\r\n" in one.text
+        assert "\n" not in one.text.replace("\r\n", "")
