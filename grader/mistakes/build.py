@@ -143,20 +143,30 @@ KINDS = (
                 "number, a list or a dict, and for code in setup.py that writes output. Correct it, "
                 "then build again."
             ),
+            "cfg_python": msg("Delete python_requires from setup.cfg, then build again."),
         },
         whys={
+            "cfg_python": msg(
+                "colcon asks setup.py for its data and reads its output as the answer. setuptools "
+                "makes an object of python_requires in setup.cfg, which colcon cannot read."
+            ),
             "answer": msg(
                 "colcon asks setup.py for its data and reads its output as the answer. It could not "
                 "read this one."
             ),
         },
-        fixed_by=(setup_py.prints,),
+        fixed_by=(setup_cfg.without_entry, setup_py.prints),
         examples=(
             example(
                 "setup_prints",
                 Replace(SETUP, "\nsetup(\n", "\nprint('building')\nsetup(\n"),
                 fails="build.colcon",
                 note="colcon reads what setup.py prints as its answer",
+            ),
+            example(
+                "python_requires_in_setup_cfg",
+                Replace(CFG, "[develop]", "[options]\npython_requires = >=3.8\n[develop]"),
+                fails="build.colcon",
             ),
         ),
     ),

@@ -521,13 +521,21 @@ KINDS = (
             "requirement": msg(
                 "setuptools reads the texts of {argument} as names of Python packages: the build "
                 "stops at any other text."
-            )
+            ),
+            "key_twice": msg(
+                "A dict has one value for each key. If a key is written twice, only the last value "
+                "counts, and Python says nothing."
+            ),
         },
         fix=msg("Move '{wanted}' to the list console_scripts in entry_points, then build again."),
         fixes={
             "group": msg(
                 "Put it into entry_points, then build again: "
                 "entry_points={{'console_scripts': ['{wanted}']}},"
+            ),
+            "key_twice": msg(
+                "Delete '{name}' in line {line} with its value, then build again. If that value has "
+                "entries too, move them to the first '{name}' before."
             ),
             "late": msg(
                 "Python calls setup() before it reaches {name}. Move the lines of {name} above "
@@ -539,8 +547,27 @@ KINDS = (
             ),
         },
         link=links.DEVELOPING,
-        fixed_by=(entries.passed, entries.grouped, entries.moved, entries.added),
+        fixed_by=(entries.key_once, entries.passed, entries.grouped, entries.moved, entries.added),
         examples=(
+            example(
+                "entry_points_twice_in_a_dict",
+                Replace(
+                    SETUP,
+                    "    entry_points={\n        'console_scripts': [\n"
+                    "            'test_node = my_robot_controller.my_first_node:main',\n"
+                    "        ],\n    },\n",
+                    "    **MORE,\n",
+                ),
+                Replace(
+                    SETUP,
+                    "\nsetup(\n",
+                    "\nMORE = {\n    'entry_points': {\n        'console_scripts': [\n"
+                    "            'test_node = my_robot_controller.my_first_node:main',\n"
+                    "        ],\n    },\n    'entry_points': {'console_scripts': []},\n}\n\nsetup(\n",
+                ),
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
+            ),
             example(
                 "entry_in_tests_require",
                 Replace(

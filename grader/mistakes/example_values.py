@@ -622,6 +622,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "written": "rclpy.try_shutdown",
         "function": "atexit.register",
     },
+    "node.one_of_two": {"name": "'Hello: ',", "written": "'Hello: '"},
     "node.small_change": {"name": "self.n & 7", "written": "self.n", "form": "if self.n:"},
     "node.any_change": {"name": "self.n = 1 - self.n", "written": "self.n += 1"},
     "node.environment": {"name": "os.environ['PERIOD']", "variable": "PERIOD"},

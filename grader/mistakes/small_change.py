@@ -21,6 +21,10 @@ KINDS = (
             "long": msg(
                 "The grader ran the node with this line changed, and then this check passes."
             ),
+            "seconds": msg(
+                "ROS counts periods in seconds. The grader ran the node with {written} instead of "
+                "{name} in this line, and then this check passes."
+            ),
             "condition": msg(
                 "The lines below {name} run only when its condition is true. The grader ran the node "
                 "with these lines each time, and then this check passes."
@@ -47,6 +51,10 @@ KINDS = (
             ),
             "deleted": msg(
                 "The grader ran the node without this line, and then this check passes."
+            ),
+            "slept": msg(
+                "This line sleeps, and while a callback sleeps, nothing else in the node runs. The "
+                "grader ran the node without this line, and then this check passes."
             ),
             "deleted_lines": msg(
                 "The grader ran the node without the lines that begin here, and then this check passes."
@@ -98,6 +106,7 @@ KINDS = (
             "out": msg("Move this line out of the block of {form}, to below it."),
             "moved": msg("Move this line above {written}."),
             "deleted": msg("Delete this line."),
+            "slept": msg("Delete this line: the timer waits, and not the callback."),
             "deleted_lines": msg("Delete the lines that the change below takes away."),
             "emptied": msg("Write pass instead of this line."),
             "below": msg("Write {written} below this line."),
@@ -106,5 +115,15 @@ KINDS = (
             "renamed": msg("Use another name everywhere in the file, such as {written}."),
             "argument": msg("Write {written}."),
         },
+    ),
+    _node(
+        "one_of_two",
+        "text",
+        msg("One of two mistakes is here"),
+        msg(
+            "The grader ran the node with {written} instead of {name} in this line. Then the text of "
+            "each line is right, and only the number is not: that is another mistake."
+        ),
+        msg("Write {written} instead of {name}. Then grade again."),
     ),
 )

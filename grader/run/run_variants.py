@@ -6,7 +6,7 @@ input is one JSON object: `module` and `function` to call, and `variants`, each 
 modules by their names; `until` is in nanoseconds of ROS time, `lines` the most lines, `each` and
 `seconds` the most wall time for one variant and for all, `jobs` how many run at once. The output is
 a JSON line for each variant that was run: its index, the `lines` (instant, logger, text), how it
-`ended`, and the number of `steps` that ROS time made. What it says is no proof: the student's code
+`ended`, the number of `steps` that ROS time made, and whether the code `slept`. What it says is no proof: the student's code
 runs in the same process.
 """
 
@@ -66,6 +66,7 @@ class ShortRun:
         self._nodes: list[Any] = []
         self._lines: list[tuple[int, str, str]] = []
         self._steps = 0
+        self._slept = False
 
     def install(self) -> None:
         """Put ROS time, the logger and what waits under control."""
@@ -101,7 +102,7 @@ class ShortRun:
         ros.rclpy_logging_rcutils_log = log
         ros.WaitSet = WaitSet
         Rate.sleep = lambda _: run.end("waits")
-        time.sleep = lambda seconds: run._pass(int(float(seconds) * SECOND))
+        time.sleep = lambda seconds: run._sleep(float(seconds))
         builtins.input = lambda *_: run.end("waits")
 
     def _step(self, most: int) -> None:
@@ -122,6 +123,10 @@ class ShortRun:
             self.end("time")
         self._set_clocks()
 
+    def _sleep(self, seconds: float) -> None:
+        self._slept = True
+        self._pass(int(seconds * SECOND))
+
     def _set_clocks(self) -> None:
         from rclpy.time import Time  # noqa: PLC0415
 
@@ -133,7 +138,12 @@ class ShortRun:
 
     def end(self, how: str) -> NoReturn:
         """Report what was seen, and end the process."""
-        said = {"lines": self._lines, "ended": how, "steps": self._steps}
+        said = {
+            "lines": self._lines,
+            "ended": how,
+            "steps": self._steps,
+            "slept": self._slept,
+        }
         with os.fdopen(self._report, "wb", closefd=False) as pipe:
             pipe.write(json.dumps(said).encode())
         os._exit(0)

@@ -26,12 +26,14 @@ class ShortRun:
     """What a variant logged (instant in nanoseconds of ROS time, logger, text), and how it ended.
 
     `ended` is "lines" or "time" if it still ran, "waits" if it waits for what never comes,
-    "returned", "exit", "killed", or an exception with its line. `steps` is how often ROS time went on.
+    "returned", "exit", "killed", or an exception with its line. `steps` is how often ROS time went on,
+    `slept` whether the code called time.sleep, which holds up the callbacks.
     """
 
     lines: tuple[tuple[int, str, str], ...]
     ended: str
     steps: int
+    slept: bool = False
 
     @property
     def lives(self) -> bool:
@@ -86,7 +88,7 @@ def _take(line: str, found: list[ShortRun | None]) -> None:
         run = KILLED
         if seen is not None:
             lines = tuple((int(at), str(name), str(text)) for at, name, text in seen["lines"])
-            run = ShortRun(lines, str(seen["ended"]), int(seen["steps"]))
+            run = ShortRun(lines, str(seen["ended"]), int(seen["steps"]), bool(seen["slept"]))
         if isinstance(index, int) and 0 <= index < len(found):
             found[index] = run
     except (ValueError, TypeError, LookupError, RecursionError):

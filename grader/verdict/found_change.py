@@ -8,7 +8,11 @@ from dataclasses import dataclass
 from grader.package.edit.files import Files
 from grader.report.model import Where
 
+NEARLY, WHOLE = 8, 9
+"""How far a node gets that counts, and that counts in the right period without a sleep."""
 FAR = 2  # lines, from which a change is of another place
+ELSEWHERE = 10**6
+"""The distance of a change in another file."""
 
 
 @dataclass(frozen=True)
@@ -25,12 +29,20 @@ class Step:
 
 @dataclass(frozen=True)
 class FoundChange:
-    """One or two changes after which the node counts: the new texts of files, by their path."""
+    """One or two changes of a node: the new texts of files, by their path.
+
+    `level` is how far the node gets with it. If it does not count, the text of its lines is right.
+    """
 
     steps: tuple[Step, ...]
     texts: Mapping[str, str]
     cost: int
-    whole: bool
+    level: int = WHOLE
+
+    @property
+    def counts(self) -> bool:
+        """Whether the node counts with it."""
+        return self.level >= NEARLY
 
     def of(self, files: Files) -> Files:
         """Return the files with this change."""
@@ -39,13 +51,13 @@ class FoundChange:
         return files
 
     def distance(self, where: Where | None) -> int:
-        """Return how many lines its first change is from a place, at most `FAR`."""
+        """Return how many lines its first change is from a place."""
         step = self.steps[0]
         if where is None or where.file != step.path or not where.line:
-            return FAR
-        return min(abs(step.line - where.line), FAR)
+            return ELSEWHERE
+        return abs(step.line - where.line)
 
     @property
     def explains_itself(self) -> bool:
         """Whether it can be shown with the reason of another diagnosis of its line."""
-        return len(self.steps) == 1 and self.steps[0].sort != "emptied"
+        return self.counts and len(self.steps) == 1 and self.steps[0].sort != "emptied"

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from grader.base.i18n.message import Message, joined, say
@@ -27,9 +27,9 @@ from grader.sandbox.base import Sandbox
 from grader.verdict.checks.actual_node import actual_path
 from grader.verdict.checks.parsed import data_of
 from grader.verdict.evidence import Evidence, Search
-from grader.verdict.found_change import FoundChange, Step
+from grader.verdict.found_change import NEARLY, WHOLE, FoundChange, Step
 
-KIND = "node.small_change"
+KIND, FIRST = "node.small_change", "node.one_of_two"
 SECONDS = 8.0
 """The most wall time for all changes, and again for two changes together."""
 LEAST_SECONDS = 40.0
@@ -41,7 +41,7 @@ MOST_FIRST = 3
 MOST_FOUND = 12
 LEAST_LINES = 6
 LONGEST = 90  # characters of a piece of code that a text shows
-NEARLY, WHOLE = 8, 9  # how far a node gets that counts, and that counts in the right period
+TEXT = 5  # how far a node gets that logs the right text with other numbers
 
 
 def search_in(sandbox: Sandbox, until: float) -> Search:
@@ -70,6 +70,7 @@ class _Tried:
     cost: int
     level: int
     ended: str
+    slept: bool = False
 
 
 class _Search:
@@ -100,9 +101,11 @@ class _Search:
         good = [one for one in tried if one.level >= NEARLY and one.level > base.level]
         if not good:
             good = self._twice(base, tried)
-        good.sort(key=lambda one: (one.level < WHOLE, one.cost))
+        if not good and base.level < TEXT:
+            good = [one for one in tried if one.level == TEXT and one.steps[0].sort == "value"]
+        good.sort(key=lambda one: (-one.level, one.cost))
         return [
-            FoundChange(one.steps, one.texts, one.cost, one.level >= WHOLE)
+            FoundChange(_told(one, base), one.texts, one.cost, one.level)
             for one in good[:MOST_FOUND]
         ]
 
@@ -151,10 +154,18 @@ class _Search:
             seconds=SECONDS,
         )
         return [
-            _Tried(one.steps, one.texts, one.cost, level(run, self._output), run.ended)
+            _Tried(one.steps, one.texts, one.cost, level(run, self._output), run.ended, run.slept)
             for one, run in zip(tried, seen)
             if run is not None
         ]
+
+
+def _told(tried: _Tried, base: _Tried) -> tuple[Step, ...]:
+    """Return the steps of a change; a line without which the node does not sleep is told as that."""
+    last = tried.steps[-1]
+    if base.slept and not tried.slept and last.sort == "deleted":
+        return (*tried.steps[:-1], replace(last, sort="slept"))
+    return tried.steps
 
 
 def level(run: ShortRun, output: Output) -> int:
@@ -166,17 +177,17 @@ def level(run: ShortRun, output: Output) -> int:
     if len(counted) < LEAST_LINES:
         return 3 if run.lines else 2
     if [n for _, n in counted] != [output.start + k * output.step for k in range(len(counted))]:
-        return 5
+        return TEXT
     instants = [at for at, _ in counted]
     apart = {later - earlier for earlier, later in zip(instants, instants[1:])}
-    return WHOLE if apart == {round(output.period * 1e9)} else NEARLY
+    return WHOLE if apart == {round(output.period * 1e9)} and not run.slept else NEARLY
 
 
 def recognised(change: FoundChange) -> RecognisedMistake:
     """Return a change as a mistake of the catalogue, at its first step."""
     step = change.steps[0]
     return RecognisedMistake(
-        kind=KIND,
+        kind=KIND if change.counts else FIRST,
         params={"name": step.name, "written": step.written},
         words={"form": step.form},
         variant=_variant(step),
@@ -189,7 +200,8 @@ def fix_text(change: FoundChange, where: Where | None) -> Message | str:
     texts: list[Message | str] = []
     for step in change.steps:
         values = {"name": step.name, "written": step.written, "form": step.form}
-        text = CATALOGUE[KIND].fix_text(values, _variant(step))
+        kind = CATALOGUE[KIND if change.counts else FIRST]
+        text = kind.fix_text(values, _variant(step))
         here = where is not None and where.line == step.line and len(change.steps) == 1
         texts.append(text if here else say("Line {line}: {fix}", line=step.line, fix=text))
     return joined(*texts, by=" ")

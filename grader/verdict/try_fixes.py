@@ -62,17 +62,20 @@ def _with_small_change(
         evidence.found_changes = evidence.search(evidence)
     old, told, root = Files.of(evidence.submission), _told(evidence), _root(result)
     changes = [one for one in evidence.found_changes if root is None or _fits(one, result)]
-    changes.sort(
-        key=lambda one: (recognised(one).mistake not in told, one.distance(result.where), one.cost)
-    )
+    near = {id(one): one.distance(result.where) for one in changes}
+    changes.sort(key=lambda one: (-one.level, one.cost, near[id(one)]))
+    if root is not None:
+        changes.sort(key=lambda one: near[id(one)])
+    changes.sort(key=lambda one: recognised(one).mistake not in told)
     for change in changes[:MOST_ALTERNATIVES]:
         new = change.of(old)
-        if _Trial(result, evidence, translate).helps(new, on_top=0).helps:
+        if _Trial(result, evidence, translate).is_better(new, passes=change.counts):
             if root is None:
                 result = evaluate_again(result.id, evidence, translate, found=recognised(change))
             fix = result.fix if result.consequence_of else translate(fix_text(change, result.where))
-            other = translate(say("Another change may fit what you want to do better."))
-            update = {"fix": fix, "patch": patch_text(old, new), "advice": [*result.advice, other]}
+            other = [say("Another change may fit what you want to do better.")]
+            advice = [*result.advice, *map(translate, other if change.counts else [])]
+            update = {"fix": fix, "patch": patch_text(old, new), "advice": advice}
             return result.model_copy(update=update)
     return None
 
@@ -227,6 +230,17 @@ class _Trial:
         if worse:
             return Tried(False, new)
         return Tried(None, new, root.id if same else "")
+
+    def is_better(self, new: Files, *, passes: bool) -> bool:
+        """Whether the check passes with a fix, or (not `passes`) sees something else, and not worse."""
+        if passes:
+            return bool(self.helps(new, on_top=0).helps)
+        fixed = self._fixed(new)
+        if fixed is None or self._breaks_a_check(fixed):
+            return False
+        after = fixed.results[self._before.id]
+        other = after.status == "failed" and _seen(after)[0] != _seen(self._before)[0]
+        return other and _score(fixed.results) >= _score(self._all)
 
     def _with_consequences(self, tried: Tried, on_top: int) -> Tried:
         """Return a fix that helps together with one of what was told as a consequence, and still fails."""

@@ -19,10 +19,10 @@ from grader.sandbox.choose import open_sandbox
 from grader.verdict.evaluate import evaluate_checks
 from grader.verdict.evidence import Evidence
 from grader.verdict.evidence_file import Judged
-from grader.verdict.found_change import FoundChange, Step
+from grader.verdict.found_change import NEARLY, WHOLE, FoundChange, Step
 from grader.verdict.mark import mark, replay
 from grader.verdict.recording import Recording, evidence_of, record
-from grader.verdict.search import NEARLY, WHOLE, level
+from grader.verdict.search import TEXT, level
 from grader.verdict.try_fixes import with_tried_fix
 from tests import marking, recorded
 from tests.corpus.broken import BROKEN
@@ -56,10 +56,11 @@ LEVELS = [
     (run_of(), 2),
     (run_of((1, "hello"), (2, "hello")), 3),
     (counting(text="Hello Time: {}"), 3),
-    (counting(step=2), 5),
+    (counting(step=2), TEXT),
     (counting(period=0.5), NEARLY),
     (counting(), WHOLE),
     (replace(counting(), ended="lines"), WHOLE),
+    (replace(counting(), slept=True), NEARLY),
     (replace(counting(), ended="RecursionError 7"), 1),
     (run_of((0, "ready"), *((k + 1, f"Hello time: {k}") for k in range(8))), WHOLE),
 ]
@@ -103,7 +104,7 @@ def change(line: int, *sorts: str) -> FoundChange:
     """Return a change of the solution's file, at a line."""
     steps = [Step(sort, NODE, line, "old", "new") for sort in sorts or ("value",)]
     text = (SOLUTION / NODE).read_text() + "# changed\n"
-    return FoundChange(tuple(steps), {NODE: text}, 3, whole=True)
+    return FoundChange(tuple(steps), {NODE: text}, 3)
 
 
 def ids(result: CheckResult) -> list[str]:
@@ -155,6 +156,24 @@ def test_a_known_mistake_gets_no_change_of_another_line(tmp_path: Path) -> None:
     before, _ = found_with(KNOWN, tmp_path / "before", [], KNOWN)
     result, _ = found_with(KNOWN, tmp_path, [change(1)], "solution")
     assert texts(result) == texts(before)
+
+
+def test_of_changes_that_help_the_nearest_is_shown(tmp_path: Path) -> None:
+    before, _ = found_with("text_capital", tmp_path / "before", [], "text_capital")
+    assert before.where is not None
+    line = before.where.line or 0
+    found = [change(line + far) for far in (9, -3, 5)]
+    result, _ = found_with("text_capital", tmp_path, found, "solution")
+    assert result.where == Where(file=NODE, line=line - 3)
+
+
+def test_a_change_after_which_only_the_text_is_right_is_told_as_that(tmp_path: Path) -> None:
+    half = replace(change(14), level=TEXT)
+    result, _ = found_with("text_capital", tmp_path, [half], "copy_increased")
+    assert ids(result)[0] == "node.one_of_two"
+    assert result.fix == "Write new instead of old. Then grade again."
+    result, _ = found_with("text_capital", tmp_path / "again", [half], "text_capital")
+    assert ids(result) == ["run.wrong_text"]
 
 
 def test_two_changes_are_told_with_their_lines(tmp_path: Path) -> None:
@@ -284,4 +303,5 @@ def test_variants_run_with_the_real_ros(distro: str, tmp_path: Path) -> None:
     assert runs[3].ended.startswith("AttributeError")
     assert [run.ended for run in runs[4:6]] == ["waits", "killed"]
     assert [text for _, _, text in runs[6].lines[:2]] == ["Hello time: 0", "Hello time: 0"]
+    assert [run.slept for run in (runs[0], runs[6])] == [False, True]
     assert (runs[7].ended, len(runs[7].lines)) == ("returned", 1)

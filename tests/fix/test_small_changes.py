@@ -39,8 +39,8 @@ if __name__ == "__main__":
     main()
 """
 MISTAKES = [
-    ("self.create_timer(1.0,", "self.create_timer(1000,", "value"),
-    ("self.create_timer(1.0,", "self.create_timer(0.001,", "value"),
+    ("self.create_timer(1.0,", "self.create_timer(1000,", "seconds"),
+    ("self.create_timer(1.0,", "self.create_timer(0.001,", "seconds"),
     (".info(", ".debug(", "value"),
     ('"Hello time: " + ', '"Hello time: " - ', "value"),
     ("str(self.counter_)", "str([self.counter_])", "value"),

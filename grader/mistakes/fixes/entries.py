@@ -83,6 +83,33 @@ def swapped(case: Case) -> Files | None:
     )
 
 
+def key_once(case: Case) -> Files | None:
+    """Delete the second of two equal keys in a dict, if no entry is in its value."""
+    setup = read_setup_call(case)
+    line = case.finding.line
+    if setup is None or case.finding.mistake != "setup.misplaced_entry":
+        return None
+    for found in (n for n in ast.walk(setup.tree) if isinstance(n, ast.Dict)):
+        keys = [k.value if isinstance(k, ast.Constant) else None for k in found.keys]
+        inside = [at for at, v in enumerate(found.values) if line in range(v.lineno, _end(v) + 1)]
+        for at in inside:
+            later = [n for n in range(at + 1, len(keys)) if keys[n] == keys[at] is not None]
+            texts = [n for k in later for n in ast.walk(found.values[k]) if _is_entry(n)]
+            if len(later) == 1 and not texts:
+                start = setup.source.span(found.values[later[0] - 1])[1]
+                end = setup.source.span(found.values[later[0]])[1]
+                return case.with_data(FILE, setup.source.spliced([Splice(start, end, "")]))
+    return None
+
+
+def _end(node: ast.expr) -> int:
+    return node.end_lineno or node.lineno
+
+
+def _is_entry(node: ast.AST) -> bool:
+    return isinstance(node, ast.Constant) and isinstance(node.value, str) and "=" in node.value
+
+
 def _written_out(case: Case, entry: Entry) -> Files | None:
     """Write the required entry in place of the only expression that makes the wrong one."""
     setup = read_setup_call(case) if entry.file == FILE else None

@@ -102,7 +102,8 @@ class Misplaced:
     """An entry that is in setup.py, but not in entry_points; `argument` is "" outside of setup().
 
     `variable` is the dict of groups that holds it, if setup() does not get that; `is_late` if it
-    is set below the call.
+    is set below the call. `twice` is the key of a dict that has it and is written again in the line
+    `again`.
     """
 
     text: str
@@ -110,6 +111,8 @@ class Misplaced:
     argument: str
     variable: str = ""
     is_late: bool = False
+    twice: str = ""
+    again: int = 0
 
 
 def misplaced(tree: ast.Module, name: str) -> Misplaced | None:
@@ -122,8 +125,21 @@ def misplaced(tree: ast.Module, name: str) -> Misplaced | None:
         argument = holders.get(id(node), "")
         if begins.match(node.value) and argument != "entry_points":
             variable, is_late = ("", False) if argument else _variable(tree, node)
-            return Misplaced(node.value.strip(), node.lineno, argument, variable, is_late)
+            twice, again = _written_again(tree, node)
+            entry = node.value.strip()
+            return Misplaced(entry, node.lineno, argument, variable, is_late, twice, again)
     return None
+
+
+def _written_again(tree: ast.Module, entry: ast.Constant) -> tuple[str, int]:
+    """Return the key of a dict whose value has an entry, and the line of the same key below it."""
+    for found in (n for n in ast.walk(tree) if isinstance(n, ast.Dict)):
+        keys = [(k.value, k.lineno) if isinstance(k, ast.Constant) else ("", 0) for k in found.keys]
+        for at, (key, _) in enumerate(keys):
+            later = [line for name, line in keys[at + 1 :] if name == key]
+            if key and later and any(n is entry for n in ast.walk(found.values[at])):
+                return str(key), later[-1]
+    return "", 0
 
 
 def _variable(tree: ast.Module, entry: ast.Constant) -> tuple[str, bool]:

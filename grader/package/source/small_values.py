@@ -29,6 +29,7 @@ SUMS: tuple[type[ast.AST], ...] = (ast.Add, ast.Sub)
 COMPARED: tuple[type[ast.AST], ...] = (ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq)
 NEAR = ({ast.Lt, ast.LtE}, {ast.Gt, ast.GtE}, {ast.Lt, ast.Gt}, {ast.LtE, ast.GtE})
 BUILTINS = frozenset(dir(builtins))
+UNIT = 2  # the cost of a number in another unit
 SCALES = (10, 60, 100, 1000, 3600, 10**6, 10**9)
 """A period in another unit is so many times the required one, or so small a part of it."""
 
@@ -65,7 +66,9 @@ def _numbers(module: Module, source: NodeSource, goal: Goal) -> Found:
             near += [round(value * 10, 9), round(value / 10, 9)]
             wanted = dict.fromkeys([goal.start, goal.step, goal.period, *near])
             for number in (n for n in wanted if n != value and n >= -1):
-                yield _cost(value, number, goal), of_piece(module, "value", node, str(number))
+                cost = _cost(value, number, goal)
+                sort = "seconds" if cost == UNIT else "value"
+                yield cost, of_piece(module, sort, node, str(number))
         elif isinstance(value, str) and value.isidentifier():
             for other in dict.fromkeys(_words(module)):
                 yield 4, of_piece(module, "value", node, repr(other))
@@ -76,7 +79,7 @@ def _cost(value: float, number: float, goal: Goal) -> int:
     if number == goal.period and value > 0:
         times = max(value / number, number / value)
         if any(abs(times - scale) < 1e-9 * scale for scale in SCALES):
-            return 2
+            return UNIT
     return 4 if number in (goal.start, goal.step) else 5
 
 
@@ -170,6 +173,10 @@ def _arguments(module: Module, source: NodeSource, goal: Goal) -> Found:
         for gone in given:
             rest = ", ".join(text.code(one) for one in given if one is not gone)
             yield 3, of_piece(module, "argument", call, f"{function}({rest})")
+        for keyword in call.keywords[:1] if not call.args else ():
+            rest = "".join(f", {text.code(one)}" for one in call.keywords[1:])
+            new = f"{function}({text.code(keyword.value)}{rest})"
+            yield 2, of_piece(module, "value", call, new)
         if len(call.args) == 2 and not call.keywords:
             first, second = (text.code(one) for one in call.args)
             yield 2, of_piece(module, "value", call, f"{function}({second}, {first})")

@@ -32,7 +32,13 @@ from grader.report.model import Where
 from grader.verdict.checks.build_log import is_inside, last_error, setup_error, summary_of
 from grader.verdict.checks.cmake import CMAKE, cmake_error
 from grader.verdict.checks.declare import BUILD, check
-from grader.verdict.checks.parsed import has_subpackages, node_path, paths_in, printable_reason
+from grader.verdict.checks.parsed import (
+    data_of,
+    has_subpackages,
+    node_path,
+    paths_in,
+    printable_reason,
+)
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -435,6 +441,16 @@ def _answer(evidence: Evidence, expected: str) -> Failed:
             words=fault.words,
         )
     writes = any(word in code for word in (b"print", b"stdout", b"system", b"subprocess"))
+    line = _python_requires(evidence)
+    if line and not writes:
+        return Failed(
+            "build.setup_prints",
+            expected=expected,
+            actual=say("colcon could not read the answer of setup.py"),
+            where=Where(file="setup.cfg", line=line),
+            variant="cfg_python",
+            params={"entry": line},
+        )
     printed = say("setup.py prints something: colcon could not read its answer")
     return Failed(
         "build.setup_prints",
@@ -443,6 +459,16 @@ def _answer(evidence: Evidence, expected: str) -> Failed:
         where=Where(file="setup.py", line=_first_print(evidence)),
         variant="" if writes else "answer",
     )
+
+
+def _python_requires(evidence: Evidence) -> int:
+    """Return the line of python_requires in setup.cfg, of which setuptools makes an object; else 0."""
+    try:
+        cfg = read_setup_cfg(data_of(evidence, "setup.cfg") or b"")
+    except SetupCfgFault:
+        return 0
+    found = cfg.sections.get("options", {}).get("python_requires")
+    return found.line if found is not None else 0
 
 
 @dataclass(frozen=True)

@@ -323,6 +323,9 @@ def _misplaced(evidence: Evidence, entry: Misplaced) -> Failed:
     if entry.variable:
         variant = "late" if entry.is_late else "variable"
         actual = say("setup() does not get {name}", name=shown(entry.variable))
+    elif entry.twice:
+        key, variant = shown(entry.twice), "key_twice"
+        actual = say("line {line} replaces it: '{key}' is written again", key=key, line=entry.again)
     elif not argument:
         actual = say("it is outside of setup()")
     elif argument == "console_scripts":
@@ -338,7 +341,11 @@ def _misplaced(evidence: Evidence, entry: Misplaced) -> Failed:
             "argument": argument,
             **({"variable": shown(entry.variable)} if variant == "variable" else {}),
         },
-        words={"wanted": wanted_entry(evidence), "name": shown(entry.variable)},
+        words={
+            "wanted": wanted_entry(evidence),
+            "name": shown(entry.twice or entry.variable),
+            "line": entry.again,
+        },
     )
 
 
