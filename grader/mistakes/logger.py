@@ -138,6 +138,12 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
         target = node.targets[0] if isinstance(node, ast.Assign) else None
         if target is not None and dotted(target).endswith("get_logger().info"):
             return replace(suspect.finding("log_missing", target), variant="assigned")
+    named = node_log.named_only(callback)
+    if named is not None:
+        code = source.module_of(callback).text.code(named[0])
+        found = suspect.finding("log_missing", named[0])
+        words = {**found.words, "name": code, "line": str(named[1].lineno)}
+        return replace(found, words=words, variant="named")
     if _logs_further(source, callback):
         return None
     if (late := _logs_after_spin(suspect, callback)) is not None:
@@ -575,6 +581,10 @@ KINDS = (
         links.LOGGING,
         whys={
             "assigned": msg("= replaces the method info by the text, and calls nothing."),
+            "named": msg(
+                "{name} only names the method: without () nothing is called. What line {line} "
+                "computes goes nowhere."
+            ),
             "after_spin": msg(
                 "This line is below spin (line {line}), which returns only after Ctrl+C. Until then, "
                 "ROS runs nothing but callbacks, and {callback} logs nothing."
@@ -586,6 +596,9 @@ KINDS = (
         },
         fixes={
             "assigned": msg("Remove the = after info: the text stands in its ()."),
+            "named": msg(
+                "Write {name}(…) with the text of line {line} in the (), and delete line {line}."
+            ),
             "after_spin": msg(
                 "Call {method} in {callback} instead, and delete the lines below spin that were to do it."
             ),
@@ -594,8 +607,18 @@ KINDS = (
             "lambda": msg("Write {written} instead of {name}."),
         },
         behind={"run.no_lines": _missing},
-        fixed_by=(node_log.called,),
+        fixed_by=(node_log.called, node_log.called_with_next),
         examples=(
+            example(
+                "log_named_above_its_text",
+                Replace(
+                    NODE,
+                    "        self.get_logger().info('Hello time: ' + str(self.counter_))\n",
+                    "        self.get_logger().info\n        f'Hello time: {self.counter_}'\n",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
             example(
                 "log_assigned",
                 Replace(

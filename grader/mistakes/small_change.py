@@ -52,6 +52,14 @@ KINDS = (
             "deleted": msg(
                 "The grader ran the node without this line, and then this check passes."
             ),
+            "moved_lines": msg(
+                "The order of these lines matters. The grader ran the node with all lines of {name} "
+                "above {written}, and then this check passes."
+            ),
+            "base": msg(
+                "{name} is not the Node of rclpy. The grader ran the node with that as the base of "
+                "the class, and then this check passes."
+            ),
             "slept": msg(
                 "This line sleeps, and while a callback sleeps, nothing else in the node runs. The "
                 "grader ran the node without this line, and then this check passes."
@@ -106,6 +114,10 @@ KINDS = (
             "out": msg("Move this line out of the block of {form}, to below it."),
             "moved": msg("Move this line above {written}."),
             "deleted": msg("Delete this line."),
+            "moved_lines": msg("Move all lines of {name} above {written}."),
+            "base": msg(
+                "Write Node instead of {name}, and at the top of the file: from rclpy.node import Node"
+            ),
             "slept": msg("Delete this line: the timer waits, and not the callback."),
             "deleted_lines": msg("Delete the lines that the change below takes away."),
             "emptied": msg("Write pass instead of this line."),

@@ -48,6 +48,9 @@ def _outside_init(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
 def _missing(suspect: Suspect) -> RecognisedMistake | None:
     if suspect.source.timers:
         return None
+    subscribed = _subscribed(suspect)
+    if subscribed is not None:
+        return subscribed
     found = suspect.finding("timer_missing", suspect.source.methods.get("__init__"))
     callback = suspect.source.callback
     if suspect.source.node_class is None:
@@ -65,6 +68,22 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
     if loop is None:
         return found
     return replace(found, words={**found.words, "line": str(loop.lineno)}, variant="loop")
+
+
+def _subscribed(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a subscription whose callback is a method that logs, and takes one message."""
+    source = suspect.source
+    for call in source.calls_of("create_subscription"):
+        given = [*call.args[2:3], *(k.value for k in call.keywords if k.arg == "callback")]
+        method = source.methods.get(own_name(given[0])) if given else None
+        parameters = [a.arg for a in method.args.args[1:]] if method is not None else []
+        if method is not None and source.logs(method) and len(parameters) == 1:
+            new = f"self.create_timer({suspect.output.period!r}, self.{method.name})"
+            params = {"parameter": parameters[0], "method": method.name}
+            found = suspect.finding("timer_missing", call, **params)
+            words = {**found.words, "line": str(method.lineno), "written": new}
+            return replace(found, variant="subscription", words=words)
+    return None
 
 
 def _called_once(suspect: Suspect) -> RecognisedMistake | None:
@@ -302,10 +321,18 @@ KINDS = (
         msg("Only a timer calls the callback again and again."),
         msg("Write in __init__: self.create_timer({period}, self.{callback})"),
         whys={
-            "by_hand": msg("{name} calls the method once. Only a timer calls it again and again.")
+            "by_hand": msg("{name} calls the method once. Only a timer calls it again and again."),
+            "subscription": msg(
+                "A subscription calls {method} only when a message comes on its topic, and nothing "
+                "here publishes one. Only a timer calls it again and again."
+            ),
         },
         fixes={
             "by_hand": msg("Write {written} instead of {name}."),
+            "subscription": msg(
+                "Write {written} instead of the call of create_subscription. A timer gives its "
+                "callback no message: delete {parameter} from the def in line {line}."
+            ),
             "no_init": msg(
                 "Write on a line of its own below the one that creates the node: "
                 "{node}.create_timer({period}, {node}.{callback})"
@@ -317,8 +344,26 @@ KINDS = (
             ),
         },
         behind={"run.no_lines": _missing, "run.stops": _called_once},
-        fixed_by=(lines.written, node_timer.made),
+        fixed_by=(lines.written, node_timer.subscribed, node_timer.made),
         examples=(
+            example(
+                "subscription_instead_of_the_timer",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)\n",
+                    "        self.subscription = self.create_subscription(\n"
+                    "            String, 'topic', self.timer_callback, 10)\n"
+                    "        self.subscription\n",
+                ),
+                Replace(NODE, "def timer_callback(self):", "def timer_callback(self, msg):"),
+                Replace(
+                    NODE,
+                    "from rclpy.node import Node\n",
+                    "from rclpy.node import Node\nfrom std_msgs.msg import String\n",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
             example(
                 "callback_called_once",
                 Replace(

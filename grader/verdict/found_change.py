@@ -11,6 +11,8 @@ from grader.report.model import Where
 NEARLY, WHOLE = 8, 9
 """How far a node gets that counts, and that counts in the right period without a sleep."""
 FAR = 2  # lines, from which a change is of another place
+OWN_REASON = ("emptied", "moved_lines", "renamed", "out", "condition", "loop", "with", "else")
+"""The sorts of changes that only their own reason explains."""
 ELSEWHERE = 10**6
 """The distance of a change in another file."""
 
@@ -51,13 +53,14 @@ class FoundChange:
         return files
 
     def distance(self, where: Where | None) -> int:
-        """Return how many lines its first change is from a place."""
+        """Return how many lines its first change is from a place: what is moved, or where to."""
         step = self.steps[0]
         if where is None or where.file != step.path or not where.line:
             return ELSEWHERE
-        return abs(step.line - where.line)
+        lines = [step.line, *([int(step.form)] if step.sort == "moved" else [])]
+        return min(abs(line - where.line) for line in lines)
 
     @property
     def explains_itself(self) -> bool:
         """Whether it can be shown with the reason of another diagnosis of its line."""
-        return self.counts and len(self.steps) == 1 and self.steps[0].sort != "emptied"
+        return self.counts and len(self.steps) == 1 and self.steps[0].sort not in OWN_REASON

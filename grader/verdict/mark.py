@@ -35,6 +35,8 @@ if TYPE_CHECKING:
     from grader.verdict.found_change import FoundChange
     from grader.verdict.recording import Recording
 
+ISOLATING = ("bubblewrap", "docker")
+"""The sandboxes in which changed code of a student's may run: it may delete what the student's does not."""
 Keep = Callable[["Judged"], None]
 
 
@@ -78,7 +80,8 @@ def mark(
         evidence.distro = order.distro
         if order.tries_fixes:
             evidence.with_fix = _with_fix(order, session, listener, translate)
-            evidence.search = _search(session, listener, translate)
+            if sandbox.name in ISOLATING:
+                evidence.search = _search(session, listener, translate)
         results = _decide(evidence, listener, translate)
         environment = _environment(sandbox)
     if keep is not None:

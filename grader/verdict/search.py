@@ -41,7 +41,8 @@ MOST_FIRST = 3
 MOST_FOUND = 12
 LEAST_LINES = 6
 LONGEST = 90  # characters of a piece of code that a text shows
-TEXT = 5  # how far a node gets that logs the right text with other numbers
+TEXT, STEP = 5, 6
+"""How far a node gets that logs the right text, and that has the right step but not the start."""
 
 
 def search_in(sandbox: Sandbox, until: float) -> Search:
@@ -102,7 +103,9 @@ class _Search:
         if not good:
             good = self._twice(base, tried)
         if not good and base.level < TEXT:
-            good = [one for one in tried if one.level == TEXT and one.steps[0].sort == "value"]
+            good = [
+                one for one in tried if one.level in (TEXT, STEP) and one.steps[0].sort == "value"
+            ]
         good.sort(key=lambda one: (-one.level, one.cost))
         return [
             FoundChange(_told(one, base), one.texts, one.cost, one.level)
@@ -176,10 +179,12 @@ def level(run: ShortRun, output: Output) -> int:
     counted = [(at, n) for at, _, text in run.lines if (n := number(text)) is not None]
     if len(counted) < LEAST_LINES:
         return 3 if run.lines else 2
-    if [n for _, n in counted] != [output.start + k * output.step for k in range(len(counted))]:
-        return TEXT
+    numbers = [n for _, n in counted]
+    if numbers != [output.start + k * output.step for k in range(len(counted))]:
+        steps = {later - earlier for earlier, later in zip(numbers, numbers[1:])}
+        return STEP if steps == {output.step} else TEXT
     instants = [at for at, _ in counted]
-    apart = {later - earlier for earlier, later in zip(instants, instants[1:])}
+    apart = {later - earlier for earlier, later in zip([0, *instants], instants)}
     return WHOLE if apart == {round(output.period * 1e9)} and not run.slept else NEARLY
 
 

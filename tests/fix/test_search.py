@@ -22,7 +22,7 @@ from grader.verdict.evidence_file import Judged
 from grader.verdict.found_change import NEARLY, WHOLE, FoundChange, Step
 from grader.verdict.mark import mark, replay
 from grader.verdict.recording import Recording, evidence_of, record
-from grader.verdict.search import TEXT, level
+from grader.verdict.search import STEP, TEXT, level
 from grader.verdict.try_fixes import with_tried_fix
 from tests import marking, recorded
 from tests.corpus.broken import BROKEN
@@ -44,7 +44,7 @@ def run_of(*lines: tuple[float, str], ended: str = "time", steps: int = 9) -> Sh
 
 
 def counting(*, period: float = 1.0, step: int = 1, text: str = "Hello time: {}") -> ShortRun:
-    return run_of(*((k * period, text.format(k * step)) for k in range(8)))
+    return run_of(*(((k + 1) * period, text.format(k * step)) for k in range(8)))
 
 
 LEVELS = [
@@ -57,10 +57,12 @@ LEVELS = [
     (run_of((1, "hello"), (2, "hello")), 3),
     (counting(text="Hello Time: {}"), 3),
     (counting(step=2), TEXT),
+    (run_of(*((k, f"Hello time: {k + 1}") for k in range(8))), STEP),
     (counting(period=0.5), NEARLY),
     (counting(), WHOLE),
     (replace(counting(), ended="lines"), WHOLE),
     (replace(counting(), slept=True), NEARLY),
+    (run_of(*((k + 1.1, f"Hello time: {k}") for k in range(8))), NEARLY),
     (replace(counting(), ended="RecursionError 7"), 1),
     (run_of((0, "ready"), *((k + 1, f"Hello time: {k}") for k in range(8))), WHOLE),
 ]
@@ -305,3 +307,18 @@ def test_variants_run_with_the_real_ros(distro: str, tmp_path: Path) -> None:
     assert [text for _, _, text in runs[6].lines[:2]] == ["Hello time: 0", "Hello time: 0"]
     assert [run.slept for run in (runs[0], runs[6])] == [False, True]
     assert (runs[7].ended, len(runs[7].lines)) == ("returned", 1)
+
+
+@pytest.mark.full
+def test_changed_code_runs_only_where_it_is_isolated(tmp_path: Path) -> None:
+    root = package_with(MASKED, tmp_path)
+    seen: list[str] = []
+
+    def listen(event: object) -> None:
+        seen.append(str(getattr(event, "stage", "")))
+
+    order = replace(marking.order(root, sandbox="none"), tries_fixes=True)
+    report = mark(marking.taken_in(root), order, listen)
+    check = next(check for check in report.checks if check.status == "failed")
+    assert (ids(check), check.patch) == (["run.wrong_step"], "")
+    assert "search" not in seen

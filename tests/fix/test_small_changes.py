@@ -91,6 +91,27 @@ def test_one_of_the_changes_undoes_a_mistake(right: str, wrong: str, sort: str) 
     assert [one.change.sort for one in found][:1] == [sort]
 
 
+def test_a_second_class_of_the_same_name_is_left_out() -> None:
+    again = "class MyFirstNode(Node):\n    pass\n\n\n"
+    text = NODE.replace("def main(", again + "def main(")
+    found = [one for one in changes(text) if same(one.text) == same(NODE)]
+    assert [one.change.sort for one in found] == ["deleted_lines"]
+    moved = [one for one in changes(text) if one.change.sort.startswith("moved")]
+    assert not [one for one in moved if one.change.name.startswith("class ")]
+
+
+def test_another_base_becomes_rclpys_node() -> None:
+    text = NODE.replace("from rclpy.node import Node", "from platform import node")
+    text = text.replace("(Node)", "(node)")
+    found = [one.text for one in changes(text) if one.change.sort == "base"]
+    assert [one.splitlines()[0] for one in found] == ["from rclpy.node import Node"]
+    assert "class MyFirstNode(Node):" in found[0]
+
+
+def test_what_is_counted_already_is_not_counted_twice() -> None:
+    assert not [one for one in changes(NODE) if one.change.sort == "below"]
+
+
 def test_a_line_is_moved_out_of_a_branch() -> None:
     branch = (
         "        if self.counter_ % 2:\n            print('odd')\n            self.counter_ += 1\n"

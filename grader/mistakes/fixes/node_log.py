@@ -10,12 +10,12 @@ from grader.mistakes.fixes.case import Case, Fix
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
 from grader.package.source.counter import starts_of, texts_of
-from grader.package.source.module import Module
+from grader.package.source.module import Function, Module
 from grader.package.source.names import called_name, dotted, own_name
 from grader.package.source.node import NodeSource, read_node
 from grader.package.source.number_forms import number_forms
 from grader.package.source.one_change import logged_lines
-from grader.package.source.place import statement_at
+from grader.package.source.place import blocks_in, statement_at
 from grader.package.source.played import SHOWN_LEVELS
 
 PLACE = re.compile(r"\{((?:[A-Za-z_]\w*\.)?[A-Za-z_]\w*)\}")
@@ -42,6 +42,33 @@ def right_text(fix: Fix) -> Fix:
         return files if right else None
 
     return checked
+
+
+def named_only(callback: Function) -> tuple[ast.expr, ast.expr] | None:
+    """Return a method of the logger that is only named, and the text in the statement below it."""
+    for block in blocks_in(callback):
+        for first, second in zip(block, block[1:]):
+            if not isinstance(first, ast.Expr) or not isinstance(second, ast.Expr):
+                continue
+            method, text = first.value, second.value
+            is_text = isinstance(text, ast.JoinedStr | ast.BinOp)
+            if isinstance(method, ast.Attribute) and method.attr in SHOWN_LEVELS and is_text:
+                return method, text
+    return None
+
+
+def called_with_next(case: Case) -> Files | None:
+    """Call the method that is only named, with the text below it."""
+    node = case.node
+    callback = node.callback if node is not None else None
+    found = named_only(callback) if callback is not None else None
+    if node is None or callback is None or found is None:
+        return None
+    module = node.module_of(callback)
+    method, text = found
+    code = f"{module.text.code(method)}({module.text.code(text)})"
+    gone = [module.text.without(n) for n in range(text.lineno, (text.end_lineno or 0) + 1)]
+    return case.changed(module, module.text.swap(method, code), *gone)
 
 
 def f_prefix(case: Case) -> Files | None:

@@ -308,6 +308,23 @@ def by_hand(case: Case) -> Files | None:
     return case.changed(node.module, text.without(calls[0].lineno))
 
 
+def subscribed(case: Case) -> Files | None:
+    """Create a timer instead of a subscription, whose callback then has no message."""
+    node, method = case.node, str(case.finding.params.get("method", ""))
+    function = node.methods.get(method) if node is not None else None
+    if node is None or function is None or len(function.args.args) != 2:
+        return None
+    module = node.module_of(function)
+    first, second = function.args.args
+    calls = [c for c in node.calls_of("create_subscription") if c.lineno == case.finding.line]
+    used = [n for n in ast.walk(function) if isinstance(n, ast.Name) and n.id == second.arg]
+    if len(calls) != 1 or used or node.module_of(calls[0]) is not module:
+        return None
+    new = f"self.create_timer({case.assignment.output.period!r}, self.{method})"
+    gone = Splice(module.text.span(first)[1], module.text.span(second)[1], "")
+    return case.changed(module, module.text.swap(calls[0], new), gone)
+
+
 def made(case: Case) -> Files | None:
     """Create the missing timer, if exactly one method can be its callback."""
     node = case.node

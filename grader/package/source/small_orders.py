@@ -7,7 +7,7 @@ import ast
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.change import Change, of_piece
 from grader.package.source.module import Function, Module, is_text
-from grader.package.source.names import called_name
+from grader.package.source.names import called_name, dotted
 from grader.package.source.node import LOG_METHODS, NodeSource
 from grader.package.source.place import block_of, blocks_in
 from grader.package.source.small_values import MOST_NAMES, Found, Goal, Sort, counters_of
@@ -77,15 +77,23 @@ def _order(module: Module, source: NodeSource, goal: Goal) -> Found:
     for block in blocks_in(module.tree):
         own = [s for s in block if _owns_lines(module, s) and not is_text(s)]
         for at, moved in enumerate(own):
-            if isinstance(moved, ast.Import | ast.ImportFrom):
+            if isinstance(moved, ast.ClassDef):
                 continue
+            sort = "moved_lines" if len(_rows(moved)) > 1 else "moved"
             code = [text.line(row) for row in _rows(moved)]
             gone = tuple(text.without(row) for row in _rows(moved))
             for to, other in enumerate(own):
                 if to not in (at, at + 1):
                     put = text.before(_first_row(other), *code)
                     shown = module.line(other.lineno)
-                    change = Change("moved", moved, module.line(moved.lineno), shown, (*gone, put))
+                    change = Change(
+                        sort,
+                        moved,
+                        module.line(moved.lineno),
+                        shown,
+                        (*gone, put),
+                        str(other.lineno),
+                    )
                     yield 4 + (abs(at - to) > 1), change
 
 
@@ -101,7 +109,8 @@ def _added(module: Module, source: NodeSource, goal: Goal) -> Found:
         if any(
             isinstance(n, ast.Call) and called_name(n) in LOG_METHODS for n in ast.walk(function)
         ):
-            for name in counters_of(source):
+            counted = _added_to(function)
+            for name in (n for n in counters_of(source) if n not in counted):
                 line = f"{name} += {goal.step}"
                 put = text.before((last.end_lineno or 0) + 1, indent + line)
                 yield 3, Change("below", last, module.line(last.lineno), line, (put,))
@@ -110,6 +119,11 @@ def _added(module: Module, source: NodeSource, goal: Goal) -> Found:
             put = text.before(first.lineno, f"{indent}global {name}")
             code = module.line(first.lineno)
             yield 4, Change("above", first, code, f"global {name}", (put,))
+
+
+def _added_to(function: Function) -> set[str]:
+    """Return the names that a function adds to."""
+    return {dotted(n.target) for n in ast.walk(function) if isinstance(n, ast.AugAssign)}
 
 
 def _stored(node: ast.AST) -> set[str]:
@@ -128,8 +142,9 @@ def _removed(module: Module, source: NodeSource, goal: Goal) -> Found:
                 yield 5, _without(module, node)
             else:
                 yield 5, of_piece(module, "emptied", node, "pass")
-        elif isinstance(node, Function):
-            names = [n.name for n in block_of(module, node) if isinstance(n, Function)]
+        elif isinstance(node, Function | ast.ClassDef):
+            kinds = Function | ast.ClassDef
+            names = [n.name for n in block_of(module, node) if isinstance(n, kinds)]
             if names.count(node.name) > 1 and _owns_lines(module, node):
                 yield 3, _without(module, node)
             for decorator in node.decorator_list:

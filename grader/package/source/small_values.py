@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from grader.package.edit.text import Splice
 from grader.package.source.change import Change, of_piece
 from grader.package.source.module import Function, Module
-from grader.package.source.names import called_name, dotted, own_name
+from grader.package.source.names import called_name, calls_in, dotted, own_name
 from grader.package.source.node import LOG_METHODS, NodeSource
 
 SHOWN = ("info", "warn", "warning", "error", "fatal")
@@ -134,6 +134,32 @@ def _operators(module: Module, source: NodeSource, goal: Goal) -> Found:
             new = f"{text.code(node.targets[0])} += {text.code(node.value)}"
             if module.parents.get(node) is not module.tree:
                 yield 3, of_piece(module, "value", node, new)
+
+
+def _counting(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield statements that add to a name instead of those that set it, in functions that log."""
+    del source
+    text = module.text
+    for function in (n for n in module.nodes if isinstance(n, Function)):
+        if any(called_name(call) in LOG_METHODS for call in (c for c, _ in calls_in(function))):
+            for node in ast.walk(function):
+                if isinstance(node, ast.Assign) and is_name(node.targets[0]):
+                    new = f"{text.code(node.targets[0])} += {goal.step}"
+                    yield 4, of_piece(module, "value", node, new)
+
+
+def _bases(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield the classes with rclpy's Node as their base, and its import."""
+    del source, goal
+    text = module.text
+    imports = [s for s in module.tree.body if isinstance(s, ast.Import | ast.ImportFrom)]
+    for found in module.classes:
+        for base in found.bases if imports else ():
+            if text.code(base) == "Node":
+                continue
+            line = text.before(imports[0].lineno, "from rclpy.node import Node")
+            splices = (line, text.swap(base, "Node"))
+            yield 4, Change("base", base, text.code(base), "Node", splices)
 
 
 def _between(module: Module, whole: ast.expr, left: ast.expr, right: ast.expr, sign: str) -> Change:
@@ -324,4 +350,5 @@ def is_name(node: ast.AST) -> bool:
 
 SORTS: tuple[Sort, ...] = (
     *(_logged, _called, _timers, _numbers, _operators, _arguments, _names, _parts, _renamed),
+    *(_counting, _bases),
 )
