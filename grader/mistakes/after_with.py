@@ -106,10 +106,28 @@ def _not_running(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
         return None
     if (found := _ended_by_finally(raised)) is not None:
         return found
+    if (found := _other_context(raised)) is not None:
+        return found
     statement = statement_at(raised.module, raised.line)
     calls = [last_part(name) for _, name in calls_in(statement)] if statement is not None else []
     spins = any(name in SPINS or name.endswith("Executor") for name in calls)
     return raised.finding("ros_not_running") if raised.inside == "rclpy" and spins else None
+
+
+def _other_context(raised: Raised) -> RecognisedMistake | None:
+    """Look for an init in a context of its own, where spin uses the default one."""
+    source = raised.source
+    statement = statement_at(raised.module, raised.line)
+    spins = [c for c, name in calls_in(statement) if last_part(name) in SPINS] if statement else []
+    plain = [c for c in spins if len(c.args) < 2 and not c.keywords]
+    inits = [c for c, name in source.calls if name in ("rclpy.init", "init")]
+    given = [k.value for c in inits for k in c.keywords if k.arg == "context" and dotted(k.value)]
+    if len(inits) != 1 or len(given) != 1 or not plain:
+        return None
+    node = dotted(plain[0].args[0]) if plain[0].args else ""
+    words = {"name": dotted(given[0]), "line": str(inits[0].lineno), "node": node or "node"}
+    found = raised.finding("ros_not_running")
+    return replace(found, variant="context", words={**found.words, **words})
 
 
 def _ended_by_finally(raised: Raised) -> RecognisedMistake | None:
@@ -246,19 +264,42 @@ KINDS = (
             "Ctrl+C, which ends spin. This line must run before that, or not at all."
         ),
         whys={
+            "context": msg(
+                "rclpy.init(context={name}) in line {line} starts ROS in the context {name} only. spin "
+                "without an executor uses the default context, and ROS does not run there."
+            ),
             "finally": msg(
                 "The lines of a finally run as soon as its try is left, also by a return: {called} "
                 "returns in line {line}, and {name} shuts ROS down before anything spins."
-            )
+            ),
         },
         fixes={
+            "context": msg(
+                "Delete context={name} from rclpy.init, and the context that the node and the "
+                "clean-up get: then all use the default one. Or write instead of this line: executor = "
+                "rclpy.executors.SingleThreadedExecutor(context={name}), executor.add_node({node}) and "
+                "executor.spin(), each on a line of its own."
+            ),
             "finally": msg(
                 "Delete the try and the finally of {called}, but keep the lines of the try. Write {name} "
                 "as the last line of {function} instead, below the line that spins."
-            )
+            ),
         },
         raised={NO_CONTEXT: _not_running},
         examples=(
+            example(
+                "context_of_its_own_without_an_executor",
+                Replace(
+                    NODE,
+                    "super().__init__('my_first_node')",
+                    "super().__init__('my_first_node', context=CONTEXT)",
+                ),
+                Replace(
+                    NODE, "class MyFirstNode(", "CONTEXT = rclpy.Context()\n\n\nclass MyFirstNode("
+                ),
+                Replace(NODE, "rclpy.init(args=args)", "rclpy.init(args=args, context=CONTEXT)"),
+                fails="run.starts",
+            ),
             example(
                 "finally_of_a_function_that_returns_the_node",
                 Replace(

@@ -623,6 +623,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "function": "atexit.register",
     },
     "node.one_of_two": {"name": "'Hello: ',", "written": "'Hello: '"},
+    "node.made_each_round": {
+        "name": "node = MyFirstNode()",
+        "variable": "node",
+        "line": "22",
+    },
     "node.small_change": {"name": "self.n & 7", "written": "self.n", "form": "if self.n:"},
     "node.any_change": {"name": "self.n = 1 - self.n", "written": "self.n += 1"},
     "node.environment": {"name": "os.environ['PERIOD']", "variable": "PERIOD"},

@@ -200,12 +200,19 @@ def _main_in_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
     if above:
         mistake = raised.finding("main_in_class", at=found)
         head = ", ".join(raised.source.entry.line(row).strip() for row in above)
-        return replace(mistake, variant="head", words={**mistake.words, "head": head})
+        words = {**mistake.words, "head": head}
+        first = found.args.args[0].arg if found.args.args else ""
+        used = [n for n in ast.walk(found) if isinstance(n, ast.Name) and n.id == first]
+        owner = around.name if isinstance(around, ast.ClassDef) else ""
+        if owner and used and "classmethod" in {dotted(d) for d in found.decorator_list}:
+            words |= {"parameter": first, "type": owner}
+            return replace(mistake, variant="head_cls", words=words)
+        return replace(mistake, variant="head", words=words)
     if not uses:
         return raised.finding("main_in_class", at=found)
     code = raised.source.entry.text.code(uses[0])
-    words = {"name": code, "written": function, "line": str(uses[0].lineno)}
-    return replace(raised.finding("main_in_class", at=found, params=words), variant="used")
+    given = {"name": code, "written": function, "line": str(uses[0].lineno)}
+    return replace(raised.finding("main_in_class", at=found, params=given), variant="used")
 
 
 def _callback_outside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -434,6 +441,12 @@ KINDS = (
                 "there. Where a line calls it through the class, write only {function}(). Delete above "
                 "the def: {head}"
             ),
+            "head_cls": msg(
+                "Make it a function of its own: move def {function}(…) and all of its lines to the "
+                "left, so that def begins at the margin. Leave {parameter} out of its brackets, and "
+                "write {type} instead of {parameter} in its lines. Where a line calls it through the "
+                "class, write only {function}(). Delete above the def: {head}"
+            ),
             "used": msg(
                 "Move def {function}(…) and all of its lines to the left by the same number of "
                 "spaces, so that def begins at the margin. Write {written} instead of {name} in line "
@@ -443,6 +456,18 @@ KINDS = (
         fixed_by=(node_scope.at_margin,),
         examples=(
             example("main_in_class", Replace(NODE, MAIN, IN_CLASS), fails="run.starts"),
+            example(
+                "main_as_a_class_method",
+                Replace(
+                    NODE,
+                    MAIN,
+                    IN_CLASS.replace("    def ", "    @classmethod\n    def ", 1)
+                    .replace("main(", "main(cls, ", 1)
+                    .replace("MyFirstNode()", "cls()", 1),
+                ),
+                Replace(NODE, "\n    main()\n", "\n    MyFirstNode.main()\n"),
+                fails="run.starts",
+            ),
             example(
                 "main_as_a_static_method",
                 Replace(NODE, MAIN, IN_CLASS.replace("    def ", "    @staticmethod\n    def ", 1)),

@@ -15,7 +15,7 @@ from grader.mistakes.spin_not_reached import UNWRAP
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
-from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.names import SPINS, calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of
 
@@ -182,6 +182,27 @@ def _made_in_loop(
     return None
 
 
+def _made_each_round(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a loop of the entry function that makes a node in each round, and spins that."""
+    source, main = suspect.source, suspect.function
+    for loop in ast.walk(main) if main is not None else ():
+        if not isinstance(loop, ast.While):
+            continue
+        for made in (s for s in loop.body if isinstance(s, ast.Assign)):
+            spun = {
+                dotted(call.args[0])
+                for call, name in calls_in(loop)
+                if last_part(name) in SPINS and call.args
+            }
+            names = spun & set(targets_of(made))
+            if names and _made(made.value) in source.class_names:
+                code = source.module_of(made).text.code(made)
+                return suspect.finding(
+                    "made_each_round", made, name=code, variable=min(names), line=loop.lineno
+                )
+    return None
+
+
 def _logs_with_timer(source: NodeSource, found: ast.ClassDef) -> bool:
     names = {last_part(name) for _, name in calls_in(found)}
     return "create_timer" in names and bool(source.logs(found))
@@ -286,6 +307,36 @@ KINDS = (
                     NODE,
                     "from rclpy.node",
                     "from rclpy.executors import SingleThreadedExecutor\nfrom rclpy.node",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "made_each_round",
+        "spin",
+        msg("Each round of a loop makes a new node"),
+        msg(
+            "The loop of line {line} makes a new node in each round. Its timer begins to wait anew, and "
+            "its counter has its first value again."
+        ),
+        msg(
+            "Make the node once: move {name} above the loop. Then write rclpy.spin({variable}) instead of "
+            "the loop, and below it what cleans up."
+        ),
+        behind=dict.fromkeys(
+            ("run.no_lines", "run.constant_counter", "run.stops", "run.wrong_step", "run.twice"),
+            _made_each_round,
+        ),
+        examples=(
+            example(
+                "node_made_in_each_round",
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n",
+                    "        while rclpy.ok():\n            node = MyFirstNode()\n"
+                    "            rclpy.spin_once(node)\n            node.destroy_node()\n",
                 ),
                 fails="run.output",
                 blocks=SILENT,
