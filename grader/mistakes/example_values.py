@@ -624,7 +624,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.one_of_two": {"name": "'Hello: ',", "written": "'Hello: '"},
     "node.made_each_round": {
-        "name": "node = MyFirstNode()",
+        "name": "node = Talker()",
         "variable": "node",
         "line": "22",
     },

@@ -45,6 +45,7 @@ MISTAKES = [
     ('"Hello time: " + ', '"Hello time: " - ', "value"),
     ("str(self.counter_)", "str([self.counter_])", "value"),
     ("str(self.counter_))", "str(self.counter_ & 7))", "value"),
+    ("str(self.counter_))", "str(DATA[self.counter_]))", "value"),
     ("str(self.counter_))", "str(self.counter_), self)", "argument"),
     ("MyFirstNode()\n", "MyFirstNode\n", "called"),
     ("self.timer_callback)", "self.timer_callback())", "not_called"),

@@ -261,7 +261,9 @@ def _parts_of(node: ast.expr, around: ast.AST | None) -> list[ast.expr]:
         return [node.elts[0]]
     if isinstance(node, ast.UnaryOp):
         return [node.operand]
-    if isinstance(node, ast.Subscript | ast.Starred | ast.Await):
+    if isinstance(node, ast.Subscript):
+        return [node.value, *([] if isinstance(node.slice, ast.Slice) else [node.slice])]
+    if isinstance(node, ast.Starred | ast.Await):
         return [node.value]
     if isinstance(node, ast.Yield) and node.value is not None:
         return [node.value]
