@@ -156,7 +156,12 @@ def _underscores(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
         return None
     inside = [m.name for m in methods.values() if _calls_super(m)]
     near = inside[0] if len(inside) == 1 else nearest("__init__", methods, cutoff=0.7)
-    return raised.finding("init_underscores", at=methods[near], name=near) if near else None
+    near = near or next((name for name in methods if name.strip("_") == "init"), "")
+    if not near:
+        return None
+    found = raised.finding("init_underscores", at=methods[near], name=near)
+    called = [name for _, name in calls_in(methods[near])]
+    return replace(found, variant="super") if f"super().{near}" in called else found
 
 
 def _never_runs(suspect: Suspect) -> RecognisedMistake | None:
@@ -540,11 +545,15 @@ KINDS = (
             ),
         },
         fixes={
+            "super": msg(
+                "Write __init__ instead of {name} in this line and in super().{name}(…), with two "
+                "underscores on both sides."
+            ),
             "silent": msg(
                 "Write __init__ instead of {name} in this line and in super().__init__(…), with two "
                 "underscores on both sides. Where {function} creates the node, write {made}() with nothing in "
                 "the ()."
-            )
+            ),
         },
         behind={"run.no_lines": _never_runs},
         raised={
@@ -561,6 +570,12 @@ KINDS = (
                 Replace(NODE, "node = MyFirstNode()", "node = MyFirstNode('my_first_node')"),
                 fails="run.output",
                 blocks=SILENT,
+            ),
+            example(
+                "init_without_underscores",
+                Replace(NODE, "    def __init__(self)", "    def init(self)"),
+                Replace(NODE, "super().__init__(", "super().init("),
+                fails="run.starts",
             ),
             example(
                 "init_single_underscores",

@@ -13,10 +13,12 @@ from grader.mistakes import links
 from grader.mistakes.alike import meant_by
 from grader.mistakes.example import DEAD, INNER, NODE, example
 from grader.mistakes.fixes import lines, node_imports, node_life, node_names, node_objects, rename
+from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect, always
+from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace, Write
-from grader.package.source.names import dotted
+from grader.package.source.names import dotted, last_part
 from grader.package.source.place import statement_at
 from grader.report.model import Where
 
@@ -139,7 +141,8 @@ def _no_ros(suspect: Suspect) -> RecognisedMistake | None:
 def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     name = match["name"]
     head, dot, tail = name.partition(".")
-    part = _part_of_module(raised, name) or _known_by_its_names(raised, name)
+    part = _node_of_launch(raised) if head == "launch_ros" else None
+    part = part or _part_of_module(raised, name) or _known_by_its_names(raised, name)
     part = part or _interface_elsewhere(raised, name)
     if part is not None:
         return part
@@ -151,6 +154,22 @@ def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         close = "" if unused and raised.source.uses_ros else f"rclpy{dot}{tail}"
     found = raised.finding("import_misspelt", name=name, close=close)
     return replace(found, variant="unused") if unused and not close else found
+
+
+def _node_of_launch(raised: Raised) -> RecognisedMistake | None:
+    """Look for the import of the Node of launch files, beside that of rclpy or instead of it."""
+    statement = statement_at(raised.module, raised.line)
+    if not isinstance(statement, ast.ImportFrom):
+        return None
+    if [alias.name for alias in statement.names] != ["Node"]:
+        return None
+    params = {"name": raised.module.text.code(statement), "written": IMPORTS["Node"]}
+    found = raised.finding("import_node", at=statement, params=params)
+    imports = [n for n in raised.module.tree.body if isinstance(n, ast.ImportFrom)]
+    right = [n.lineno for n in imports if n.module == "rclpy.node"]
+    if not right:
+        return replace(found, variant="launch")
+    return replace(found, variant="again", words={**found.words, "line": str(right[0])})
 
 
 def _interface_elsewhere(raised: Raised, name: str) -> RecognisedMistake | None:
@@ -271,11 +290,27 @@ def _of_the_lesson(raised: Raised, name: str) -> str:
     return ""
 
 
+def _for_checkers(raised: Raised, name: str) -> RecognisedMistake | None:
+    """Look for the import of a name below `if TYPE_CHECKING:`."""
+    for block in (s for s in raised.module.tree.body if isinstance(s, ast.If)):
+        if last_part(dotted(block.test)) != "TYPE_CHECKING":
+            continue
+        for node in (s for s in block.body if isinstance(s, ast.ImportFrom) and not s.level):
+            if name in {alias.name for alias in node.names if not alias.asname}:
+                statement = f"from {node.module} import {name}"
+                found = raised.finding("import_missing", name=name, statement=statement)
+                words = {**found.words, "line": str(node.lineno)}
+                return replace(found, variant="type_checking", words=words)
+    return None
+
+
 def _not_imported(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name = match["name"]
     statement = IMPORTS.get(name) or _of_the_lesson(raised, name)
     imports = [n for n in raised.module.nodes if isinstance(n, ast.ImportFrom)]
     of_it = [n for n in imports if n.module == name]
+    if (checked := _for_checkers(raised, name)) is not None:
+        return checked
     if not statement or (name in raised.module.imports and not of_it):
         return None
     found = raised.finding("import_missing", name=name, statement=statement)
@@ -288,6 +323,24 @@ def _not_imported(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     return found
 
 
+def _without_launch(case: Case) -> Files | None:
+    """Delete the import of the Node of launch files, if the file imports that of rclpy too."""
+    module, line = case.module, case.finding.line
+    right = [
+        n
+        for n in (module.tree.body if module is not None else ())
+        if isinstance(n, ast.ImportFrom) and n.module == "rclpy.node"
+    ]
+    code = str(case.finding.params.get("name", ""))
+    if module is None or line is None or not right or module.line(line) != code:
+        return None
+    return case.changed(module, module.text.without(line))
+
+
+LAUNCH = msg(
+    "The Node of launch_ros starts a node from a launch file. The class of a node inherits from "
+    "another Node, which is in rclpy.node."
+)
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -342,13 +395,36 @@ KINDS = (
     _node(
         "import_node",
         "start",
-        msg("Node is imported from rclpy instead of rclpy.node"),
+        msg("Node is imported from another module than rclpy.node"),
         msg("The class Node is in the module rclpy.node; rclpy itself has no Node."),
         msg("Write: from rclpy.node import Node"),
         seen=r"ImportError: cannot import name 'Node' from 'rclpy'",
+        whys=dict.fromkeys(("launch", "again"), LAUNCH),
+        fixes={
+            "launch": msg("Write {written} instead of {name}."),
+            "again": msg("Delete this line: line {line} imports the right Node already."),
+        },
         raised={r"cannot import name 'Node' from 'rclpy'": always("import_node")},
-        fixed_by=(node_life.node_import,),
+        fixed_by=(node_life.node_import, _without_launch, lines.written),
         examples=(
+            example(
+                "import_of_the_node_of_launch",
+                Replace(
+                    NODE,
+                    "from rclpy.node import Node",
+                    "from launch_ros.actions import Node",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "import_of_the_node_of_launch_too",
+                Replace(
+                    NODE,
+                    "from rclpy.node import Node",
+                    "from rclpy.node import Node\nfrom launch_ros.actions import Node",
+                ),
+                fails="run.starts",
+            ),
             example(
                 "import_of_node",
                 Replace(NODE, "from rclpy.node import Node", "from rclpy import Node"),
@@ -764,6 +840,10 @@ KINDS = (
             "from": msg(
                 "Line {line} brings in names that are in {name}, and not the name {name} itself."
             ),
+            "type_checking": msg(
+                "Line {line} imports {name}, but the lines below if TYPE_CHECKING are only for type "
+                "checkers: Python does not run them."
+            ),
             "own": OTHER_FILE,
             "own_module": OTHER_FILE,
             "file": msg(
@@ -782,6 +862,16 @@ KINDS = (
             lines.written,
         ),
         examples=(
+            example(
+                "node_imported_for_type_checkers",
+                Replace(
+                    NODE,
+                    "from rclpy.node import Node\n",
+                    "from typing import TYPE_CHECKING\n\nif TYPE_CHECKING:\n"
+                    "    from rclpy.node import Node\n",
+                ),
+                fails="run.starts",
+            ),
             example(
                 "names_of_rclpy_imported_with_a_star",
                 Replace(NODE, "import rclpy\n", "from rclpy import *\n"),

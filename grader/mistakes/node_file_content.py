@@ -117,6 +117,12 @@ KINDS = (
                 note="copied from a word processor",
             ),
             example(
+                "indentation_of_an_input_method",
+                Replace(NODE, "        self.counter_ += 1", "\u3000" * 4 + "self.counter_ += 1"),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
                 "no_break_spaces",
                 Replace(NODE, "        self.counter_ += 1", "\u00a0" * 8 + "self.counter_ += 1"),
                 fails="source.node_file",

@@ -34,6 +34,10 @@ NO_TEXT = msg(
 )
 PASTED_WHYS = {
     **dict.fromkeys(("sign", "accents"), KEYBOARD),
+    "wide": msg(
+        "An input method for Japanese, Chinese or Korean writes wide spaces. Python knows only the "
+        "ordinary space."
+    ),
     **dict.fromkeys(("command", "heredoc", "editor"), TYPED),
     **dict.fromkeys(
         ("page", "markup", "word", "conflict", "conflict_rest", "numbers", "prose", "around"),
@@ -50,6 +54,10 @@ PASTED = {
         "keyboard, and not the key of the accents."
     ),
     "blank": msg("Delete the spaces of that line and type them again."),
+    "wide": msg(
+        "Switch the input method to English. Delete the wide spaces at the beginning of that line, and "
+        "type ordinary spaces, as many as the other lines of its block have."
+    ),
     "sign": msg("Type that sign again, with the keyboard set to English."),
     "tag": msg("Remove {found}: it belongs to the web page, not to the code."),
     "label": msg("Delete the line '{found}': it belongs to the web page, not to the code."),
@@ -615,6 +623,7 @@ def description(slip: Slip | Pasted) -> Message:
     texts = {
         "quotes": say("typographic quotes: {found}", found=found),
         "accents": say("accents instead of quotes: {found}", found=found),
+        "wide": say("a wide space: {found}", found=found),
         "blank": say("a space that is not an ordinary one: {found}", found=found),
         "sign": say("a sign that Python does not know: {found}", found=found),
         "tag": say("a part of a web page: {found}", found=found),

@@ -370,6 +370,8 @@ def _daemon(suspect: Suspect) -> RecognisedMistake | None:
         given = {keyword.arg: keyword.value for keyword in call.keywords}
         target, daemon = given.get("target"), given.get("daemon")
         spins = target is not None and last_part(dotted(target)) in SPINS
+        own = suspect.source.entry.functions.get(dotted(target)) if target is not None else None
+        own_spins = own is not None and any(last_part(n) in SPINS for _, n in calls_in(own))
         if any(last_part(name) == "join" for _, name in suspect.source.calls):
             return None
         is_daemon = isinstance(daemon, ast.Constant) and daemon.value is True
@@ -378,6 +380,10 @@ def _daemon(suspect: Suspect) -> RecognisedMistake | None:
             for other, name in suspect.source.calls
             if last_part(name) in node_order.CLEANUP and other.lineno > call.lineno
         ]
+        if own is not None and own_spins and (is_daemon or later):
+            found = suspect.finding("spin_in_daemon", call)
+            words = {**found.words, "name": own.name, "line": str(own.lineno)}
+            return replace(found, words=words, variant="own")
         if spins and (is_daemon or later):
             found = suspect.finding("spin_in_daemon", call)
             if not is_daemon:
@@ -572,12 +578,19 @@ KINDS = (
         msg("When {function} comes to its end, the program ends, and its daemon threads with it."),
         msg("Call rclpy.spin({node}) in {function} itself, without the thread."),
         whys={
+            "own": msg(
+                "The thread runs {name} (line {line}), which spins. {function} does not wait for it: it "
+                "comes to its last line at once, and then the program ends."
+            ),
             "cleaned_up": msg(
                 "A thread runs beside {function}, which does not wait for it: {function} comes to "
                 "{called} at once, and the node ends."
-            )
+            ),
         },
-        fixes={"executor": msg("Call {name}.spin() in {function} itself, without the thread.")},
+        fixes={
+            "executor": msg("Call {name}.spin() in {function} itself, without the thread."),
+            "own": msg("Call {name}({node}) in {function} itself, without the thread."),
+        },
         behind=dict.fromkeys(("run.exits_at_once", "run.ended_early"), _daemon),
         examples=(
             example(
@@ -587,6 +600,18 @@ KINDS = (
                     NODE,
                     SPIN_UNTIL_CTRL_C,
                     "    threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()\n",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "own_function_that_spins_in_a_daemon",
+                Replace(NODE, "import rclpy\nfrom", "import threading\n\nimport rclpy\nfrom"),
+                Replace(NODE, "def main(", "def work(node):\n    rclpy.spin(node)\n\n\ndef main("),
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n    except",
+                    "        threading.Thread(target=work, args=(node,), daemon=True).start()\n"
+                    "    except",
                 ),
                 fails="run.starts",
             ),

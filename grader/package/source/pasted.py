@@ -93,6 +93,7 @@ SIGNS = {"\u2010": "-", "\u2011": "-", "\u2012": "-", "\u2013": "-", "\u2014": "
          "\u2026": "...", "\u3001": ",", "\u3002": "."}  # fmt: skip
 ENTITIES = {"&nbsp;": " ", "&lt;": "<", "&gt;": ">", "&amp;": "&", "&quot;": '"', "&#39;": "'",
             "&apos;": "'", "&#34;": '"'}  # fmt: skip
+WIDE = "\u3000"
 FULL_WIDTH = 0xFEE0  # from a full-width sign to the one of ASCII
 END = r"(?=[ \t]*(?:\r|\n|\Z))"
 OPEN = re.compile(
@@ -235,6 +236,9 @@ def _scan(source: SourceText) -> Iterator[Pasted]:
             splice = Splice(source.start_of(line), source.start_of(line + 1), "")
         else:
             splice = Splice(start, end, _plain(kind, match[0]))
+        if WIDE in match[0] and not text[source.start_of(line) : start].strip():
+            variant = "wide"  # (an indentation: the sign is as wide as two ordinary spaces)
+            splice = Splice(start, end, "".join("  " if sign == WIDE else " " for sign in match[0]))
         yield Pasted(variant, line, match[0].strip() or match[0], splice)
 
 
