@@ -43,11 +43,19 @@ class MarkingSetting:
     sandbox: str
     key: str
     lang: str = "en"
+    tries_fixes: bool = True
 
     @property
     def job(self) -> Job:
         """The part that a worker needs."""
-        return Job(self.assignment, self.distro.name, self.sandbox, self.limits, self.lang)
+        return Job(
+            self.assignment,
+            self.distro.name,
+            self.sandbox,
+            self.limits,
+            self.lang,
+            self.tries_fixes,
+        )
 
 
 def prepare(order: Order, *, notify: Callable[[str], None]) -> MarkingSetting:
@@ -67,6 +75,7 @@ def prepare(order: Order, *, notify: Callable[[str], None]) -> MarkingSetting:
         sandbox=sandbox.name,
         key=surroundings_key(order.assignment, sandbox.ros, order.limits, lang=order.lang),
         lang=order.lang,
+        tries_fixes=order.tries_fixes,
     )
 
 

@@ -43,6 +43,7 @@ class Job:
     sandbox: str
     limits: Limits
     lang: str = "en"
+    tries_fixes: bool = True
 
     @property
     def seconds(self) -> float:
@@ -54,7 +55,8 @@ class Job:
         assignment = self.assignment.model_dump(mode="json", by_alias=True)
         rest = {"distro": self.distro, "sandbox": self.sandbox, "limits": asdict(self.limits)}
         own = self.assignment.own_checks
-        return json.dumps({"assignment": assignment, "own": own, **rest, "lang": self.lang})
+        how = {"lang": self.lang, "tries_fixes": self.tries_fixes}
+        return json.dumps({"assignment": assignment, "own": own, **rest, **how})
 
     @classmethod
     def from_text(cls, text: str) -> Job:
@@ -63,7 +65,10 @@ class Job:
         assignment = Assignment.model_validate(found["assignment"])
         assignment = assignment.model_copy(update={"own_checks": found["own"]})
         limits = Limits(**found["limits"])
-        return cls(assignment, found["distro"], found["sandbox"], limits, found["lang"])
+        tries_fixes = bool(found["tries_fixes"])
+        return cls(
+            assignment, found["distro"], found["sandbox"], limits, found["lang"], tries_fixes
+        )
 
 
 @dataclass(frozen=True)
@@ -223,6 +228,7 @@ def mark_task(job: Job, task: Task) -> Answer:
         limits=job.limits,
         student_id=task.student_id,
         lang=job.lang,
+        tries_fixes=job.tries_fixes,
     )
     report, fault = None, ""
     kept: list[Judged] = []

@@ -1147,6 +1147,17 @@ KINDS = (
                 fails="build.colcon",
             ),
             example(
+                "setup_file_of_the_inner_folder",
+                Write("my_robot_controller/config/params.yaml", "speed: 1\n"),
+                Replace(
+                    SETUP,
+                    "('share/' + package_name, ['package.xml']),",
+                    "('share/' + package_name, ['package.xml']),\n"
+                    "        ('share/' + package_name + '/config', ['config/params.yaml']),",
+                ),
+                fails="build.colcon",
+            ),
+            example(
                 "setup_folder_without_files",
                 Replace(
                     SETUP,

@@ -628,6 +628,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "variable": "node",
         "line": "22",
     },
+    "node.cleanup_in_loop": {"name": "node.destroy_node()", "line": "22", "loop": "while"},
     "node.small_change": {"name": "self.n & 7", "written": "self.n", "form": "if self.n:"},
     "node.any_change": {"name": "self.n = 1 - self.n", "written": "self.n += 1"},
     "node.environment": {"name": "os.environ['PERIOD']", "variable": "PERIOD"},

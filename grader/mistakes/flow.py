@@ -59,6 +59,14 @@ def _loops(suspect: Suspect) -> RecognisedMistake | None:
             if own in inside and own in starts_of(suspect.source):
                 words = {**found.words, "number": own}
                 return replace(found, variant="counts_itself", words=words)
+            if (
+                isinstance(number, ast.Name)
+                and number.id in inside
+                and _counts_beside(suspect, block)
+            ):
+                params = {**found.params, "number": number.id}
+                words = {**found.words, "number": number.id}
+                return replace(found, variant="listed", params=params, words=words)
             if isinstance(number, ast.Name) and number.id in inside:
                 found = replace(found, variant="counts", words={**found.words, "number": number.id})
                 kept = _counter_of_range(suspect, block)
@@ -68,6 +76,14 @@ def _loops(suspect: Suspect) -> RecognisedMistake | None:
                     found = replace(found, variant="counts_kept", words=words, params=params)
             return found
     return None
+
+
+def _counts_beside(suspect: Suspect, block: ast.For | ast.While) -> bool:
+    """Whether the loop goes through a list, and the callback counts beside it."""
+    callback, inside = suspect.source.callback, set(ast.walk(block))
+    listed = isinstance(block, ast.For) and isinstance(block.iter, ast.Attribute)
+    nodes = [n for n in ast.walk(callback) if n not in inside] if callback is not None else []
+    return listed and any(adds_to(n, name) for n in nodes for name in starts_of(suspect.source))
 
 
 def _counter_of_range(suspect: Suspect, block: ast.For | ast.While) -> str:
@@ -464,6 +480,10 @@ KINDS = (
                 "Remove this {name}, and indent its lines as far as the {name} is indented now. It also "
                 "counted: write {number} += {step} below the line that logs."
             ),
+            "listed": msg(
+                "Log one line in each call: delete the {name}, and log the counter itself instead of "
+                "{number}, on a line above the one that adds to the counter."
+            ),
             "counts_kept": msg(
                 "Remove this {name}, and indent its lines as far as the {name} is indented now. "
                 "Without it there is no {number}: log {kept} instead, which counts already."
@@ -478,6 +498,23 @@ KINDS = (
         behind={"run.twice": _loops, "run.wrong_step": _loops},
         fixed_by=(node_loops.counted_by_calls, lines.unwrapped),
         examples=(
+            example(
+                "loop_logs_a_list_that_grows",
+                Replace(
+                    NODE,
+                    "        self.counter_ = 0\n",
+                    "        self.counter_ = 0\n        self.times = []\n",
+                ),
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    "        self.times.append(self.counter_)\n"
+                    + STEP_LINE
+                    + "        for t in self.times:\n"
+                    "            self.get_logger().info('Hello time: ' + str(t))\n",
+                ),
+                fails="run.output",
+            ),
             example(
                 "loop_logs_its_number",
                 Replace(NODE, "        self.counter_ = 0\n", ""),

@@ -9,7 +9,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links, stop_in_branch
 from grader.mistakes.example import NODE, SILENT, example
-from grader.mistakes.fixes import lines, node_executor, node_life
+from grader.mistakes.fixes import lines, node_executor, node_life, node_order
 from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import placeholder_values
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
@@ -79,6 +79,13 @@ def _once(suspect: Suspect) -> RecognisedMistake | None:
 def _once_in_loop(suspect: Suspect, found: RecognisedMistake, loop: Loop) -> RecognisedMistake:
     """Return a spin_once in a loop: with a timer, if nothing else does the loop's other work."""
     source = suspect.source
+    for statement in loop.body:
+        for cleanup, name in calls_in(statement) if isinstance(statement, ast.Expr) else ():
+            if last_part(name) in node_order.CLEANUP:
+                code = source.module_of(cleanup).text.code(cleanup)
+                word = "while" if isinstance(loop, ast.While) else "for"
+                inside = suspect.finding("cleanup_in_loop", cleanup, name=code, line=loop.lineno)
+                return replace(inside, words={**inside.words, "loop": word})
     test = condition_of(source, loop)
     word = "while" if isinstance(loop, ast.While) else "for"
     words = {**found.words, "loop": word, "name": test}
@@ -599,6 +606,50 @@ KINDS = (
         ),
     ),
     _node(
+        "cleanup_in_loop",
+        "spin",
+        msg("The clean-up is inside of the loop that spins"),
+        msg(
+            "The first round of the loop in line {line} already comes to {name}. After that, the node or "
+            "ROS is shut down, and nothing spins any more."
+        ),
+        msg(
+            "Move the lines that clean up to below the loop: indent them as far as the {loop} in line "
+            "{line}, or write them in a finally."
+        ),
+        links.EXECUTORS,
+        examples=(
+            example(
+                "executor_shut_down_in_loop",
+                Replace(
+                    NODE,
+                    "import rclpy\n",
+                    "import rclpy\nfrom rclpy.executors import SingleThreadedExecutor\n",
+                ),
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n",
+                    "        runner = SingleThreadedExecutor()\n"
+                    "        runner.add_node(node)\n"
+                    "        while rclpy.ok():\n"
+                    "            runner.spin_once(timeout_sec=0.1)\n"
+                    "            rclpy.shutdown()\n",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "cleanup_in_the_loop_of_spin_once",
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n",
+                    "        while rclpy.ok():\n            rclpy.spin_once(node)\n"
+                    "            node.destroy_node()\n            rclpy.try_shutdown()\n",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
         "spin_once",
         "spin",
         msg("spin_once is called instead of spin"),
@@ -650,24 +701,6 @@ KINDS = (
                 Replace(NODE, "rclpy.spin(node)", "rclpy.spin_once(node)"),
                 fails="run.starts",
                 note="one line on the wall clock; none under use_sim_time, because the first message on /clock is the only callback that it runs",
-            ),
-            example(
-                "executor_shut_down_in_loop",
-                Replace(
-                    NODE,
-                    "import rclpy\n",
-                    "import rclpy\nfrom rclpy.executors import SingleThreadedExecutor\n",
-                ),
-                Replace(
-                    NODE,
-                    "        rclpy.spin(node)\n",
-                    "        runner = SingleThreadedExecutor()\n"
-                    "        runner.add_node(node)\n"
-                    "        while rclpy.ok():\n"
-                    "            runner.spin_once(timeout_sec=0.1)\n"
-                    "            rclpy.shutdown()\n",
-                ),
-                fails="run.starts",
             ),
             example(
                 "spins_until_three",

@@ -190,6 +190,8 @@ def _with_fix(
         with Session(sandbox, session.assignment, deadline=session.deadline) as again:
             evidence = _evidence(again, fixed, unheard)
             evidence.distro = order.distro
+            if sandbox.name in ISOLATING:
+                evidence.search = _search(again, unheard, translate)
             yield evidence
 
     return opened

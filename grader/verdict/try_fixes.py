@@ -36,6 +36,12 @@ MOST_ON_TOP = 2
 """The most fixes that are tried together with the first one."""
 WHY = ("node.", "setup.", "package.", "source.", "interface.", "beside.")
 """How the ids of mistakes begin that say why something failed, and not only what was seen."""
+VAGUE = {
+    *("run.died_at_start", "run.ended_early", "run.exits_at_once", "run.stops", "run.no_lines"),
+    *("run.wrong_text", "run.wrong_start", "run.wrong_step", "run.constant_counter", "run.twice"),
+    *("run.wrong_period", "run.never_spins"),
+}
+"""What was seen that has many causes: its text alone helps little."""
 ERRORS = (*RAISES, "build.setup_error")
 """The mistakes that were seen as an exception."""
 
@@ -57,6 +63,8 @@ def _with_small_change(
     replaced by the change.
     """
     if evidence.search is None or evidence.with_fix is None:
+        return None
+    if _root(result) is None and not {mistake.id for mistake in result.mistakes} & VAGUE:
         return None
     if evidence.found_changes is None:
         evidence.found_changes = evidence.search(evidence)
@@ -269,6 +277,7 @@ class _Trial:
                         return None
                     for _ in evaluate_checks(made, self._translate):
                         pass
+                    _search_further(made.results[self._before.id], made)
             except GraderError:  # (our own side failed, which says nothing about the fix)
                 return None
             tried[digest] = made
@@ -280,9 +289,19 @@ class _Trial:
         return any(fixed.results[check].status == "failed" for check in passed)
 
 
+def _search_further(after: CheckResult, fixed: Evidence) -> None:
+    """Look for small changes of a fixed package, if a check still fails and no fix of it is known."""
+    if after.status != "failed" or after.id in STATIC or fixed.search is None:
+        return
+    if next(fixes_of(after, fixed.submission, fixed.assignment), None) is None:
+        fixed.found_changes = fixed.search(fixed)
+
+
 def _further(after: CheckResult, fixed: Evidence, done: Files) -> Files | None:
     """Return the files after a fix of a check that still fails with the fixes already made."""
     found = next(fixes_of(after, fixed.submission, fixed.assignment), None)
+    for change in [one for one in fixed.found_changes or () if one.counts][:1]:
+        found = found or change.of(Files.of(fixed.submission))
     return found.moved_since(done) if found is not None else None
 
 

@@ -97,8 +97,8 @@ def unwrapped(case: Case) -> Files | None:
     found = (
         [n for n in module.nodes if isinstance(n, BLOCKS) and n.lineno == line] if module else []
     )
-    if module is None or len(found) != 1 or found[0].orelse:
-        return None
+    if module is None or len(found) != 1 or found[0].orelse or case.finding.params.get("number"):
+        return None  # (without the loop there is no such number)
     block, first = found[0], found[0].body[0].lineno
     if first == block.lineno or module.text.line(first - 1).strip() == "":
         return None

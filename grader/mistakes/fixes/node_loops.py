@@ -125,7 +125,7 @@ def counted_by_calls(case: Case) -> Files | None:
     """Log a counter of the node instead of the loop's number, once in each call."""
     found, node = _loop(case), case.node
     init = node.super_init if node is not None else None
-    if found is None or node is None or init is None:
+    if found is None or node is None or init is None or case.finding.params.get("number"):
         return None
     module, loop, _ = found
     own = dotted(loop.target) if isinstance(loop, ast.For) else ""

@@ -659,7 +659,9 @@ def _not_copied(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
         named = files.elts if isinstance(files, ast.List | ast.Tuple) else []
         for node in named:
             if value_of(reader.module, node) == path:
-                close = nearest(path, ["package.xml", *reader.files], cutoff=0.8)
+                deeper = [name for name in reader.files if name.endswith(f"/{path}")]
+                near = nearest(path, ["package.xml", *reader.files], cutoff=0.8)
+                close = deeper[0] if len(deeper) == 1 else near
                 if close:
                     wanted = f"{text.quote}{close}{text.quote}"
                     swap = text.swap(node, wanted)

@@ -196,7 +196,7 @@ def _arguments(module: Module, source: NodeSource, goal: Goal) -> Found:
     for call in calls_of(module):
         given: list[ast.expr | ast.keyword] = [*call.args, *call.keywords]
         function = text.code(call.func)
-        for gone in given:
+        for gone in given if len(given) > 1 or dotted(call.func) not in BUILTINS else ():
             rest = ", ".join(text.code(one) for one in given if one is not gone)
             yield 3, of_piece(module, "argument", call, f"{function}({rest})")
         for keyword in call.keywords[:1] if not call.args else ():
