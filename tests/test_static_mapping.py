@@ -79,6 +79,7 @@ def test_the_entry_point_may_be_in_a_string_or_in_setup_cfg(bench: Bench) -> Non
         ("'test_node = my_robot_controller:my_first_node:main',", "two_colons", "':'"),
         ("'test_node = my robot.my_first_node:main',", "space_in_target", "space"),
         ("'test_node = my_robot_controller.my_first_node;main',", "bad_entry", "form"),
+        ("'test_node => my_robot_controller.my_first_node:main',", "bad_entry", "form"),
         ("'test_node = my_robot_controller.my_first_node.py:main',", "py_in_target", ".py"),
         ("'test_node = my_robot_controller.my_first_node',", "no_function", ":main"),
         ("'test_node = my_robot_controller.my_first_node.main',", "dot_for_colon", "':'"),

@@ -109,6 +109,12 @@ def test_another_base_becomes_rclpys_node() -> None:
     assert "class MyFirstNode(Node):" in found[0]
 
 
+def test_no_attribute_is_set_instead_of_another() -> None:
+    text = NODE.replace("self.counter_ = 0", "self.counter_ = 0\n        self.begin = 5")
+    other = [one for one in changes(text) if "self.begin += 1" in one.text]
+    assert all("self.counter_ += 1" in one.text for one in other)
+
+
 def test_what_is_counted_already_is_not_counted_twice() -> None:
     assert not [one for one in changes(NODE) if one.change.sort == "below"]
 

@@ -278,9 +278,9 @@ def _names(module: Module, source: NodeSource, goal: Goal) -> Found:
         local = [name for name in dict.fromkeys(_local_names(function)) if name != "self"]
         for node in ast.walk(function):
             if isinstance(node, ast.Attribute) and own_name(node) in own:
-                for name in own[:MOST_NAMES]:
-                    yield 3, of_piece(module, "value", node, f"self.{name}")
-                for name in local[:MOST_NAMES] if isinstance(node.ctx, ast.Load) else ():
+                if not isinstance(node.ctx, ast.Load):
+                    continue  # (another attribute would lose its value)
+                for name in (*(f"self.{name}" for name in own[:MOST_NAMES]), *local[:MOST_NAMES]):
                     yield 3, of_piece(module, "value", node, name)
             elif isinstance(node, ast.Name) and node.id in local:
                 if node.id in own or isinstance(node.ctx, ast.Store):

@@ -119,7 +119,7 @@ def _fault_of(text: str, target: str) -> str:
         ("(" in target, "setup.brackets"),
         ("-" in target, "setup.dash_in_target"),
         (target.count(":") > 1, "setup.two_colons"),
-        (" " in target, "setup.space_in_target"),
+        (" " in target and target[:1] not in ">~:|", "setup.space_in_target"),
     )
     return next((mistake for holds, mistake in faults if holds), "setup.bad_entry")
 
