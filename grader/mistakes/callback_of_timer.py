@@ -132,7 +132,10 @@ def _in_quotes(suspect: Suspect) -> RecognisedMistake | None:
     for node in suspect.source.own_nodes:
         value = node.value if isinstance(node, ast.Expr) else None
         if isinstance(value, ast.Constant) and "self.create_timer(" in str(value.value):
-            return suspect.finding("timer_in_quotes", value)
+            found = suspect.finding("timer_in_quotes", value)
+            rows = [row for row in str(value.value).splitlines() if row.strip()]
+            words = {**found.words, "line": str(value.end_lineno or value.lineno)}
+            return replace(found, variant="more", words=words) if len(rows) > 1 else found
     return None
 
 
@@ -161,6 +164,17 @@ def _callback_in_init(raised: Raised, match: re.Match[str]) -> RecognisedMistake
     name = match["name"]
     at = _inside_init(raised, name) if _is_callback(raised, match) else None
     return raised.finding("callback_in_init", at=at, name=name) if at is not None else None
+
+
+def _class_ended(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Look for the callback inside of a function at the margin, which ends the class."""
+    name = match["name"]
+    for function in raised.source.module.functions.values():
+        inner = [n for n in function.body if isinstance(n, ast.FunctionDef) and n.name == name]
+        if inner and [a.arg for a in inner[0].args.args] == ["self"]:
+            params = {"name": name, "function": function.name, "line": str(function.lineno)}
+            return raised.finding("class_ended", at=function, params=params)
+    return None
 
 
 def _callback_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -299,6 +313,29 @@ KINDS = (
         ),
     ),
     _node(
+        "class_ended",
+        "class",
+        msg("A function at the margin ends the class"),
+        msg(
+            "def {function} in line {line} begins at the margin, and there the class ends. {name} below it "
+            "is inside of {function}, and no method of the class."
+        ),
+        msg("Move def {function} with its own lines above the class. Leave {name} where it is."),
+        raised={OWN_ATTRIBUTE: _class_ended},
+        examples=(
+            example(
+                "function_at_the_margin_above_the_callback",
+                Replace(
+                    NODE,
+                    "    def timer_callback(self)",
+                    "def text_of(number):\n    return 'Hello time: ' + str(number)\n\n"
+                    "    def timer_callback(self)",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
         "callback_misspelt",
         "timer",
         msg("The callback's name is misspelt"),
@@ -372,9 +409,26 @@ KINDS = (
         msg("The line that creates the timer is in quotes"),
         msg("Lines between three quotes are a text for the reader. Python does not run them."),
         msg("Remove the three quotes before and after the line with create_timer."),
+        fixes={
+            "more": msg(
+                "Take the line with create_timer out of the quotes: move it below the closing quotes in "
+                "line {line}, and indent it as far as the other lines of __init__."
+            )
+        },
         behind={"run.no_lines": _in_quotes},
         fixed_by=(node_timer.without_quotes,),
         examples=(
+            example(
+                "timer_in_three_quotes_with_more",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)",
+                    '        """\n        The old version.\n'
+                    '        self.create_timer(1.0, self.timer_callback)\n        """',
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
             example(
                 "timer_in_three_quotes",
                 Replace(

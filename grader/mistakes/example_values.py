@@ -629,6 +629,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "line": "22",
     },
     "node.cleanup_in_loop": {"name": "node.destroy_node()", "line": "22", "loop": "while"},
+    "node.class_ended": {"name": "tick", "function": "text_of", "line": "15"},
     "node.small_change": {"name": "self.n & 7", "written": "self.n", "form": "if self.n:"},
     "node.any_change": {"name": "self.n = 1 - self.n", "written": "self.n += 1"},
     "node.environment": {"name": "os.environ['PERIOD']", "variable": "PERIOD"},
