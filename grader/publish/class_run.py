@@ -151,7 +151,14 @@ def _marking(options: ClassOptions) -> Iterator[tuple[run.MarkingSetting, Pool]]
         return
     from grader.batch.cluster import Cluster  # noqa: PLC0415 - Dask is an optional extra
 
-    job = Job(order.assignment, order.distro.name, order.sandbox, order.limits, order.lang)
+    job = Job(
+        order.assignment,
+        order.distro.name,
+        order.sandbox,
+        order.limits,
+        order.lang,
+        order.tries_fixes,
+    )
     with Cluster(options.scheduler, job, notify=_notify) as cluster:
         setting = run.MarkingSetting(
             assignment=order.assignment,
@@ -160,6 +167,7 @@ def _marking(options: ClassOptions) -> Iterator[tuple[run.MarkingSetting, Pool]]
             sandbox=cluster.sandbox,
             key=cluster.surroundings,
             lang=order.lang,
+            tries_fixes=order.tries_fixes,
         )
         yield setting, cluster
 

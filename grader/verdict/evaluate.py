@@ -6,18 +6,21 @@ import time
 import traceback
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from grader.base.errors import GraderError
 from grader.base.i18n.message import Message, say
 from grader.base.i18n.translator import Translator
 from grader.course.assignment import Assignment, CheckUse
-from grader.mistakes.recognised import RecognisedMistake
 from grader.report.model import CheckResult, CheckStatus, Mistake, Visibility, Where
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.checks.declare import Check
 from grader.verdict.evidence import Evidence
 from grader.verdict.outcome import Blocked, Inconclusive, Passed
 from grader.verdict.own_checks import checks_of
+
+if TYPE_CHECKING:
+    from grader.mistakes.recognised import RecognisedMistake
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from grader.package.edit.text import Splice, indent_of
 from grader.package.source.module import Function, Module
 from grader.package.source.names import called_name, dotted, own_name
 from grader.package.source.node import NodeSource
-from grader.package.source.place import block_of, function_at, method_above, statement_at
+from grader.package.source.place import block_of, first_row, function_at, method_above, statement_at
 
 NAMES_NODE = ("super().__init__", "rclpy.create_node")
 
@@ -137,7 +137,7 @@ def out_of_init(case: Case) -> Files | None:
     if [a.arg for a in last.args.args] != ["self"] or len(init.body) == 1:
         return None
     module = node.module_of(last)
-    first = min([last.lineno, *(d.lineno for d in last.decorator_list)])
+    first = first_row(last)
     # a comment directly above belongs to it
     while module.line(first - 1).startswith("#") and first - 1 > init.lineno:
         first -= 1
@@ -156,7 +156,7 @@ def into_class(case: Case) -> Files | None:
     above = body[body.index(function) - 1]
     if above is not node.node_class or [a.arg for a in function.args.args] != ["self"]:
         return None
-    first = min([function.lineno, *(d.lineno for d in function.decorator_list)])
+    first = first_row(function)
     indent = indent_of(module.text.line(node.class_body[-1].lineno))
     return _shifted(case, module, (first, function.end_lineno or first), indent)
 

@@ -45,6 +45,12 @@ def blocks_in(node: ast.AST) -> Iterator[list[ast.stmt]]:
                 yield block
 
 
+def first_row(node: ast.stmt) -> int:
+    """Return the first line of a statement: that of its first decorator, if it has one."""
+    decorators: list[ast.expr] = getattr(node, "decorator_list", [])
+    return min([node.lineno, *(decorator.lineno for decorator in decorators)])
+
+
 def block_of(module: Module, statement: ast.stmt) -> list[ast.stmt]:
     """Return the list of statements that has a statement."""
     around = module.parents.get(statement, module.tree)

@@ -9,7 +9,7 @@ from grader.package.source.change import Change, of_piece
 from grader.package.source.module import Function, Module, is_text
 from grader.package.source.names import called_name, dotted
 from grader.package.source.node import LOG_METHODS, NodeSource
-from grader.package.source.place import block_of, blocks_in
+from grader.package.source.place import block_of, blocks_in, first_row
 from grader.package.source.small_values import MOST_NAMES, Found, Goal, Sort, counters_of
 
 SIMPLE = (
@@ -17,6 +17,7 @@ SIMPLE = (
     *(ast.Delete, ast.Raise, ast.Assert, ast.Global, ast.Nonlocal),
 )
 HEADED = ast.If | ast.While | ast.For | ast.With
+HEADS: dict[type[ast.stmt], str] = {ast.If: "condition", ast.With: "with"}
 
 
 def _blocks(module: Module, source: NodeSource, goal: Goal) -> Found:
@@ -27,8 +28,7 @@ def _blocks(module: Module, source: NodeSource, goal: Goal) -> Found:
             continue
         if not module.line(node.lineno).startswith("elif"):
             if isinstance(node, HEADED):
-                sort = "condition" if isinstance(node, ast.If) else "loop"
-                yield 3, _only(module, node, node.body, "with" if _is_with(node) else sort)
+                yield 3, _only(module, node, node.body, HEADS.get(type(node), "loop"))
             rest = [] if isinstance(node, ast.With) else node.orelse
             if isinstance(node, ast.If) and rest and module.line(rest[0].lineno)[:4] != "elif":
                 yield 5, _only(module, node, rest, "else")
@@ -36,16 +36,12 @@ def _blocks(module: Module, source: NodeSource, goal: Goal) -> Found:
                 yield from _moved_out(module, node, block)
 
 
-def _is_with(node: ast.stmt) -> bool:
-    return isinstance(node, ast.With)
-
-
 def _only(module: Module, node: ast.stmt, block: list[ast.stmt], sort: str) -> Change:
     """Return the change that leaves of a statement only one of its blocks."""
     text = module.text
     indent, old = indent_of(text.line(node.lineno)), indent_of(text.line(block[0].lineno))
     rows = []
-    for row in range(_first_row(block[0]), (block[-1].end_lineno or 0) + 1):
+    for row in range(first_row(block[0]), (block[-1].end_lineno or 0) + 1):
         line = text.lines[row - 1]
         rows.append(indent + line[len(old) :] if line.startswith(old) else line)
     start, end = text.start_of(node.lineno), text.start_of((node.end_lineno or 0) + 1)
@@ -84,7 +80,7 @@ def _order(module: Module, source: NodeSource, goal: Goal) -> Found:
             gone = tuple(text.without(row) for row in _rows(moved))
             for to, other in enumerate(own):
                 if to not in (at, at + 1):
-                    put = text.before(_first_row(other), *code)
+                    put = text.before(first_row(other), *code)
                     shown = module.line(other.lineno)
                     change = Change(
                         sort,
@@ -164,13 +160,8 @@ def _without(module: Module, node: ast.stmt) -> Change:
     )
 
 
-def _first_row(node: ast.stmt) -> int:
-    decorators: list[ast.expr] = getattr(node, "decorator_list", [])
-    return min([node.lineno, *(decorator.lineno for decorator in decorators)])
-
-
 def _rows(node: ast.stmt) -> range:
-    return range(_first_row(node), (node.end_lineno or node.lineno) + 1)
+    return range(first_row(node), (node.end_lineno or node.lineno) + 1)
 
 
 def _owns_lines(module: Module, node: ast.stmt) -> bool:
