@@ -99,8 +99,40 @@ KINDS = (
                 "{name} calls the function in this line. The grader ran the node with {written}, "
                 "which only names it, and then this check passes."
             ),
+            "once": msg(
+                "Each call of this function makes {name} anew. The grader ran the node with {written} "
+                "above the function, so that it is made once, and then this check passes."
+            ),
+            "once_init": msg(
+                "Each call of this function makes {name} anew. The grader ran the node with {written} "
+                "in __init__, so that it is made once, and then this check passes."
+            ),
+            "kept": msg(
+                "A function reads {form} when it is called, and then the loop has already given "
+                "{form} its last value. The grader ran the node with {form} as a default value, which "
+                "Python reads when it makes the function, and then this check passes."
+            ),
+            "asked_for": msg(
+                "{name} makes an object that works out its values only when something asks for them, "
+                "and nothing does. The grader ran the node with list() around it, which asks for all "
+                "of them, and then this check passes."
+            ),
+            "yields": msg(
+                "A function with yield is a generator: calling it runs none of its lines. The grader "
+                "ran the node without this yield, and then this check passes."
+            ),
         },
         fixes={
+            "once": msg(
+                "Write {written} above the function. In this line, use the name that it sets instead "
+                "of {name}."
+            ),
+            "once_init": msg(
+                "Write {written} as the last line of __init__. In this line, use the name that it sets "
+                "instead of {name}."
+            ),
+            "asked_for": msg("Write {written}, or a for loop, instead of {name}."),
+            "yields": msg("Delete this yield."),
             "long": msg("Make the change below."),
             "condition": msg(
                 "Delete the line {name}, and indent the lines of its block one step less."

@@ -11,8 +11,18 @@ from grader.report.model import Where
 NEARLY, WHOLE = 8, 9
 """How far a node gets that counts, and that counts in the right period without a sleep."""
 FAR = 2  # lines, from which a change is of another place
-OWN_REASON = ("emptied", "moved_lines", "renamed", "out", "condition", "loop", "with", "else")
+OWN_REASON = (
+    *("emptied", "moved_lines", "renamed", "out", "condition", "loop", "with", "else"),
+    *("once", "once_init", "kept", "asked_for", "yields"),
+)
 """The sorts of changes that only their own reason explains."""
+CERTAIN = (
+    *("value", "seconds", "called", "not_called", "argument", "below", "moved", "deleted"),
+    *("once", "once_init", "kept", "asked_for", "yields"),
+)
+"""The sorts of changes that show, where they help, that the mistake is at their line."""
+MOST_COST = 4
+"""The most that a change costs which shows that."""
 ELSEWHERE = 10**6
 """The distance of a change in another file."""
 
@@ -61,6 +71,12 @@ class FoundChange:
         return min(abs(line - where.line) for line in lines)
 
     @property
-    def explains_itself(self) -> bool:
-        """Whether it can be shown with the reason of another diagnosis of its line."""
+    def is_simple(self) -> bool:
+        """Whether another diagnosis of its line can explain it, or none is needed."""
         return self.counts and len(self.steps) == 1 and self.steps[0].sort not in OWN_REASON
+
+    @property
+    def is_certain(self) -> bool:
+        """Whether it shows by itself where the mistake is, whatever a diagnosis says."""
+        step, whole = self.steps[0], self.level == WHOLE and len(self.steps) == 1
+        return whole and step.sort in CERTAIN and self.cost <= MOST_COST

@@ -9,8 +9,9 @@ package get further; what they show stays true without it.
 from __future__ import annotations
 
 import hashlib
+import keyword
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 
@@ -36,12 +37,16 @@ MOST_ON_TOP = 2
 """The most fixes that are tried together with the first one."""
 WHY = ("node.", "setup.", "package.", "source.", "interface.", "beside.")
 """How the ids of mistakes begin that say why something failed, and not only what was seen."""
+RUNS = "run."
+"""How the ids of checks begin that a change of the node's files can let pass."""
 VAGUE = {
     *("run.died_at_start", "run.ended_early", "run.exits_at_once", "run.stops", "run.no_lines"),
     *("run.wrong_text", "run.wrong_start", "run.wrong_step", "run.constant_counter", "run.twice"),
     *("run.wrong_period", "run.never_spins"),
 }
 """What was seen that has many causes: its text alone helps little."""
+EVERYWHERE = {*keyword.kwlist, "self", "rclpy", "node", "Node", "main", "init", "info"}
+"""Names that do not tell which lines of a program a text speaks of."""
 ERRORS = (*RAISES, "build.setup_error")
 """The mistakes that were seen as an exception."""
 
@@ -49,7 +54,7 @@ ERRORS = (*RAISES, "build.setup_error")
 def with_tried_fix(result: CheckResult, evidence: Evidence, translate: Translator) -> CheckResult:
     """Return a failed check's result with a fix that helps, if one is known or can be found."""
     found = _with_known_fix(result, evidence, translate)
-    if found.patch or found.consequence_of or found.id in STATIC:
+    if found.patch or found.consequence_of or not found.id.startswith(RUNS):
         return found
     return _with_small_change(found, evidence, translate) or found
 
@@ -59,26 +64,61 @@ def _with_small_change(
 ) -> CheckResult | None:
     """Return the result with a small change that was found and helps; None if there is none.
 
-    A known mistake keeps its reason, and gets a change of its own line only. What was only seen is
-    replaced by the change.
+    A known mistake keeps its reason with a change of its own line. If no such change helps, but one
+    of another place that has nothing to do with the reason, the mistake does not explain the
+    failure. It is then replaced by the change, as is what was only seen.
     """
     if evidence.search is None or evidence.with_fix is None:
         return None
-    if _root(result) is None and not {mistake.id for mistake in result.mistakes} & VAGUE:
+    root = _root(result)
+    if root is None and not {mistake.id for mistake in result.mistakes} & VAGUE:
         return None
     if evidence.found_changes is None:
         evidence.found_changes = evidence.search(evidence)
-    old, told, root = Files.of(evidence.submission), _told(evidence), _root(result)
-    changes = [one for one in evidence.found_changes if root is None or _fits(one, result)]
+    found = evidence.found_changes
+    if root is None:
+        return _with_first(_nearest(found, result, evidence), result, evidence, translate)
+    fits = [one for one in found if _fits(one, result, root)]
+    fitting = _with_first(_nearest(fits, result, evidence), result, evidence, translate)
+    if fitting is not None:
+        return fitting
+    other = [one for one in found if one.is_certain and not _speaks_of(root, one)]
+    return _with_first(other, result, evidence, translate, replaces=True)
+
+
+def _nearest(
+    changes: Sequence[FoundChange], result: CheckResult, evidence: Evidence
+) -> list[FoundChange]:
+    """Return changes in the order in which they are tried: one that was told before comes first."""
     near = {id(one): one.distance(result.where) for one in changes}
-    changes.sort(key=lambda one: (-one.level, one.cost, near[id(one)]))
-    if root is not None:
-        changes.sort(key=lambda one: near[id(one)])
-    changes.sort(key=lambda one: recognised(one).mistake not in told)
+    told = [m for r in evidence.results.values() for m in r.mistakes if m.id == KIND]
+    known = _root(result) is not None
+
+    def order(one: FoundChange) -> tuple[bool, int, int, int, int]:
+        distance = near[id(one)]
+        first = distance if known else 0
+        return (recognised(one).mistake not in told, first, -one.level, one.cost, distance)
+
+    return sorted(changes, key=order)
+
+
+def _with_first(
+    changes: Sequence[FoundChange],
+    result: CheckResult,
+    evidence: Evidence,
+    translate: Translator,
+    *,
+    replaces: bool = False,
+) -> CheckResult | None:
+    """Return the result with the first of the changes that helps; None if none of them does.
+
+    The change replaces the reason if there is none, or if it `replaces` a known mistake.
+    """
+    old = Files.of(evidence.submission)
     for change in changes[:MOST_ALTERNATIVES]:
         new = change.of(old)
         if _Trial(result, evidence, translate).is_better(new, passes=change.counts):
-            if root is None:
+            if replaces or _root(result) is None:
                 result = evaluate_again(result.id, evidence, translate, found=recognised(change))
             fix = result.fix if result.consequence_of else translate(fix_text(change, result.where))
             other = [say("Another change may fit what you want to do better.")]
@@ -88,14 +128,25 @@ def _with_small_change(
     return None
 
 
-def _fits(change: FoundChange, result: CheckResult) -> bool:
-    """Whether a change can be shown with the reason of a diagnosis: it is of the same line."""
-    return change.distance(result.where) < FAR and change.explains_itself
+def _fits(change: FoundChange, result: CheckResult, root: Mistake) -> bool:
+    """Whether a mistake's reason can explain a change: it is of its line, or of that next to it."""
+    far = change.distance(result.where)
+    return change.is_simple and (far == 0 or (far < FAR and _speaks_of(root, change)))
 
 
-def _told(evidence: Evidence) -> list[Mistake]:
-    """Return the small changes that earlier checks have been told."""
-    return [m for r in evidence.results.values() for m in r.mistakes if m.id == KIND]
+def _speaks_of(root: Mistake, change: FoundChange) -> bool:
+    """Whether a mistake's text names a line that a change changes, or something in it."""
+    given = {str(value) for value in root.params.values()}
+    told = _names(" ".join(given))
+    return any(
+        str(step.line) in given or told & _names(f"{step.name} {step.written} {step.form}")
+        for step in change.steps
+    )
+
+
+def _names(code: str) -> set[str]:
+    """Return the names in code that a program may have given."""
+    return set(re.findall(r"[^\W\d]\w+", code)) - EVERYWHERE
 
 
 def _with_known_fix(result: CheckResult, evidence: Evidence, translate: Translator) -> CheckResult:
@@ -291,7 +342,7 @@ class _Trial:
 
 def _search_further(after: CheckResult, fixed: Evidence) -> None:
     """Look for small changes of a fixed package, if a check still fails and no fix of it is known."""
-    if after.status != "failed" or after.id in STATIC or fixed.search is None:
+    if after.status != "failed" or not after.id.startswith(RUNS) or fixed.search is None:
         return
     if next(fixes_of(after, fixed.submission, fixed.assignment), None) is None:
         fixed.found_changes = fixed.search(fixed)

@@ -154,9 +154,32 @@ def test_a_known_mistake_gets_no_change_that_needs_words_of_its_own(
     assert texts(result) == texts(before)
 
 
-def test_a_known_mistake_gets_no_change_of_another_line(tmp_path: Path) -> None:
+ELSEWHERE = {
+    "of a line that the mistake names": replace(
+        change(1), steps=(replace(change(1).steps[0], name="input('?')"),)
+    ),
+    "that a fix of the mistake may need too": change(1, "out"),
+    "in another period": replace(change(1), level=NEARLY),
+    "large": replace(change(1), cost=5),
+}
+
+
+@pytest.mark.parametrize("other", ELSEWHERE.values(), ids=ELSEWHERE)
+def test_a_known_mistake_gets_no_change_of_another_line(other: FoundChange, tmp_path: Path) -> None:
     before, _ = found_with(KNOWN, tmp_path / "before", [], KNOWN)
-    result, _ = found_with(KNOWN, tmp_path, [change(1)], "solution")
+    result, _ = found_with(KNOWN, tmp_path, [other], "solution")
+    assert texts(result) == texts(before)
+
+
+def test_a_change_that_a_known_mistake_does_not_explain_replaces_it(tmp_path: Path) -> None:
+    before, _ = found_with(KNOWN, tmp_path / "before", [], KNOWN)
+    result, _ = found_with(KNOWN, tmp_path / "helps", [change(1)], "solution")
+    assert ids(result) == ["node.small_change", *ids(before)[1:]]
+    assert (result.where, result.fix) == (
+        Where(file=NODE, line=1),
+        "Write new instead of old.",
+    )
+    result, _ = found_with(KNOWN, tmp_path / "not", [change(1)], KNOWN)
     assert texts(result) == texts(before)
 
 

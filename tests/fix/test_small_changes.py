@@ -68,7 +68,11 @@ MISTAKES = [
         "loop",
     ),
     ("    def timer_callback", "    async def timer_callback", "value"),
+    ('"Hello time: " + str(self.counter_)', 'f"Hello time: {{self.counter_}}"', "value"),
+    ("    rclpy.spin(node)\n", "    rclpy.spin(node)\n    yield\n", "yields"),
+    ("    rclpy.spin(node)\n", "    assert args is not None\n    rclpy.spin(node)\n", "deleted"),
 ]
+F_STRING = NODE.replace('"Hello time: " + str(self.counter_)', 'f"Hello time: {self.counter_}"')
 
 
 def changes(text: str, **more: str) -> list[SmallChange]:
@@ -88,7 +92,7 @@ def same(text: str) -> str:
 def test_one_of_the_changes_undoes_a_mistake(right: str, wrong: str, sort: str) -> None:
     text = NODE.replace(right, wrong, 1)
     assert text != NODE
-    found = [one for one in changes(text) if same(one.text) == same(NODE)]
+    found = [one for one in changes(text) if same(one.text) in (same(NODE), same(F_STRING))]
     assert [one.change.sort for one in found][:1] == [sort]
 
 
@@ -177,3 +181,56 @@ def test_all_other_bytes_stay() -> None:
     for one in changes(text):
         assert "# é\r\n" in one.text
         assert "\n" not in one.text.replace("\r\n", "")
+
+
+LIFETIMES = [
+    (
+        "    def hello():\n        print(next(numbers(1)))\n",
+        "    values = numbers(1)\n    def hello():\n        print(next(values))\n",
+        "once",
+    ),
+    (
+        "    hellos = [lambda: print(k) for k in range(9)]\n",
+        "    hellos = [lambda k=k: print(k) for k in range(9)]\n",
+        "kept",
+    ),
+    (
+        "    for k in range(9):\n        def hello(n):\n            print(n, k)\n",
+        "    for k in range(9):\n        def hello(n, k=k):\n            print(n, k)\n",
+        "kept",
+    ),
+    ("    map(print, [node])\n", "    list(map(print, [node]))\n", "asked_for"),
+    ("    (print(n) for n in [node])\n", "    list(print(n) for n in [node])\n", "asked_for"),
+]
+
+
+@pytest.mark.parametrize(("before", "after", "sort"), LIFETIMES)
+def test_a_value_is_made_and_read_when_it_has_to_be(before: str, after: str, sort: str) -> None:
+    text = NODE.replace("    rclpy.spin(node)\n", before + "    rclpy.spin(node)\n")
+    found = [one.change.sort for one in changes(text) if after in one.text]
+    assert found == [sort]
+
+
+def test_what_a_method_makes_in_each_call_is_made_in_init() -> None:
+    text = NODE.replace("str(self.counter_)", "str(next(numbers()))")
+    found = [one for one in changes(text) if one.change.sort == "once_init"]
+    assert len(found) == 1
+    assert "timer_callback)\n        self.values = numbers()\n" in found[0].text
+    assert "str(next(self.values))" in found[0].text
+
+
+def test_an_iterator_of_a_functions_own_names_is_made_in_each_call() -> None:
+    text = NODE.replace("    rclpy.spin(node)\n", "    def hello(n):\n        print(numbers(n))\n")
+    assert not [one for one in changes(text) if one.change.sort == "once"]
+
+
+def test_no_comparison_takes_the_place_of_in() -> None:
+    text = NODE.replace(
+        "    rclpy.spin(node)\n", "    assert args in (None, [])\n    rclpy.spin(node)\n"
+    )
+    assert not [one for one in changes(text) if "args == " in one.text or "args != " in one.text]
+
+
+def test_no_statement_becomes_a_value_that_nothing_uses() -> None:
+    text = NODE.replace("    rclpy.spin(node)\n", "    rclpy.spin(node)\n    yield node\n")
+    assert not [one for one in changes(text) if "\n    node\n" in one.text]

@@ -51,6 +51,15 @@ def first_row(node: ast.stmt) -> int:
     return min([node.lineno, *(decorator.lineno for decorator in decorators)])
 
 
+def owns_lines(module: Module, node: ast.stmt) -> bool:
+    """Whether no other code is on the lines of a statement."""
+    text = module.text
+    start, end = text.span(node)
+    before = text.text[text.start_of(node.lineno) : start]
+    after = text.text[end : text.end_of(node.end_lineno or node.lineno)].strip()
+    return not before.strip() and (not after or after.startswith("#"))
+
+
 def block_of(module: Module, statement: ast.stmt) -> list[ast.stmt]:
     """Return the list of statements that has a statement."""
     around = module.parents.get(statement, module.tree)

@@ -9,7 +9,7 @@ from grader.package.source.change import Change, of_piece
 from grader.package.source.module import Function, Module, is_text
 from grader.package.source.names import called_name, dotted
 from grader.package.source.node import LOG_METHODS, NodeSource
-from grader.package.source.place import block_of, blocks_in, first_row
+from grader.package.source.place import block_of, blocks_in, first_row, owns_lines
 from grader.package.source.small_values import MOST_NAMES, Found, Goal, Sort, counters_of
 
 SIMPLE = (
@@ -24,7 +24,7 @@ def _blocks(module: Module, source: NodeSource, goal: Goal) -> Found:
     """Yield the lines of a block without its head, and lines moved out of a block."""
     del source, goal
     for node in module.nodes:
-        if not isinstance(node, HEADED | ast.Try) or not _owns_lines(module, node):
+        if not isinstance(node, HEADED | ast.Try) or not owns_lines(module, node):
             continue
         if not module.line(node.lineno).startswith("elif"):
             if isinstance(node, HEADED):
@@ -55,7 +55,7 @@ def _moved_out(module: Module, node: ast.stmt, block: list[ast.stmt]) -> Found:
     for moved in block:
         if not isinstance(moved, SIMPLE) or isinstance(moved, ast.Break | ast.Continue):
             continue
-        if not _owns_lines(module, moved):
+        if not owns_lines(module, moved):
             continue
         lines = [indent + text.line(row).strip() for row in _rows(moved)]
         gone = tuple(text.without(row) for row in _rows(moved))
@@ -71,7 +71,7 @@ def _order(module: Module, source: NodeSource, goal: Goal) -> Found:
     del source, goal
     text = module.text
     for block in blocks_in(module.tree):
-        own = [s for s in block if _owns_lines(module, s) and not is_text(s)]
+        own = [s for s in block if owns_lines(module, s) and not is_text(s)]
         for at, moved in enumerate(own):
             if isinstance(moved, ast.ClassDef):
                 continue
@@ -99,7 +99,7 @@ def _added(module: Module, source: NodeSource, goal: Goal) -> Found:
     outside = {name for s in module.tree.body for name in _stored(s)}
     for function in (n for n in module.nodes if isinstance(n, Function)):
         first, last = function.body[0], function.body[-1]
-        if not _owns_lines(module, function) or first.lineno == function.lineno:
+        if not owns_lines(module, function) or first.lineno == function.lineno:
             continue
         indent = indent_of(text.line(first.lineno))
         if any(
@@ -133,15 +133,15 @@ def _removed(module: Module, source: NodeSource, goal: Goal) -> Found:
     del source, goal
     text = module.text
     for node in module.nodes:
-        if isinstance(node, SIMPLE) and not is_text(node) and _owns_lines(module, node):
+        if isinstance(node, SIMPLE) and not is_text(node) and owns_lines(module, node):
             if len(block_of(module, node)) > 1:
-                yield 5, _without(module, node)
+                yield 3 if isinstance(node, ast.Assert) else 5, _without(module, node)
             else:
                 yield 5, of_piece(module, "emptied", node, "pass")
         elif isinstance(node, Function | ast.ClassDef):
             kinds = Function | ast.ClassDef
             names = [n.name for n in block_of(module, node) if isinstance(n, kinds)]
-            if names.count(node.name) > 1 and _owns_lines(module, node):
+            if names.count(node.name) > 1 and owns_lines(module, node):
                 yield 3, _without(module, node)
             for decorator in node.decorator_list:
                 rows = range(decorator.lineno, (decorator.end_lineno or 0) + 1)
@@ -162,15 +162,6 @@ def _without(module: Module, node: ast.stmt) -> Change:
 
 def _rows(node: ast.stmt) -> range:
     return range(first_row(node), (node.end_lineno or node.lineno) + 1)
-
-
-def _owns_lines(module: Module, node: ast.stmt) -> bool:
-    """Whether no other code is on the lines of a statement."""
-    text = module.text
-    start, end = text.span(node)
-    before = text.text[text.start_of(node.lineno) : start]
-    after = text.text[end : text.end_of(node.end_lineno or node.lineno)].strip()
-    return not before.strip() and (not after or after.startswith("#"))
 
 
 SORTS: tuple[Sort, ...] = (_blocks, _added, _order, _removed)

@@ -27,6 +27,12 @@ SIGNS: dict[type[ast.AST], str] = {
 }
 SUMS: tuple[type[ast.AST], ...] = (ast.Add, ast.Sub)
 COMPARED: tuple[type[ast.AST], ...] = (ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq)
+OTHER: dict[type[ast.AST], str] = {
+    ast.In: "not in",
+    ast.NotIn: "in",
+    ast.Is: "==",
+    ast.IsNot: "!=",
+}
 NEAR = ({ast.Lt, ast.LtE}, {ast.Gt, ast.GtE}, {ast.Lt, ast.Gt}, {ast.LtE, ast.GtE})
 BUILTINS = frozenset(dir(builtins))
 UNIT = 2  # the cost of a number in another unit
@@ -117,13 +123,7 @@ def _operators(module: Module, source: NodeSource, goal: Goal) -> Found:
                 if not isinstance(node.op, kind):
                     yield 2, _between(module, node, node.left, node.right, SIGNS[kind])
         elif isinstance(node, ast.Compare) and len(node.ops) == 1:
-            if dotted(node.left) == "__name__":
-                continue
-            for kind in COMPARED:
-                if not isinstance(node.ops[0], kind):
-                    cost = 2 if {type(node.ops[0]), kind} in NEAR else 4
-                    right = node.comparators[0]
-                    yield cost, _between(module, node, node.left, right, SIGNS[kind])
+            yield from _compared(module, node)
         elif isinstance(node, ast.BoolOp) and len(node.values) == 2:
             sign = "or" if isinstance(node.op, ast.And) else "and"
             yield 2, _between(module, node, node.values[0], node.values[1], sign)
@@ -134,6 +134,20 @@ def _operators(module: Module, source: NodeSource, goal: Goal) -> Found:
             new = f"{text.code(node.targets[0])} += {text.code(node.value)}"
             if module.parents.get(node) is not module.tree:
                 yield 3, of_piece(module, "value", node, new)
+
+
+def _compared(module: Module, node: ast.Compare) -> Found:
+    """Yield other comparisons of the same operands."""
+    if dotted(node.left) == "__name__":
+        return
+    written, right = type(node.ops[0]), node.comparators[0]
+    if written in OTHER:
+        yield 3, _between(module, node, node.left, right, OTHER[written])
+        return
+    for kind in COMPARED:
+        if kind is not written:
+            cost = 2 if {written, kind} in NEAR else 4
+            yield cost, _between(module, node, node.left, right, SIGNS[kind])
 
 
 def _counting(module: Module, source: NodeSource, goal: Goal) -> Found:
@@ -234,12 +248,26 @@ def _logged(module: Module, source: NodeSource, goal: Goal) -> Found:
                 yield 4, of_piece(module, "value", call.args[0], new)
 
 
+def _braces(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield f-strings with single braces, and strings with braces as f-strings."""
+    del source, goal
+    for node in module.nodes:
+        code = module.text.code(node) if isinstance(node, ast.JoinedStr | ast.Constant) else ""
+        if isinstance(node, ast.JoinedStr) and "{{" in code:
+            yield 1, of_piece(module, "value", node, code.replace("{{", "{").replace("}}", "}"))
+        elif isinstance(node, ast.Constant) and code[:1] in ("'", '"') and "{" in code:
+            yield 2, of_piece(module, "value", node, f"f{code}")
+
+
 def _parts(module: Module, source: NodeSource, goal: Goal) -> Found:
     """Yield a part of an expression in the place of the whole."""
     del source, goal
     for node in module.nodes:
         if isinstance(node, ast.expr):
-            for part in _parts_of(node, module.parents.get(node)):
+            around = module.parents.get(node)
+            for part in _parts_of(node, around):
+                if isinstance(around, ast.Expr) and not isinstance(part, ast.Call):
+                    continue  # (a statement that only names a value does nothing)
                 if not isinstance(part, ast.Starred):
                     yield 3, of_piece(module, "value", node, module.text.code(part))
 
@@ -351,6 +379,17 @@ def is_name(node: ast.AST) -> bool:
 
 
 SORTS: tuple[Sort, ...] = (
-    *(_logged, _called, _timers, _numbers, _operators, _arguments, _names, _parts, _renamed),
+    *(
+        _braces,
+        _logged,
+        _called,
+        _timers,
+        _numbers,
+        _operators,
+        _arguments,
+        _names,
+        _parts,
+        _renamed,
+    ),
     *(_counting, _bases),
 )
