@@ -121,8 +121,26 @@ KINDS = (
                 "A function with yield is a generator: calling it runs none of its lines. The grader "
                 "ran the node without this yield, and then this check passes."
             ),
+            "returned": msg(
+                "This function changes {form} before it returns it, so that it gives the next value "
+                "already the first time. The grader ran the node with the value from before the "
+                "change, and then this check passes."
+            ),
+            "falsy": msg(
+                "0, an empty string and an empty list count as false in a condition, as None does. "
+                "The grader ran the node with this line asking only for None, and then this check "
+                "passes."
+            ),
+            "inexact": msg(
+                "A float is not exact: 0.1 added ten times is a little less than 1. The grader ran the node "
+                "with {form} rounded in this line, and then this check passes."
+            ),
         },
         fixes={
+            "returned": msg(
+                "Keep the value in a variable before the line that changes it, and write {written} "
+                "instead of {name}."
+            ),
             "once": msg(
                 "Write {written} above the function. In this line, use the name that it sets instead "
                 "of {name}."

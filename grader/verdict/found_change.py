@@ -13,16 +13,14 @@ NEARLY, WHOLE = 8, 9
 FAR = 2  # lines, from which a change is of another place
 OWN_REASON = (
     *("emptied", "moved_lines", "renamed", "out", "condition", "loop", "with", "else"),
-    *("once", "once_init", "kept", "asked_for", "yields"),
+    *("once", "once_init", "kept", "asked_for", "yields", "returned", "falsy", "inexact"),
 )
 """The sorts of changes that only their own reason explains."""
 CERTAIN = (
-    *("value", "seconds", "called", "not_called", "argument", "below", "moved", "deleted"),
-    *("once", "once_init", "kept", "asked_for", "yields"),
+    *("called", "not_called", "argument", "once", "once_init", "kept", "asked_for"),
+    *("yields", "returned", "falsy", "inexact"),
 )
-"""The sorts of changes that show, where they help, that the mistake is at their line."""
-MOST_COST = 4
-"""The most that a change costs which shows that."""
+"""The sorts of changes that hardly help by chance: a rule of Python is their reason."""
 ELSEWHERE = 10**6
 """The distance of a change in another file."""
 
@@ -78,5 +76,4 @@ class FoundChange:
     @property
     def is_certain(self) -> bool:
         """Whether it shows by itself where the mistake is, whatever a diagnosis says."""
-        step, whole = self.steps[0], self.level == WHOLE and len(self.steps) == 1
-        return whole and step.sort in CERTAIN and self.cost <= MOST_COST
+        return self.level == WHOLE and len(self.steps) == 1 and self.steps[0].sort in CERTAIN

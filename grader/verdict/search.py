@@ -184,6 +184,8 @@ def level(run: ShortRun, output: Output) -> int:
         steps = {later - earlier for earlier, later in zip(numbers, numbers[1:])}
         return STEP if steps == {output.step} else TEXT
     instants = [at for at, _ in counted]
+    if len({*instants}) < len(instants):
+        return STEP
     apart = {later - earlier for earlier, later in zip([0, *instants], instants)}
     return WHOLE if apart == {round(output.period * 1e9)} and not run.slept else NEARLY
 

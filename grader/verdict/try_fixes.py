@@ -39,6 +39,8 @@ WHY = ("node.", "setup.", "package.", "source.", "interface.", "beside.")
 """How the ids of mistakes begin that say why something failed, and not only what was seen."""
 RUNS = "run."
 """How the ids of checks begin that a change of the node's files can let pass."""
+COUNTS = ("run.starts", "run.spins", "run.output")
+"""The checks that pass if the node counts."""
 VAGUE = {
     *("run.died_at_start", "run.ended_early", "run.exits_at_once", "run.stops", "run.no_lines"),
     *("run.wrong_text", "run.wrong_start", "run.wrong_step", "run.constant_counter", "run.twice"),
@@ -292,9 +294,10 @@ class _Trial:
 
     def is_better(self, new: Files, *, passes: bool) -> bool:
         """Whether the check passes with a fix, or (not `passes`) sees something else, and not worse."""
-        if passes:
-            return bool(self.helps(new, on_top=0).helps)
         fixed = self._fixed(new)
+        if passes:
+            left = [c for c in COUNTS if fixed and fixed.results[c].status == "failed"]
+            return bool(self.helps(new, on_top=0).helps) and not left
         if fixed is None or self._breaks_a_check(fixed):
             return False
         after = fixed.results[self._before.id]

@@ -156,11 +156,11 @@ def test_a_known_mistake_gets_no_change_that_needs_words_of_its_own(
 
 ELSEWHERE = {
     "of a line that the mistake names": replace(
-        change(1), steps=(replace(change(1).steps[0], name="input('?')"),)
+        change(1, "kept"), steps=(replace(change(1, "kept").steps[0], name="input('?')"),)
     ),
-    "that a fix of the mistake may need too": change(1, "out"),
-    "in another period": replace(change(1), level=NEARLY),
-    "large": replace(change(1), cost=5),
+    "that may help by chance": change(1, "value"),
+    "in another period": replace(change(1, "kept"), level=NEARLY),
+    "of two places": change(1, "kept", "kept"),
 }
 
 
@@ -173,13 +173,12 @@ def test_a_known_mistake_gets_no_change_of_another_line(other: FoundChange, tmp_
 
 def test_a_change_that_a_known_mistake_does_not_explain_replaces_it(tmp_path: Path) -> None:
     before, _ = found_with(KNOWN, tmp_path / "before", [], KNOWN)
-    result, _ = found_with(KNOWN, tmp_path / "helps", [change(1)], "solution")
+    found = [change(1, "asked_for")]
+    result, _ = found_with(KNOWN, tmp_path / "helps", found, "solution")
     assert ids(result) == ["node.small_change", *ids(before)[1:]]
-    assert (result.where, result.fix) == (
-        Where(file=NODE, line=1),
-        "Write new instead of old.",
-    )
-    result, _ = found_with(KNOWN, tmp_path / "not", [change(1)], KNOWN)
+    assert result.where == Where(file=NODE, line=1)
+    assert result.fix == "Write new, or a for loop, instead of old."
+    result, _ = found_with(KNOWN, tmp_path / "not", found, KNOWN)
     assert texts(result) == texts(before)
 
 

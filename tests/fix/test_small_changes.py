@@ -72,6 +72,7 @@ MISTAKES = [
     ("    rclpy.spin(node)\n", "    rclpy.spin(node)\n    yield\n", "yields"),
     ("    rclpy.spin(node)\n", "    assert args is not None\n    rclpy.spin(node)\n", "deleted"),
 ]
+OLD_VALUE = "        value = self.counter_\n        self.counter_ += 1\n        return value\n"
 F_STRING = NODE.replace('"Hello time: " + str(self.counter_)', 'f"Hello time: {self.counter_}"')
 
 
@@ -234,3 +235,38 @@ def test_no_comparison_takes_the_place_of_in() -> None:
 def test_no_statement_becomes_a_value_that_nothing_uses() -> None:
     text = NODE.replace("    rclpy.spin(node)\n", "    rclpy.spin(node)\n    yield node\n")
     assert not [one for one in changes(text) if "\n    node\n" in one.text]
+
+
+TRUTHS = [
+    ("x = args or 5", "x = 5 if args is None else args", "falsy"),
+    ("print(args or 5)", "print((5 if args is None else args))", "falsy"),
+    ("x = 1 if args else 2", "x = 1 if args is not None else 2", "falsy"),
+    ("x = 1 if not args else 2", "x = 1 if args is None else 2", "falsy"),
+    ("x = args == 1.0", "x = round(args, 6) == 1.0", "inexact"),
+    ("x = args % 1 == 0", "x = round(args, 6) % 1 == 0", "inexact"),
+    ("x = int(args)", "x = round(args)", "inexact"),
+    ("x = args // 1", "x = round(args, 6) // 1", "inexact"),
+    ("x = args + 1.0", "x = args + 1", "value"),
+]
+
+
+@pytest.mark.parametrize(("before", "after", "sort"), TRUTHS)
+def test_a_condition_asks_for_none_and_a_float_is_rounded(
+    before: str, after: str, sort: str
+) -> None:
+    text = NODE.replace("    rclpy.spin(node)\n", f"    {before}\n    rclpy.spin(node)\n")
+    found = [one.change.sort for one in changes(text) if f"    {after}\n" in one.text]
+    assert found == [sort]
+
+
+def test_a_function_returns_the_value_from_before_its_change() -> None:
+    step = "    def step(self):\n        self.counter_ += 1\n        return self.counter_\n\n"
+    text = NODE.replace("    def timer_callback", step + "    def timer_callback")
+    found = [one for one in changes(text) if one.change.sort == "returned"]
+    assert [OLD_VALUE in one.text for one in found] == [True]
+
+
+def test_no_number_is_below_zero() -> None:
+    text = NODE.replace("self.counter_ = 0", "self.counter_ = 2")
+    assert not [one for one in changes(NODE) if "= -1" in one.text]
+    assert [one for one in changes(text) if "self.counter_ = 1\n" in one.text]

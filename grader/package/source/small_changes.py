@@ -8,13 +8,17 @@ from __future__ import annotations
 import ast
 from dataclasses import dataclass
 
-from grader.package.source import small_lifetimes, small_orders, small_values
+from grader.package.source import small_lifetimes, small_orders, small_truths, small_values
 from grader.package.source.change import Change
 from grader.package.source.module import Module
 from grader.package.source.node import NodeSource
 from grader.package.source.small_values import Goal
 
 UTF_8 = ("utf-8", "ascii")
+ALL = (
+    *(*small_values.SORTS, *small_truths.SORTS),
+    *(*small_lifetimes.SORTS, *small_orders.SORTS),
+)
 
 
 @dataclass(frozen=True)
@@ -50,7 +54,7 @@ def small_changes(source: NodeSource, goal: Goal) -> list[SmallChange]:
         if module.text.encoding not in UTF_8:
             continue
         seen, script = {module.text.text}, lines_as_script(module)
-        for sort in (*small_values.SORTS, *small_lifetimes.SORTS, *small_orders.SORTS):
+        for sort in ALL:
             for cost, change in sort(module, source, goal):
                 new = module.edited(change.splices)
                 text = new.decode() if new is not None else ""

@@ -10,7 +10,7 @@ from grader.package.source.module import Function, Module, is_text
 from grader.package.source.names import called_name, dotted
 from grader.package.source.node import LOG_METHODS, NodeSource
 from grader.package.source.place import block_of, blocks_in, first_row, owns_lines
-from grader.package.source.small_values import MOST_NAMES, Found, Goal, Sort, counters_of
+from grader.package.source.small_values import MOST_NAMES, Found, Goal, Sort, counters_of, is_name
 
 SIMPLE = (
     *(ast.Expr, ast.Assign, ast.AugAssign, ast.AnnAssign, ast.Return, ast.Break, ast.Continue),
@@ -153,6 +153,31 @@ def _removed(module: Module, source: NodeSource, goal: Goal) -> Found:
                 yield 2, Change("value", node, "async def", "def", (splice,))
 
 
+def _returned(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield functions that return a value as it was before they change it."""
+    del source, goal
+    text = module.text
+    for function in (n for n in module.nodes if isinstance(n, Function)):
+        for at, last in enumerate(function.body):
+            if not isinstance(last, ast.Return) or last.value is None or not is_name(last.value):
+                continue
+            code, own = text.code(last.value), function.body[:at]
+            changed = [s for s in own if code in {text.code(t) for t in _targets(s)}]
+            if len(changed) == 1 and owns_lines(module, changed[0]):
+                indent = indent_of(text.line(changed[0].lineno))
+                name = "value" if "value" not in module.names else "value_before"
+                put = text.before(changed[0].lineno, f"{indent}{name} = {code}")
+                new = f"return {name}"
+                splices = (put, text.swap(last.value, name))
+                yield 2, Change("returned", last, module.line(last.lineno), new, splices, code)
+
+
+def _targets(statement: ast.stmt) -> list[ast.expr]:
+    if isinstance(statement, ast.AugAssign):
+        return [statement.target]
+    return statement.targets if isinstance(statement, ast.Assign) else []
+
+
 def _without(module: Module, node: ast.stmt) -> Change:
     gone = tuple(module.text.without(row) for row in _rows(node))
     return Change(
@@ -164,4 +189,4 @@ def _rows(node: ast.stmt) -> range:
     return range(first_row(node), (node.end_lineno or node.lineno) + 1)
 
 
-SORTS: tuple[Sort, ...] = (_blocks, _added, _order, _removed)
+SORTS: tuple[Sort, ...] = (_blocks, _added, _returned, _order, _removed)

@@ -36,7 +36,7 @@ OTHER: dict[type[ast.AST], str] = {
 NEAR = ({ast.Lt, ast.LtE}, {ast.Gt, ast.GtE}, {ast.Lt, ast.Gt}, {ast.LtE, ast.GtE})
 BUILTINS = frozenset(dir(builtins))
 UNIT = 2  # the cost of a number in another unit
-SCALES = (10, 60, 100, 1000, 3600, 10**6, 10**9)
+SCALES = (60, 1000, 3600, 10**6, 10**9)
 """A period in another unit is so many times the required one, or so small a part of it."""
 
 
@@ -71,7 +71,7 @@ def _numbers(module: Module, source: NodeSource, goal: Goal) -> Found:
             near: list[float] = [value + 1, value - 1] if isinstance(value, int) else []
             near += [round(value * 10, 9), round(value / 10, 9)]
             wanted = dict.fromkeys([goal.start, goal.step, goal.period, *near])
-            for number in (n for n in wanted if n != value and n >= -1):
+            for number in (n for n in wanted if n != value and n >= 0):
                 cost = _cost(value, number, goal)
                 sort = "seconds" if cost == UNIT else "value"
                 yield cost, of_piece(module, sort, node, str(number))
@@ -126,7 +126,7 @@ def _operators(module: Module, source: NodeSource, goal: Goal) -> Found:
             yield from _compared(module, node)
         elif isinstance(node, ast.BoolOp) and len(node.values) == 2:
             sign = "or" if isinstance(node.op, ast.And) else "and"
-            yield 2, _between(module, node, node.values[0], node.values[1], sign)
+            yield 4, _between(module, node, node.values[0], node.values[1], sign)
         elif isinstance(node, ast.AugAssign) and not isinstance(node.op, ast.Add):
             new = f"{text.code(node.target)} += {text.code(node.value)}"
             yield 2, of_piece(module, "value", node, new)

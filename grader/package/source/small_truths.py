@@ -1,0 +1,72 @@
+"""Small changes of a condition: of what counts as no value, and of sums that are not exact."""
+
+from __future__ import annotations
+
+import ast
+
+from grader.package.source.change import Change, of_piece
+from grader.package.source.module import Module
+from grader.package.source.names import dotted
+from grader.package.source.node import NodeSource
+from grader.package.source.small_values import Found, Goal, Sort
+
+DIGITS = 6
+"""The digits after the point to which a sum of floats is rounded."""
+REACHED = (ast.Eq, ast.GtE, ast.Gt, ast.NotEq, ast.LtE, ast.Lt)
+
+
+def _falsy(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield conditions that ask for None, where any empty value and 0 count as no value."""
+    del source, goal
+    text = module.text
+    for node in module.nodes:
+        if isinstance(node, ast.BoolOp) and isinstance(node.op, ast.Or) and len(node.values) == 2:
+            first, other = (text.code(value) for value in node.values)
+            new = f"{other} if {first} is None else {first}"
+            whole = isinstance(module.parents.get(node), ast.Assign | ast.Return | ast.keyword)
+            yield 1, of_piece(module, "falsy", node, new if whole else f"({new})", first)
+        elif isinstance(node, ast.If | ast.IfExp | ast.While):
+            test = node.test
+            asked = test.operand if isinstance(test, ast.UnaryOp) else test
+            if dotted(asked) and not isinstance(asked, ast.Call):
+                named = text.code(asked)
+                new = f"{named} is None" if asked is not test else f"{named} is not None"
+                yield 2, of_piece(module, "falsy", test, new, named)
+
+
+def _inexact(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield comparisons and integers of a float that is rounded first."""
+    del source, goal
+    text = module.text
+    for node in module.nodes:
+        if isinstance(node, ast.Compare) and isinstance(node.ops[0], REACHED):
+            left = node.left
+            if isinstance(left, ast.BinOp) and isinstance(left.op, ast.Mod):
+                left = left.left
+            yield 1, _rounded(module, left)
+        elif isinstance(node, ast.Call) and dotted(node.func) == "int" and len(node.args) == 1:
+            given = text.code(node.args[0])
+            yield 2, of_piece(module, "inexact", node, f"round({given})", given)
+        elif isinstance(node, ast.BinOp) and isinstance(node.op, ast.FloorDiv):
+            yield 2, _rounded(module, node.left)
+
+
+def _rounded(module: Module, node: ast.expr) -> Change:
+    code = module.text.code(node)
+    return of_piece(module, "inexact", node, f"round({code}, {DIGITS})", code)
+
+
+def _whole(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield floats without a fraction as integers, and integers as floats."""
+    del source, goal
+    for node in module.nodes:
+        if not isinstance(node, ast.Constant):
+            continue
+        value = node.value
+        if isinstance(value, float) and value.is_integer():
+            yield 2, of_piece(module, "value", node, str(int(value)))
+        elif isinstance(value, int) and not isinstance(value, bool):
+            yield 4, of_piece(module, "value", node, str(float(value)))
+
+
+SORTS: tuple[Sort, ...] = (_falsy, _inexact, _whole)
