@@ -9,6 +9,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import INNER, LOG, NODE, STEP_LINE, example
+from grader.mistakes.fixes import node_imports
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace, Write
@@ -27,10 +28,10 @@ def _copied(suspect: Suspect) -> RecognisedMistake | None:
     bound = {n.id for n in suspect.source.module_of(statement).nodes if isinstance(n, ast.Name)}
     if module in bound or len(imported.parts) < 2:
         return None
-    mistake = suspect.finding("number_imported", statement, name=imported.bound)
+    written = f"{module}.{imported.name}"
+    mistake = suspect.finding("number_imported", statement, name=imported.bound, written=written)
     words = {
         **mistake.words,
-        "written": f"{module}.{imported.name}",
         "text": f"from {'.'.join(imported.parts[:-1])} import {module}",
         "path": other.path,
         "line": str(change.lineno),
@@ -78,6 +79,7 @@ KINDS = (
             "value is read from that module each time. Take {name} out of this import."
         ),
         behind={"run.constant_counter": _copied},
+        fixed_by=(node_imports.read_in_module,),
         examples=(
             example(
                 "number_imported_with_from",

@@ -7,6 +7,7 @@ import builtins
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
+from grader.base.nearest import nearest
 from grader.package.edit.text import Splice
 from grader.package.source.change import Change, of_piece
 from grader.package.source.module import Function, Module
@@ -77,7 +78,8 @@ def _numbers(module: Module, source: NodeSource, goal: Goal) -> Found:
                 yield cost, of_piece(module, sort, node, str(number))
         elif isinstance(value, str) and value.isidentifier():
             for other in dict.fromkeys(_words(module)):
-                yield 4, of_piece(module, "value", node, repr(other))
+                cost = 4 if nearest(value, [other]) else 6
+                yield cost, of_piece(module, "value", node, repr(other))
 
 
 def _cost(value: float, number: float, goal: Goal) -> int:
