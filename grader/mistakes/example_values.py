@@ -309,7 +309,12 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.base_called": {"base": "Node"},
     "node.ros_1": {"name": "loginfo", "written": "self.get_logger().info(…)"},
     "node.keyword_unknown": {"name": "period", "function": "create_timer"},
-    "node.name_hides_function": {"name": "str", "lines": "12"},
+    "node.name_hides_function": {
+        "name": "str",
+        "lines": "12",
+        "line": 5,
+        "path": "my_package/my_node.py",
+    },
     "node.interrupt_swallowed": {"line": "12", "last": "16"},
     "node.start_is_text": COUNTER,
     "node.spin_once": {

@@ -130,8 +130,8 @@ KINDS = (
         msg("The callback measures the time itself"),
         msg(
             "The timer calls {callback} when its period is over: no clock has to be read for that. "
-            "With the condition {name}, a line comes only with the next call after the time, and "
-            "each one a little later."
+            "The condition {name} measures the time once more. If it measures in another unit or from "
+            "another moment, lines come too early, too late or not at all."
         ),
         msg(
             "Write {period} as the period in line {line}. Delete the line of this if, and indent its "

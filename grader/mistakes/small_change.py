@@ -126,6 +126,10 @@ KINDS = (
                 "already the first time. The grader ran the node with the value from before the "
                 "change, and then this check passes."
             ),
+            "unkept": msg(
+                "{name} in a line of its own works out a value and keeps it nowhere. The grader ran the "
+                "node with {written}, and then this check passes."
+            ),
             "falsy": msg(
                 "0, an empty string and an empty list count as false in a condition, as None does. "
                 "The grader ran the node with this line asking only for None, and then this check "

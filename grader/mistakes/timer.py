@@ -22,7 +22,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.endless import calls_of_methods, endless_loop
 from grader.package.source.module import Function
-from grader.package.source.names import calls_in, dotted, last_part, own_name
+from grader.package.source.names import calls_in, dotted, last_part, own_name, parameters_of
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of, function_at
 from grader.package.source.until_ctrl_c import parts_until_ctrl_c
@@ -258,6 +258,8 @@ def _other_callback(suspect: Suspect) -> RecognisedMistake | None:
     other = callback is None or callback.name != timer.method
     if not (timer.method and other and logging):
         return None
+    if timer.function is not None and timer.method in parameters_of(timer.function):
+        return None  # (what calls this function decides)
     return suspect.finding("timer_other_callback", timer.call, name=timer.method)
 
 

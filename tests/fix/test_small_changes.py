@@ -69,6 +69,7 @@ MISTAKES = [
     ),
     ("    def timer_callback", "    async def timer_callback", "value"),
     ('"Hello time: " + str(self.counter_)', 'f"Hello time: {{self.counter_}}"', "value"),
+    ("self.counter_ += 1", "++self.counter_", "unkept"),
     ("    rclpy.spin(node)\n", "    rclpy.spin(node)\n    yield\n", "yields"),
     ("    rclpy.spin(node)\n", "    assert args is not None\n    rclpy.spin(node)\n", "deleted"),
 ]
@@ -264,6 +265,25 @@ def test_a_function_returns_the_value_from_before_its_change() -> None:
     text = NODE.replace("    def timer_callback", step + "    def timer_callback")
     found = [one for one in changes(text) if one.change.sort == "returned"]
     assert [OLD_VALUE in one.text for one in found] == [True]
+
+
+def test_a_sum_that_a_statement_works_out_is_kept() -> None:
+    text = NODE.replace("self.counter_ += 1", "self.counter_ + 1")
+    found = [one for one in changes(text) if one.change.sort == "unkept"]
+    assert ["self.counter_ = self.counter_ + 1\n" in one.text for one in found] == [True]
+
+
+def test_the_function_that_reads_the_counter_comes_before_one_that_only_logs() -> None:
+    text = NODE.replace("self.counter_ += 1", "++self.counter_")
+    text = text.replace(
+        "    def timer_callback",
+        "    def show(self, text):\n        self.get_logger().info(text)\n\n    def timer_callback",
+    ).replace('self.get_logger().info("H', 'self.show("H')
+    found = [(one.cost, one.text) for one in changes(text) if one.change.sort == "below"]
+    assert [
+        cost for cost, new in found if "++self.counter_\n        self.counter_ += 1" in new
+    ] == [3]
+    assert [cost for cost, new in found if "info(text)\n        self.counter_ += 1" in new] == [5]
 
 
 def test_no_number_is_below_zero() -> None:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.change import Change, of_piece
 from grader.package.source.module import Function, Module
-from grader.package.source.names import called_name, dotted
+from grader.package.source.names import called_name, dotted, parameters_of
 from grader.package.source.node import LOG_METHODS, NodeSource
 from grader.package.source.place import first_row, owns_lines
 from grader.package.source.small_values import BUILTINS, Found, Goal, Sort
@@ -34,8 +34,7 @@ def _once(module: Module, source: NodeSource, goal: Goal) -> Found:
 
 def _made_in(function: Function) -> Iterator[ast.Call]:
     """Yield the calls in a function that need none of its own names."""
-    given = function.args
-    own = {a.arg for a in (*given.posonlyargs, *given.args, *given.kwonlyargs)} - {"self"}
+    own = parameters_of(function) - {"self"}
     own |= {
         n.id for n in ast.walk(function) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
     }

@@ -102,14 +102,16 @@ def _added(module: Module, source: NodeSource, goal: Goal) -> Found:
         if not owns_lines(module, function) or first.lineno == function.lineno:
             continue
         indent = indent_of(text.line(first.lineno))
-        if any(
-            isinstance(n, ast.Call) and called_name(n) in LOG_METHODS for n in ast.walk(function)
-        ):
-            counted = _added_to(function)
-            for name in (n for n in counters_of(source) if n not in counted):
-                line = f"{name} += {goal.step}"
-                put = text.before((last.end_lineno or 0) + 1, indent + line)
-                yield 3, Change("below", last, module.line(last.lineno), line, (put,))
+        calls = [n for n in ast.walk(function) if isinstance(n, ast.Call)]
+        logs = any(called_name(call) in LOG_METHODS for call in calls)
+        counted, read = _added_to(function), {dotted(n) for n in ast.walk(function) if is_name(n)}
+        for name in (n for n in counters_of(source) if n not in counted):
+            if not logs and (name not in read or function.name == "__init__"):
+                continue
+            line = f"{name} += {goal.step}"
+            put = text.before((last.end_lineno or 0) + 1, indent + line)
+            cost = 3 if name in read else 5
+            yield cost, Change("below", last, module.line(last.lineno), line, (put,))
         names = _stored(function) & outside - {a.arg for a in function.args.args}
         for name in sorted(names)[:MOST_NAMES]:
             put = text.before(first.lineno, f"{indent}global {name}")

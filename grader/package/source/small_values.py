@@ -37,6 +37,8 @@ OTHER: dict[type[ast.AST], str] = {
 NEAR = ({ast.Lt, ast.LtE}, {ast.Gt, ast.GtE}, {ast.Lt, ast.Gt}, {ast.LtE, ast.GtE})
 BUILTINS = frozenset(dir(builtins))
 UNIT = 2  # the cost of a number in another unit
+UNITS = (1000, 10**6, 10**9)
+"""The parts of a second that a clock's time is given in."""
 SCALES = (60, 1000, 3600, 10**6, 10**9)
 """A period in another unit is so many times the required one, or so small a part of it."""
 
@@ -71,6 +73,7 @@ def _numbers(module: Module, source: NodeSource, goal: Goal) -> Found:
         elif isinstance(value, int | float):
             near: list[float] = [value + 1, value - 1] if isinstance(value, int) else []
             near += [round(value * 10, 9), round(value / 10, 9)]
+            near += [type(value)(other) for other in UNITS if value in UNITS]
             wanted = dict.fromkeys([goal.start, goal.step, goal.period, *near])
             for number in (n for n in wanted if n != value and n >= 0):
                 cost = _cost(value, number, goal)
@@ -162,6 +165,22 @@ def _counting(module: Module, source: NodeSource, goal: Goal) -> Found:
                 if isinstance(node, ast.Assign) and is_name(node.targets[0]):
                     new = f"{text.code(node.targets[0])} += {goal.step}"
                     yield 4, of_piece(module, "value", node, new)
+
+
+def _unkept(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield statements that keep the sum which a statement works out, and that ++ and -- mean."""
+    del source
+    text = module.text
+    for node in module.nodes:
+        value = node.value if isinstance(node, ast.Expr) else None
+        if isinstance(value, ast.BinOp) and is_name(value.left) and isinstance(value.op, SUMS):
+            new = f"{text.code(value.left)} = {text.code(value)}"
+            yield 1, of_piece(module, "unkept", value, new)
+        elif isinstance(value, ast.UnaryOp) and isinstance(value.operand, ast.UnaryOp):
+            inner = value.operand.operand
+            if is_name(inner) and isinstance(value.op, ast.UAdd):
+                new = f"{text.code(inner)} += {goal.step}"
+                yield 1, of_piece(module, "unkept", value, new)
 
 
 def _bases(module: Module, source: NodeSource, goal: Goal) -> Found:
@@ -393,5 +412,5 @@ SORTS: tuple[Sort, ...] = (
         _parts,
         _renamed,
     ),
-    *(_counting, _bases),
+    *(_counting, _unkept, _bases),
 )
