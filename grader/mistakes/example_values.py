@@ -476,6 +476,9 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "type": "State",
         "attribute": "count",
     },
+    "node.own_topic": {"name": "'hello'", "written": "'~/hello'", "line": 12},
+    "node.config_not_read": {"name": "'settings.ini'", "text": "'hello'"},
+    "node.text_not_a_number": {"text": "'1.0s'"},
     "node.number_imported": {
         "name": "counter",
         "written": "state.counter",
@@ -551,7 +554,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.node_not_kept": {"name": "node", "made": "MyNode", "line": "25"},
     "node.used_before_set": {"name": "node", "at": "25"},
     "node.counter_global": {"name": "counter", "word": "global"},
-    "node.spin_in_daemon": {"name": "executor"},
+    "node.spin_in_daemon": {"name": "executor", "called": "self.run()", "line": 12},
     "node.cleanup_early": {
         "method": "close",
         "name": "rclpy.shutdown()",

@@ -303,9 +303,21 @@ def _setup_code(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+def _level_given(source: NodeSource, call: ast.Call) -> str:
+    """Return the level that a call sets, as the code writes it or as its variable gets it."""
+    given = ast.unparse(call.args[-1]) if call.args else ""
+    sets = [
+        n.value
+        for n in source.all_nodes
+        if isinstance(n, ast.Assign | ast.AnnAssign) and n.value is not None
+        if last_part(given) in [last_part(name) for name in targets_of(n)]
+    ]
+    return ast.unparse(sets[0]) if len(sets) == 1 else given
+
+
 def _level(suspect: Suspect) -> RecognisedMistake | None:
     for call, name in suspect.source.calls:
-        given = ast.unparse(call.args[-1]) if call.args else ""
+        given = _level_given(suspect.source, call) if last_part(name) in LEVELS else ""
         hides = re.search(r"\b(?:WARN|WARNING|ERROR|FATAL)\b", given)
         level = hides[0] if hides else NUMBERS.get(given, "")
         if last_part(name) in LEVELS and level:

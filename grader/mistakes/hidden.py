@@ -23,7 +23,7 @@ from grader.package.source.counter import targets_of
 from grader.package.source.imported import NODE as NODE_CLASS
 from grader.package.source.imported import full_name
 from grader.package.source.module import Function
-from grader.package.source.names import dotted, last_part
+from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import LOG_METHODS, NodeSource
 from grader.report.model import Where
 
@@ -38,10 +38,19 @@ LOG_OF_NUMBER = "            self.get_logger().info('Hello time: ' + self.counte
 
 
 def _functions(source: NodeSource) -> Iterator[Function]:
-    """Yield the functions that run in every run of the node: callback, constructor, main."""
+    """Yield the functions that run in every run of the node: callback, constructor, main.
+
+    The functions that the callback calls by a name that only they have come last.
+    """
     for function in (source.callback, source.methods.get("__init__"), source.main):
         if function is not None:
             yield function
+    called = [last_part(name) for _, name in calls_in(source.callback)] if source.callback else []
+    functions = [n for n in source.all_nodes if isinstance(n, Function)]
+    for name in dict.fromkeys(called):
+        named = [function for function in functions if function.name == name]
+        if len(named) == 1 and not name.startswith("__"):
+            yield named[0]
 
 
 def _hides(handler: ast.ExceptHandler) -> bool:
@@ -49,7 +58,16 @@ def _hides(handler: ast.ExceptHandler) -> bool:
     caught = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
     if handler.type is not None and all(last_part(dotted(c)) in node_try.ENDS for c in caught if c):
         return False
+    silent = {
+        part
+        for statement in handler.body
+        for call, name in calls_in(statement)
+        if last_part(name) == "debug"
+        for part in ast.walk(call)
+    }
     for node in (part for statement in handler.body for part in ast.walk(statement)):
+        if node in silent:
+            continue  # (such a line is not shown)
         if isinstance(node, ast.Raise):
             return False
         if isinstance(node, ast.Name) and node.id in (handler.name, "traceback", "sys"):

@@ -11,6 +11,7 @@ from grader.mistakes import links, print_elsewhere
 from grader.mistakes.example import DEAD, LOG, LOG_LINE, NODE, PARTIAL_IMPORTED, SILENT, example
 from grader.mistakes.fixes import lines, node_count, node_log, node_words, node_worked_out
 from grader.mistakes.kind import Family
+from grader.mistakes.own_topic import logs_what_it_hears
 from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Suspect, first_of
 from grader.mistakes.worked_out import INSTEAD, worked_out
 from grader.package.edit.tree import Replace
@@ -144,7 +145,7 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
         found = suspect.finding("log_missing", named[0])
         words = {**found.words, "name": code, "line": str(named[1].lineno)}
         return replace(found, words=words, variant="named")
-    if _logs_further(source, callback):
+    if _logs_further(source, callback) or logs_what_it_hears(source):
         return None
     if (late := _logs_after_spin(suspect, callback)) is not None:
         return late

@@ -41,6 +41,8 @@ def _shown_object(suspect: Suspect) -> RecognisedMistake | None:
     if (function := FUNCTION.search(text)) is not None:
         return _function(suspect, function["name"])
     if (found := OBJECT.search(text)) is not None:
+        if found["name"] == "Parameter" and (parameter := _parameter(suspect)) is not None:
+            return parameter
         method = _named_otherwise(suspect, found["name"])
         if method is not None:
             mistake = suspect.finding("object_in_text", method, name=method.name, written="__str__")
@@ -57,6 +59,21 @@ def _shown_object(suspect: Suspect) -> RecognisedMistake | None:
     if re.search(r"(?<![\w.])count\(-?\d{1,20}(?:, -?\d{1,20})?\)", text):
         return _told(suspect, "count", "count")
     return _told(suspect, "bytes", "bytes") if BYTES.search(text) else None
+
+
+def _parameter(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the only call that gets a parameter and does not ask for its value."""
+    calls = []
+    for call, name in suspect.source.calls:
+        around = suspect.source.module_of(call).parents.get(call)
+        used = isinstance(around, ast.Attribute | ast.Expr)
+        if last_part(name) in ("get_parameter", "declare_parameter") and not used:
+            calls.append(call)
+    if len(calls) != 1:
+        return None
+    code = suspect.source.module_of(calls[0]).text.code(calls[0])
+    found = suspect.finding("parameter_object", calls[0], name=code, written=f"{code}.value")
+    return replace(found, variant="written") if "\n" not in code else None
 
 
 def _member(suspect: Suspect) -> RecognisedMistake | None:

@@ -340,11 +340,10 @@ def _taken(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
 
 def _own_logger(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a class that gives another value to what get_logger() returns."""
-    for module in suspect.source.known_modules:
-        for part in module.nodes:
-            stored = isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store)
-            if stored and isinstance(part, ast.Attribute) and dotted(part) == "self._logger":
-                return suspect.finding("name_taken", part, name="_logger", written="_logger_")
+    for part in suspect.source.own_nodes:
+        stored = isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store)
+        if stored and isinstance(part, ast.Attribute) and dotted(part) == "self._logger":
+            return suspect.finding("name_taken", part, name="_logger", written="_logger_")
     return None
 
 

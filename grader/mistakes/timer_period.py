@@ -13,13 +13,14 @@ from grader.mistakes.example import DEAD, NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_timer
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, always, first_of
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, first_of
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.module import Function
-from grader.package.source.names import dotted, last_part
+from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.period import is_right, origin_of, seconds_of
+from grader.package.source.place import statement_at
 from grader.package.source.timer import Timer
 
 MOST_EXPONENT = 9
@@ -32,6 +33,9 @@ REAL_NUMBER = (
 )
 CALLABLE = ("method", "function")
 TIMER = msg("Write self.create_timer({period}, self.{callback})")
+
+
+NO_FLOAT = r"could not convert string to float: (?P<text>'[^'\n]{0,60}')"
 
 
 def _negative(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -311,6 +315,17 @@ NO_DECORATOR = msg(
     "create_timer is no decorator: it is called with the period and the callback, and creates the "
     "timer."
 )
+
+
+def _period_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The line that makes the timer gives it a text; another text is no period."""
+    statement = statement_at(raised.module, raised.line)
+    calls = calls_in(statement) if statement is not None else ()
+    if not any(last_part(name) == "create_timer" for _, name in calls):
+        return None
+    return raised.finding("period_text", params=match.groupdict(""))
+
+
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -439,10 +454,8 @@ KINDS = (
         msg("The period is a string"),
         msg("The period is a number of seconds: no quotes, no unit."),
         TIMER,
-        seen=r"ValueError: could not convert string to float: (?P<text>'[^'\n]{0,60}')",
-        raised={
-            r"could not convert string to float: (?P<text>'[^'\n]{0,60}')": always("period_text")
-        },
+        seen=rf"ValueError: {NO_FLOAT}",
+        raised={NO_FLOAT: _period_text},
         fixed_by=(node_timer.period,),
         examples=(
             example("period_as_text", Replace(NODE, "(1.0,", "('1.0s',"), fails="run.starts"),

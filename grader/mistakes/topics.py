@@ -16,7 +16,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
-from grader.package.source.declared import Parameter, declared, declares_others
+from grader.package.source.declared import Parameter, declared, declares_others, with_namespace
 from grader.package.source.names import called_name, calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.place import place_of, statement_at
@@ -36,6 +36,10 @@ def _undeclared(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     name, source, module = match["name"], raised.source, raised.module
     words = {**raised.words, "name": name, "close": "", "type": ""}
     found = RecognisedMistake(kind="parameter.not_declared", words=words, where=raised.where)
+    within = with_namespace(source)
+    if within is not None:
+        words["row"] = within.lineno
+        return replace(found, words=words, variant="namespace")
     parameter = node_parameters.reading(source, module, name, raised.line)
     if parameter is None:
         return found
@@ -255,6 +259,20 @@ KINDS = (
                 ),
                 fails="run.starts",
             ),
+            example(
+                "parameter_in_text",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0,",
+                    "        self.declare_parameter('text', 'Hello time: ')\n"
+                    "        self.text = self.get_parameter('text')\n"
+                    "        self.create_timer(1.0,",
+                ),
+                Replace(
+                    NODE, "'Hello time: ' + str(self.counter_)", "f'{self.text}{self.counter_}'"
+                ),
+                fails="run.output",
+            ),
         ),
     ),
     _topic(
@@ -455,6 +473,10 @@ KINDS = (
                 "A node has only the parameters that it declares, by exactly that name: line {row} "
                 "declares {written}, and this line reads {name}."
             ),
+            "namespace": msg(
+                "declare_parameters puts its first argument and a dot before each name. The call in line "
+                "{row} has such a first argument, so that no parameter is called only {name}."
+            ),
             "late": msg(
                 "A parameter exists from the line on that declares it. Line {row} declares '{name}', "
                 "and it runs after this line."
@@ -464,6 +486,10 @@ KINDS = (
         },
         fixes={
             "misspelt": msg("Write {written} instead of {name} in this line."),
+            "namespace": msg(
+                "Read the parameter by its whole name, as in 'group.{name}' for the first argument 'group'. "
+                "Or write '' as the first argument in line {row}."
+            ),
             "late": msg("Move line {row}, which declares '{name}', above this line."),
             "elsewhere": msg(
                 "Declare '{name}' in __init__, before anything reads it: move line {row} there."
@@ -515,6 +541,17 @@ KINDS = (
                     "        self.create_timer(1.0,",
                     "        self.declare_parameter('period', 1.0)\n"
                     "        period = self.get_parameter('periode').value\n"
+                    "        self.create_timer(period,",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "parameter_in_a_namespace",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0,",
+                    "        self.declare_parameters('hello', [('period', 1.0)])\n"
+                    "        period = self.get_parameter('period').value\n"
                     "        self.create_timer(period,",
                 ),
                 fails="run.starts",

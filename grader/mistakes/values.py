@@ -12,7 +12,7 @@ from grader.mistakes import links
 from grader.mistakes.example import DEAD, INNER, LOG, NODE, example
 from grader.mistakes.fixes import node_values
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, always, on_line
 from grader.package.edit.tree import Replace, Write
 from grader.package.source.counter import logged_counter, starts_of
 from grader.package.source.module import Module
@@ -164,6 +164,34 @@ KINDS = (
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = '0'"),
                 fails="run.output",
                 blocks=("run.interrupt",),
+            ),
+        ),
+    ),
+    _node(
+        "text_not_a_number",
+        "start",
+        msg("float() gets a text that is no number"),
+        msg(
+            "float() reads only a number: digits, a sign, a point and an exponent. It cannot read {text}."
+        ),
+        msg(
+            "Look at how this line gets {text}: follow it from the value with which it begins. What "
+            "reaches float() has to be a number only, without a unit."
+        ),
+        raised={
+            r"could not convert string to float: (?P<text>'[^'\n]{0,60}')": on_line(
+                always("text_not_a_number")
+            )
+        },
+        examples=(
+            example(
+                "unit_left_in_a_period",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0,",
+                    "        period = float('1.0s')\n        self.create_timer(period,",
+                ),
+                fails="run.starts",
             ),
         ),
     ),

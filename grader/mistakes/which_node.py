@@ -10,9 +10,11 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import (
     CACHED_PROPERTY_IMPORTED,
+    LOG_LINE,
     NODE,
     SILENT,
     SPIN_UNTIL_CTRL_C,
+    STEP_LINE,
     example,
 )
 from grader.mistakes.fixes import (
@@ -30,6 +32,7 @@ from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.spin import executors
 from grader.mistakes.spun_none import NotReturned, not_returned, with_return
 from grader.package.edit.files import Files
+from grader.package.edit.text import indent_of
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.guard import called_on_import
@@ -285,12 +288,25 @@ def _lifecycle_import(suspect: Suspect) -> ast.ImportFrom | None:
     return None
 
 
+def _not_activated(suspect: Suspect, asked: ast.Call) -> RecognisedMistake | None:
+    """A lifecycle node is configured, and nothing activates it."""
+    if any(last_part(name) == "trigger_activate" for _, name in suspect.source.calls):
+        return None
+    owner = dotted(asked.func).rpartition(".")[0]
+    written = f"{owner}.trigger_activate()"
+    found = suspect.finding("lifecycle_node", asked, name=dotted(asked.func), written=written)
+    return replace(found, variant="not_activated") if owner else None
+
+
 def _not_configured(suspect: Suspect) -> RecognisedMistake | None:
     """A lifecycle node creates its timer when it is configured, which nobody does."""
     timers, imported = suspect.source.timers, _lifecycle_import(suspect)
     function = timers[0].function if timers else None
     if imported is None or function is None or not function.name.startswith("on_"):
         return None
+    asked = [c for c, name in suspect.source.calls if last_part(name) == "trigger_configure"]
+    if asked:
+        return _not_activated(suspect, asked[0])
     name = next(a for a in imported.names if a.name in ("Node", "LifecycleNode"))
     bound = "" if (name.asname or name.name) == "Node" else f" as {name.asname or name.name}"
     others = [a for a in imported.names if a is not name]
@@ -366,11 +382,12 @@ def _main_twice(suspect: Suspect) -> RecognisedMistake | None:
 
 def _daemon(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a thread that spins, while the function comes to its end or cleans up."""
-    for call in suspect.source.calls_of("Thread"):
+    threads = [call for call, name in suspect.source.calls if last_part(name) == "Thread"]
+    for call in threads:
         given = {keyword.arg: keyword.value for keyword in call.keywords}
         target, daemon = given.get("target"), given.get("daemon")
         spins = target is not None and last_part(dotted(target)) in SPINS
-        own = suspect.source.entry.functions.get(dotted(target)) if target is not None else None
+        own = _function_named(suspect, target) if target is not None else None
         own_spins = own is not None and any(last_part(n) in SPINS for _, n in calls_in(own))
         if any(last_part(name) == "join" for _, name in suspect.source.calls):
             return None
@@ -383,6 +400,9 @@ def _daemon(suspect: Suspect) -> RecognisedMistake | None:
         if own is not None and own_spins and (is_daemon or later):
             found = suspect.finding("spin_in_daemon", call)
             words = {**found.words, "name": own.name, "line": str(own.lineno)}
+            if target is not None and dotted(target) != own.name:
+                words["called"] = f"{dotted(target)}()"
+                return replace(found, words=words, variant="own_method")
             return replace(found, words=words, variant="own")
         if spins and (is_daemon or later):
             found = suspect.finding("spin_in_daemon", call)
@@ -394,6 +414,14 @@ def _daemon(suspect: Suspect) -> RecognisedMistake | None:
                 return found
             return replace(found, words={**found.words, "name": owner}, variant="executor")
     return None
+
+
+def _function_named(suspect: Suspect, target: ast.expr) -> Function | None:
+    """Return the only function or method of the files that a thread runs."""
+    name = last_part(dotted(target))
+    functions = [n for n in suspect.source.all_nodes if isinstance(n, Function)]
+    named = [function for function in functions if function.name == name]
+    return named[0] if len(named) == 1 else None
 
 
 def _hides_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -458,6 +486,28 @@ OWN_EXECUTOR = (
         "from rclpy.executors import SingleThreadedExecutor\nfrom rclpy.node",
     ),
 )
+OWN_SPINS = msg(
+    "The thread runs {name} (line {line}), which spins. {function} does not wait for it: it comes to its "
+    "last line at once, and then the program ends."
+)
+ACTIVE = (
+    "        if self.active:\n"
+    "            self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+    "            self.counter_ += 1\n"
+)
+
+
+def _activated(case: Case) -> Files | None:
+    """Activate the lifecycle node on the line below the one that configures it."""
+    module, line = case.module, case.finding.line
+    new = str(case.finding.params.get("written", ""))
+    if module is None or not line or not new.endswith(".trigger_activate()"):
+        return None
+    return case.changed(
+        module, module.text.before(line + 1, indent_of(module.text.line(line)) + new)
+    )
+
+
 _node = Family("node", links.EXECUTORS)
 KINDS = (
     _node(
@@ -578,10 +628,8 @@ KINDS = (
         msg("When {function} comes to its end, the program ends, and its daemon threads with it."),
         msg("Call rclpy.spin({node}) in {function} itself, without the thread."),
         whys={
-            "own": msg(
-                "The thread runs {name} (line {line}), which spins. {function} does not wait for it: it "
-                "comes to its last line at once, and then the program ends."
-            ),
+            "own": OWN_SPINS,
+            "own_method": OWN_SPINS,
             "cleaned_up": msg(
                 "A thread runs beside {function}, which does not wait for it: {function} comes to "
                 "{called} at once, and the node ends."
@@ -590,6 +638,9 @@ KINDS = (
         fixes={
             "executor": msg("Call {name}.spin() in {function} itself, without the thread."),
             "own": msg("Call {name}({node}) in {function} itself, without the thread."),
+            "own_method": msg(
+                "Write {called} instead of the line that starts the thread: then the program waits there."
+            ),
         },
         behind=dict.fromkeys(("run.exits_at_once", "run.ended_early"), _daemon),
         examples=(
@@ -612,6 +663,21 @@ KINDS = (
                     "        rclpy.spin(node)\n    except",
                     "        threading.Thread(target=work, args=(node,), daemon=True).start()\n"
                     "    except",
+                ),
+                fails="run.starts",
+            ),
+            example(
+                "own_method_that_spins_in_a_daemon",
+                Replace(NODE, "import rclpy\nfrom", "import threading\n\nimport rclpy\nfrom"),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def work(self):\n        rclpy.spin(self)\n\n    def timer_callback",
+                ),
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n    except",
+                    "        threading.Thread(target=node.work, daemon=True).start()\n    except",
                 ),
                 fails="run.starts",
             ),
@@ -851,7 +917,15 @@ KINDS = (
             "Write instead of this import: {written} Then move the line of {name} that creates the "
             "timer to the end of __init__, and delete {name}."
         ),
+        whys={
+            "not_activated": msg(
+                "The base class is the lifecycle node of ROS. After this line it is configured, but it is "
+                "not active: its publishers send nothing, and is_activated is False."
+            )
+        },
+        fixes={"not_activated": msg("Write {written} below this line.")},
         behind={"run.no_lines": _not_configured},
+        fixed_by=(_activated,),
         examples=(
             example(
                 "lifecycle_node",
@@ -862,6 +936,29 @@ KINDS = (
                     "\n    def on_configure(self, state):\n"
                     "        self.timer = self.create_timer(1.0, self.timer_callback)\n"
                     "        return super().on_configure(state)\n",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+            example(
+                "lifecycle_node_not_activated",
+                Replace(NODE, "from rclpy.node import Node", "from rclpy.lifecycle import Node"),
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)\n",
+                    "        self.active = False\n\n"
+                    "    def on_configure(self, state):\n"
+                    "        self.timer = self.create_timer(1.0, self.timer_callback)\n"
+                    "        return super().on_configure(state)\n\n"
+                    "    def on_activate(self, state):\n"
+                    "        self.active = True\n"
+                    "        return super().on_activate(state)\n",
+                ),
+                Replace(NODE, LOG_LINE + STEP_LINE, ACTIVE),
+                Replace(
+                    NODE,
+                    "    node = MyFirstNode()\n",
+                    "    node = MyFirstNode()\n    node.trigger_configure()\n",
                 ),
                 fails="run.output",
                 blocks=SILENT,

@@ -47,6 +47,8 @@ VAGUE = {
     *("run.wrong_period", "run.never_spins"),
 }
 """What was seen that has many causes: its text alone helps little."""
+CAUSED_ELSEWHERE = ("node.text_not_a_number",)
+"""The mistakes of a line whose cause is a value from another one: a change of the line hides it."""
 EVERYWHERE = {*keyword.kwlist, "self", "rclpy", "node", "Node", "main", "init", "info"}
 """Names that do not tell which lines of a program a text speaks of."""
 ERRORS = (*RAISES, "build.setup_error")
@@ -133,6 +135,8 @@ def _with_first(
 def _fits(change: FoundChange, result: CheckResult, root: Mistake) -> bool:
     """Whether a mistake's reason can explain a change: it is of its line, or of that next to it."""
     far = change.distance(result.where)
+    if root.id in CAUSED_ELSEWHERE:
+        return False
     return change.is_simple and (far == 0 or (far < FAR and _speaks_of(root, change)))
 
 

@@ -33,11 +33,23 @@ def declared(source: NodeSource) -> list[Parameter]:
             found += [Parameter(call, text, default) for text in _text(_argument(call, 0, "name"))]
         elif last_part(name) == "declare_parameters":
             given = _argument(call, 1, "parameters")
+            if call is with_namespace(source):
+                continue
             for entry in given.elts if isinstance(given, ast.List | ast.Tuple) else ():
                 parts = entry.elts if isinstance(entry, ast.Tuple) else []
                 default = parts[1] if len(parts) > 1 else None
                 found += [Parameter(call, text, default) for text in _text((*parts, None)[0])]
     return found
+
+
+def with_namespace(source: NodeSource) -> ast.Call | None:
+    """Return the call of declare_parameters that may put a namespace before each name."""
+    for call, name in source.calls:
+        given = _argument(call, 0, "namespace")
+        empty = isinstance(given, ast.Constant) and given.value == ""
+        if last_part(name) == "declare_parameters" and given is not None and not empty:
+            return call
+    return None
 
 
 def declares_others(source: NodeSource) -> bool:

@@ -6,11 +6,13 @@ Which of them help is not known here: a caller runs the node with each.
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from grader.package.source import small_lifetimes, small_orders, small_truths, small_values
 from grader.package.source.change import Change
-from grader.package.source.module import Module
+from grader.package.source.module import Function, Module
+from grader.package.source.names import dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.small_values import Goal
 
@@ -19,6 +21,10 @@ ALL = (
     *(*small_values.SORTS, *small_truths.SORTS),
     *(*small_lifetimes.SORTS, *small_orders.SORTS),
 )
+OF_PIECES = ("value", "seconds", "argument")
+"""The sorts of changes that can hide a mistake: the code that has it may only not be used any more."""
+UNUSED = 2
+"""What such a change costs more if it leaves a name that nothing reads."""
 
 
 @dataclass(frozen=True)
@@ -44,6 +50,22 @@ def lines_as_script(module: Module) -> set[int]:
     return {line for s in guards for line in range(s.lineno, (s.end_lineno or s.lineno) + 1)}
 
 
+def _own_names(module: Module) -> set[str]:
+    """Return the names that a file gives a meaning, and that it reads."""
+    set_here = {n.arg for n in module.nodes if isinstance(n, ast.arg)}
+    for node in module.nodes:
+        if isinstance(node, ast.Name | ast.Attribute) and isinstance(node.ctx, ast.Store):
+            set_here.add(last_part(dotted(node)))
+        elif isinstance(node, Function | ast.ClassDef):
+            set_here.add(node.name)
+    return set_here & _read(module.nodes)
+
+
+def _read(nodes: Iterable[ast.AST]) -> set[str]:
+    names = (n for n in nodes if isinstance(n, ast.Name | ast.Attribute))
+    return {last_part(dotted(n)) for n in names if isinstance(n.ctx, ast.Load)}
+
+
 def small_changes(source: NodeSource, goal: Goal) -> list[SmallChange]:
     """Return the changes of all files of a node, the smallest first; each gives another text.
 
@@ -53,12 +75,17 @@ def small_changes(source: NodeSource, goal: Goal) -> list[SmallChange]:
     for module in source.known_modules:
         if module.text.encoding not in UTF_8:
             continue
-        seen, script = {module.text.text}, lines_as_script(module)
+        seen, script, read = {module.text.text}, lines_as_script(module), _own_names(module)
         for sort in ALL:
             for cost, change in sort(module, source, goal):
                 new = module.edited(change.splices)
                 text = new.decode() if new is not None else ""
                 if text and text not in seen and change.at.lineno not in script:
                     seen.add(text)
-                    found.append(SmallChange(module.path, change, text, cost))
+                    more = (
+                        UNUSED
+                        if change.sort in OF_PIECES and read - _read(ast.walk(ast.parse(text)))
+                        else 0
+                    )
+                    found.append(SmallChange(module.path, change, text, cost + more))
     return sorted(found, key=lambda one: one.cost)

@@ -28,7 +28,8 @@ def _blocks(module: Module, source: NodeSource, goal: Goal) -> Found:
             continue
         if not module.line(node.lineno).startswith("elif"):
             if isinstance(node, HEADED):
-                yield 3, _only(module, node, node.body, HEADS.get(type(node), "loop"))
+                cost = 4 if isinstance(node, ast.If) else 3
+                yield cost, _only(module, node, node.body, HEADS.get(type(node), "loop"))
             rest = [] if isinstance(node, ast.With) else node.orelse
             if isinstance(node, ast.If) and rest and module.line(rest[0].lineno)[:4] != "elif":
                 yield 5, _only(module, node, rest, "else")
@@ -90,7 +91,7 @@ def _order(module: Module, source: NodeSource, goal: Goal) -> Found:
                         (*gone, put),
                         str(other.lineno),
                     )
-                    yield 4 + (abs(at - to) > 1), change
+                    yield 3 + (abs(at - to) > 1), change
 
 
 def _added(module: Module, source: NodeSource, goal: Goal) -> Found:

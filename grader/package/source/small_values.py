@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import builtins
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
@@ -11,10 +12,12 @@ from grader.base.nearest import nearest
 from grader.package.edit.text import Splice
 from grader.package.source.change import Change, of_piece
 from grader.package.source.module import Function, Module
-from grader.package.source.names import called_name, calls_in, dotted, own_name
+from grader.package.source.names import called_name, calls_in, dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS, NodeSource
 
 SHOWN = ("info", "warn", "warning", "error", "fatal")
+TYPES = ("INTEGER", "DOUBLE", "STRING", "BOOL")
+"""The types that the value of a parameter can have, as Parameter.Type names them."""
 MOST_NAMES = 6  # other names that are tried in the place of one
 SIGNS: dict[type[ast.AST], str] = {
     ast.Add: "+",
@@ -100,6 +103,25 @@ def _words(module: Module) -> Iterator[str]:
         value = node.value if isinstance(node, ast.Constant) else None
         if isinstance(value, str) and value.isidentifier() and value != "__main__":
             yield value
+
+
+def _of_objects(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield the value of a parameter, and the seconds of a duration, instead of the whole."""
+    del source, goal
+    for node in module.nodes:
+        around, code = module.parents.get(node), ""
+        if isinstance(node, ast.Call) and called_name(node) == "get_parameter":
+            code = f"{module.text.code(node)}.value"
+        elif isinstance(node, ast.Attribute) and node.attr == "nanoseconds":
+            code = f"{module.text.code(node)} / 1e9"
+        elif isinstance(node, ast.Attribute) and last_part(dotted(node.value)) == "Type":
+            for other in TYPES:
+                if other != node.attr:
+                    new = f"{module.text.code(node.value)}.{other}"
+                    yield 2, of_piece(module, "value", node, new)
+        if code and isinstance(node, ast.expr) and not isinstance(around, ast.Attribute):
+            sort = "value" if isinstance(node, ast.Call) else "seconds"
+            yield 1, of_piece(module, sort, node, code)
 
 
 def _timers(module: Module, source: NodeSource, goal: Goal) -> Found:
@@ -278,6 +300,9 @@ def _braces(module: Module, source: NodeSource, goal: Goal) -> Found:
             yield 1, of_piece(module, "value", node, code.replace("{{", "{").replace("}}", "}"))
         elif isinstance(node, ast.Constant) and code[:1] in ("'", '"') and "{" in code:
             yield 2, of_piece(module, "value", node, f"f{code}")
+            single = re.sub(r"\{\{\s*(\w*)\s*\}\}|\{\s*(\w*)\s*\}", r"{\1\2}", code)
+            if single != code:
+                yield 1, of_piece(module, "value", node, single)
 
 
 def _parts(module: Module, source: NodeSource, goal: Goal) -> Found:
@@ -290,7 +315,12 @@ def _parts(module: Module, source: NodeSource, goal: Goal) -> Found:
                 if isinstance(around, ast.Expr) and not isinstance(part, ast.Call):
                     continue  # (a statement that only names a value does nothing)
                 if not isinstance(part, ast.Starred):
-                    yield 3, of_piece(module, "value", node, module.text.code(part))
+                    both = isinstance(node, ast.BinOp) and not _has_constant(node)
+                    yield 3 + 2 * both, of_piece(module, "value", node, module.text.code(part))
+
+
+def _has_constant(node: ast.BinOp) -> bool:
+    return any(isinstance(part, ast.Constant) for part in (node.left, node.right))
 
 
 def _parts_of(node: ast.expr, around: ast.AST | None) -> list[ast.expr]:
@@ -402,6 +432,7 @@ def is_name(node: ast.AST) -> bool:
 SORTS: tuple[Sort, ...] = (
     *(
         _braces,
+        _of_objects,
         _logged,
         _called,
         _timers,
