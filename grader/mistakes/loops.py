@@ -8,12 +8,13 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.base.shown import shown
 from grader.mistakes import links
-from grader.mistakes.example import DEAD, LOG_LINE, NODE, STEP_LINE, example
+from grader.mistakes.example import DEAD, LOG_LINE, NODE, SILENT, STEP_LINE, example
 from grader.mistakes.fixes import node_loops
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.endless import Loop, calls_of_methods, endless_loop, sleeps_in
+from grader.package.source.names import calls_in, last_part
 from grader.package.source.place import statement_at
 
 IMPORT = Replace(NODE, "import rclpy\nfrom", "import rclpy\nfrom time import sleep\nfrom")
@@ -39,6 +40,18 @@ def _in_callback(suspect: Suspect) -> RecognisedMistake | None:
         if loop is not None:
             found = suspect.finding("callback_repeats", loop, name=_word(loop))
             return replace(found, variant="sleep" if sleeps_in(source, loop) else "")
+    return None
+
+
+def _waits_for_an_answer(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a loop of the callback that waits until a future is done."""
+    callback = suspect.source.callback
+    for loop in ast.walk(callback) if callback is not None else ():
+        for call, name in calls_in(loop.test) if isinstance(loop, ast.While) else ():
+            if last_part(name) == "done" and not call.args and isinstance(call.func, ast.Attribute):
+                module = suspect.source.module_of(loop)
+                future = module.text.code(call.func.value)
+                return suspect.finding("answer_waited", call, name=future)
     return None
 
 
@@ -110,6 +123,43 @@ def _in_constructor(suspect: Suspect) -> RecognisedMistake | None:
 
 _node = Family("node", links.EXECUTORS)
 KINDS = (
+    _node(
+        "answer_waited",
+        "callback",
+        msg("A callback waits for an answer"),
+        msg(
+            "This loop waits until {name} is done. ROS runs one callback at a time: what brings the answer "
+            "can run only when {callback} has returned, so the loop never ends."
+        ),
+        msg(
+            "Delete the loop. Put what needs the answer into a method of its own that gets the future, and "
+            "pass this method to {name}.add_done_callback(…): ROS calls it when the answer has come."
+        ),
+        behind=dict.fromkeys(
+            ("run.never_spins", "run.no_lines", "run.stops"), _waits_for_an_answer
+        ),
+        examples=(
+            example(
+                "callback_waits_for_a_future",
+                IMPORT,
+                Replace(
+                    NODE,
+                    "from rclpy.node import Node\n",
+                    "from rclpy.node import Node\nfrom rclpy.task import Future\n",
+                ),
+                Replace(
+                    NODE,
+                    LOG_LINE,
+                    "        future = Future()\n"
+                    "        self.create_timer(0.1, lambda: future.set_result(1))\n"
+                    "        while not future.done():\n"
+                    f"            sleep(0.01)\n{LOG_LINE}",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
     _node(
         "callback_repeats",
         "callback",

@@ -34,7 +34,7 @@ SHOWN = 20  # the level of info()
 LONGEST = 300  # characters of a line
 PRELOADED = (
     *("rcl_interfaces.msg", "rcl_interfaces.srv", "rosgraph_msgs.msg"),
-    "type_description_interfaces.srv",
+    *("type_description_interfaces.srv", "std_msgs.msg"),
 )
 READY = ("timer", "guard_condition", "subscription", "client", "service")
 

@@ -17,7 +17,7 @@ OWN_REASON = (
 )
 """The sorts of changes that only their own reason explains."""
 CERTAIN = (
-    *("called", "not_called", "argument", "once", "once_init", "kept", "asked_for"),
+    *("called", "not_called", "argument", "kept", "asked_for"),
     *("yields", "returned", "falsy", "inexact", "unkept"),
 )
 """The sorts of changes that hardly help by chance: a rule of Python is their reason."""

@@ -30,7 +30,7 @@ from grader.verdict.evidence import Evidence, Search
 from grader.verdict.found_change import NEARLY, WHOLE, FoundChange, Step
 
 KIND, FIRST = "node.small_change", "node.one_of_two"
-SECONDS = 8.0
+SECONDS = 10.0
 """The most wall time for all changes, and again for two changes together."""
 LEAST_SECONDS = 40.0
 """The least wall time that has to be left of the verdict: the best changes are marked afterwards."""

@@ -64,7 +64,7 @@ def _moved_out(module: Module, node: ast.stmt, block: list[ast.stmt]) -> Found:
             gone = (text.swap(moved, "pass"),)
         put = text.before((node.end_lineno or 0) + 1, *lines)
         head = module.line(node.lineno)
-        yield 3, Change("out", moved, module.line(moved.lineno), "", (*gone, put), head)
+        yield 4, Change("out", moved, module.line(moved.lineno), "", (*gone, put), head)
 
 
 def _order(module: Module, source: NodeSource, goal: Goal) -> Found:
