@@ -340,10 +340,12 @@ def _taken(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
 
 def _own_logger(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a class that gives another value to what get_logger() returns."""
-    for part in suspect.source.own_nodes:
-        stored = isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store)
-        if stored and isinstance(part, ast.Attribute) and dotted(part) == "self._logger":
-            return suspect.finding("name_taken", part, name="_logger", written="_logger_")
+    for module in suspect.source.known_modules:
+        for own in (found for found in module.classes if found.bases):
+            for part in ast.walk(own):
+                stored = isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store)
+                if stored and isinstance(part, ast.Attribute) and dotted(part) == "self._logger":
+                    return suspect.finding("name_taken", part, name="_logger", written="_logger_")
     return None
 
 
