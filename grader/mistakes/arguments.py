@@ -17,6 +17,7 @@ from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Su
 from grader.package.edit.tree import Replace, Write
 from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, last_part, own_name
+from grader.package.source.node import NodeSource
 from grader.package.source.node_here import node_here
 from grader.package.source.place import statement_at
 
@@ -118,8 +119,16 @@ def _given_twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
     return replace(raised.finding("argument_twice", at=call, params=params), variant="timer")
 
 
-def _keyword(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+def _own_init(source: NodeSource) -> bool:
+    """Whether the node's class has no __init__, but a method that is called so without underscores."""
+    names = {name.strip("_") for name in source.methods}
+    return "__init__" not in source.methods and "init" in names
+
+
+def _keyword(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name, function = match["name"], last_part(match["function"])
+    if match["function"] == "Node.__init__" and _own_init(raised.source):
+        return None  # (that method should be __init__)
     found = raised.finding("keyword_unknown", name=name, function=function)
     if match["function"] == "Node.__init__":
         return replace(found, variant="super")

@@ -146,7 +146,8 @@ def _without_node(raised: Raised, found: ast.ClassDef) -> RecognisedMistake:
 
 def _near_init(methods: Collection[str], cutoff: float) -> str:
     """Return the method with nearly the name `__init__`; "" if there is none, or __init__ itself."""
-    return "" if "__init__" in methods else nearest("__init__", methods, cutoff=cutoff)
+    plain = next((name for name in methods if name.strip("_") == "init"), "")
+    return "" if "__init__" in methods else plain or nearest("__init__", methods, cutoff=cutoff)
 
 
 def _underscores(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:

@@ -16,6 +16,7 @@ from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Su
 from grader.mistakes.worked_out import INSTEAD, worked_out
 from grader.package.edit.tree import Replace
 from grader.package.source.after_spin import calls_after_spin
+from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, calls_in, dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS, NodeSource
@@ -147,6 +148,8 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
         return replace(found, words=words, variant="named")
     if _logs_further(source, callback) or logs_what_it_hears(source):
         return None
+    if any(last_part(t) == callback.name for n in source.all_nodes for t in targets_of(n)):
+        return None  # (another function takes its place)
     if (late := _logs_after_spin(suspect, callback)) is not None:
         return late
     found = suspect.finding("log_missing", callback)

@@ -126,6 +126,10 @@ KINDS = (
                 "already the first time. The grader ran the node with the value from before the "
                 "change, and then this check passes."
             ),
+            "gives_itself": msg(
+                "A function without return gives None, and the value of a call of {name} is used. The "
+                "grader ran the node with return self as its last line, and then this check passes."
+            ),
             "unkept": msg(
                 "{name} in a line of its own works out a value and keeps it nowhere. The grader ran the "
                 "node with {written}, and then this check passes."
@@ -153,6 +157,7 @@ KINDS = (
                 "Write {written} as the last line of __init__. In this line, use the name that it sets "
                 "instead of {name}."
             ),
+            "gives_itself": msg("Write return self below this line, as the last line of {name}."),
             "asked_for": msg("Write {written}, or a for loop, instead of {name}."),
             "yields": msg("Delete this yield."),
             "long": msg("Make the change below."),

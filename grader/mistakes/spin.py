@@ -22,6 +22,7 @@ from grader.package.source.node import NodeSource
 from grader.package.source.place import statement_at
 from grader.package.source.spinning_loop import condition_of, loop_around, only_called, other_work
 from grader.package.source.until_ctrl_c import parts_until_ctrl_c
+from grader.report.model import Where
 
 TWICE = "generator already executing|Executor is already spinning"
 ENDED = ("loop", "condition")  # variants of a loop that ended before Ctrl+C
@@ -74,6 +75,28 @@ def _once(suspect: Suspect) -> RecognisedMistake | None:
                 return found if own else _of_executor(suspect, call, wanted)
             return _once_in_loop(suspect, replace(found, params={"wanted": wanted}), loop)
     return None
+
+
+def _loop_ends(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a loop around spin_once whose condition is false before Ctrl+C."""
+    return _at_loop(suspect, _once(suspect))
+
+
+def _loop_ends_at_once(suspect: Suspect) -> RecognisedMistake | None:
+    return _at_loop(suspect, _once_only(suspect))
+
+
+def _at_loop(suspect: Suspect, found: RecognisedMistake | None) -> RecognisedMistake | None:
+    """Return what was found as a loop that ends, at the loop."""
+    if found is None or found.variant != "condition" or found.where is None:
+        return None
+    module = suspect.source.module_at(found.where.file)
+    at = [n for n in module.nodes if isinstance(n, ast.Call) and n.lineno == found.where.line]
+    loops = [loop for call in at if (loop := loop_around(suspect.source, call)) is not None]
+    if not loops:
+        return None
+    where = Where(file=found.where.file, line=loops[0].lineno)
+    return replace(found, kind="node.spin_loop_ends", where=where, variant="")
 
 
 def _once_in_loop(suspect: Suspect, found: RecognisedMistake, loop: Loop) -> RecognisedMistake:
@@ -467,6 +490,7 @@ GUARD = msg(
     "ros2 run calls only {function}. The lines below if __name__ == '__main__': run only if you start "
     "the file itself."
 )
+WHOLE_LOOP_AROUND = msg("Write {wanted} instead of this whole {loop} loop: it spins until Ctrl+C.")
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -650,6 +674,39 @@ KINDS = (
         ),
     ),
     _node(
+        "spin_loop_ends",
+        "spin",
+        msg("The loop that spins the node ends before Ctrl+C"),
+        msg(
+            "The node is spun only as long as this loop goes on. It ends as soon as {name} is false, at once "
+            "or later, and then {function} ends."
+        ),
+        WHOLE_LOOP_AROUND,
+        links.EXECUTORS,
+        behind={"run.exits_at_once": _loop_ends_at_once, "run.ended_early": _loop_ends},
+        examples=(
+            example(
+                "spins_until_three",
+                Replace(
+                    NODE,
+                    "rclpy.spin(node)",
+                    "while node.counter_ < 3:\n            rclpy.spin_once(node)",
+                ),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+            example(
+                "spins_while_ok_is_zero",
+                Replace(
+                    NODE,
+                    "rclpy.spin(node)",
+                    "while rclpy.ok() == 0:\n            rclpy.spin_once(node)",
+                ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
         "spin_once",
         "spin",
         msg("spin_once is called instead of spin"),
@@ -701,16 +758,6 @@ KINDS = (
                 Replace(NODE, "rclpy.spin(node)", "rclpy.spin_once(node)"),
                 fails="run.starts",
                 note="one line on the wall clock; none under use_sim_time, because the first message on /clock is the only callback that it runs",
-            ),
-            example(
-                "spins_until_three",
-                Replace(
-                    NODE,
-                    "rclpy.spin(node)",
-                    "while node.counter_ < 3:\n            rclpy.spin_once(node)",
-                ),
-                fails="run.output",
-                blocks=("run.interrupt",),
             ),
         ),
     ),

@@ -172,8 +172,8 @@ KINDS = (
         ),
         msg(
             "Find the lines that give {name} its first value, and {value} its value. Make a number of each "
-            "there: without quotes, or with int(…). In the line that is logged, write str(…) around the "
-            "number if + joins it to a text."
+            "there with int(…), or write it without quotes if it is a number in the code itself. In the line "
+            "that is logged, write str(…) around the number if + joins it to a text."
         ),
         behind={"run.wrong_text": _digits_joined},
         examples=(

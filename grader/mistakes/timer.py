@@ -46,7 +46,8 @@ def _outside_init(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
 
 
 def _missing(suspect: Suspect) -> RecognisedMistake | None:
-    if suspect.source.timers:
+    beside = [call for m in suspect.source.beside for call in calls_in(m.tree)]
+    if suspect.source.timers or any(last_part(name) == "create_timer" for _, name in beside):
         return None
     subscribed = _subscribed(suspect)
     if subscribed is not None:
@@ -253,10 +254,13 @@ def _only_if(suspect: Suspect) -> RecognisedMistake | None:
 
 def _other_callback(suspect: Suspect) -> RecognisedMistake | None:
     source, callback = suspect.source, suspect.source.callback
-    timer = source.timers[0]
+    timer = source.timers[0] if source.timers else None
+    if timer is None:
+        return None
     logging = [m for m in source.methods.values() if source.logs(m) and m.name != "__init__"]
     other = callback is None or callback.name != timer.method
-    if not (timer.method and other and logging):
+    named = isinstance(timer.callback, ast.Name | ast.Attribute)
+    if not (timer.method and named and other and logging):
         return None
     if timer.function is not None and timer.method in parameters_of(timer.function):
         return None  # (what calls this function decides)

@@ -18,11 +18,22 @@ OWN_REASON = (
 """The sorts of changes that only their own reason explains."""
 CERTAIN = (
     *("called", "not_called", "argument", "kept", "asked_for"),
-    *("yields", "returned", "falsy", "inexact", "unkept"),
+    *("yields", "returned", "falsy", "inexact", "unkept", "gives_itself"),
 )
 """The sorts of changes that hardly help by chance: a rule of Python is their reason."""
 ELSEWHERE = 10**6
 """The distance of a change in another file."""
+
+
+SHORT = 2
+"""What each step that a node does not get further is worth, in costs of a change."""
+
+
+def rank_of(level: int, cost: int) -> int:
+    """Return how good a change is, 0 the best, by how far a node gets with it and by its cost."""
+    if level < NEARLY:
+        return (WHOLE - level) * 100 + cost
+    return cost + SHORT * (WHOLE - level)
 
 
 @dataclass(frozen=True)
@@ -53,6 +64,11 @@ class FoundChange:
     def counts(self) -> bool:
         """Whether the node counts with it."""
         return self.level >= NEARLY
+
+    @property
+    def rank(self) -> int:
+        """How good it is, 0 the best: a small change may leave the period wrong."""
+        return rank_of(self.level, self.cost)
 
     def of(self, files: Files) -> Files:
         """Return the files with this change."""

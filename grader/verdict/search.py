@@ -27,7 +27,7 @@ from grader.sandbox.base import Sandbox
 from grader.verdict.checks.actual_node import actual_path
 from grader.verdict.checks.parsed import data_of
 from grader.verdict.evidence import Evidence, Search
-from grader.verdict.found_change import NEARLY, WHOLE, FoundChange, Step
+from grader.verdict.found_change import NEARLY, WHOLE, FoundChange, Step, rank_of
 
 KIND, FIRST = "node.small_change", "node.one_of_two"
 SECONDS = 10.0
@@ -106,7 +106,7 @@ class _Search:
             good = [
                 one for one in tried if one.level in (TEXT, STEP) and one.steps[0].sort == "value"
             ]
-        good.sort(key=lambda one: (-one.level, one.cost))
+        good.sort(key=lambda one: rank_of(one.level, one.cost))
         return [
             FoundChange(_told(one, base), one.texts, one.cost, one.level)
             for one in good[:MOST_FOUND]

@@ -68,9 +68,9 @@ def _with_small_change(
 ) -> CheckResult | None:
     """Return the result with a small change that was found and helps; None if there is none.
 
-    A known mistake keeps its reason with a change of its own line. If no such change helps, but one
-    of another place that has nothing to do with the reason, the mistake does not explain the
-    failure. It is then replaced by the change, as is what was only seen.
+    A known mistake keeps its reason with a change of its own line, or with a certain one of what it
+    names. If no such change helps, but a certain one of another place does, the mistake does not
+    explain the failure. It is then replaced by the change, as is what was only seen.
     """
     if evidence.search is None or evidence.with_fix is None:
         return None
@@ -86,8 +86,12 @@ def _with_small_change(
     fitting = _with_first(_nearest(fits, result, evidence), result, evidence, translate)
     if fitting is not None:
         return fitting
-    other = [one for one in found if one.is_certain and not _speaks_of(root, one)]
-    return _with_first(other, result, evidence, translate, replaces=True)
+    sure = [one for one in found if one.is_certain and root.id not in CAUSED_ELSEWHERE]
+    told = [one for one in sure if _speaks_of(root, one)]
+    other = [one for one in sure if one not in told]
+    return _with_first(told, result, evidence, translate) or _with_first(
+        other, result, evidence, translate, replaces=True
+    )
 
 
 def _nearest(
@@ -101,7 +105,7 @@ def _nearest(
     def order(one: FoundChange) -> tuple[bool, int, int, int, int]:
         distance = near[id(one)]
         first = distance if known else 0
-        return (recognised(one).mistake not in told, first, -one.level, one.cost, distance)
+        return (recognised(one).mistake not in told, first, one.rank, one.cost, distance)
 
     return sorted(changes, key=order)
 

@@ -155,9 +155,6 @@ def test_a_known_mistake_gets_no_change_that_needs_words_of_its_own(
 
 
 ELSEWHERE = {
-    "of a line that the mistake names": replace(
-        change(1, "kept"), steps=(replace(change(1, "kept").steps[0], name="input('?')"),)
-    ),
     "that may help by chance": change(1, "value"),
     "in another period": replace(change(1, "kept"), level=NEARLY),
     "of two places": change(1, "kept", "kept"),
@@ -169,6 +166,16 @@ def test_a_known_mistake_gets_no_change_of_another_line(other: FoundChange, tmp_
     before, _ = found_with(KNOWN, tmp_path / "before", [], KNOWN)
     result, _ = found_with(KNOWN, tmp_path, [other], "solution")
     assert texts(result) == texts(before)
+
+
+def test_a_certain_change_of_what_a_known_mistake_names_is_its_fix(tmp_path: Path) -> None:
+    before, _ = found_with(KNOWN, tmp_path / "before", [], KNOWN)
+    step = replace(change(1, "kept").steps[0], name="input('?')")
+    found = [replace(change(1, "kept"), steps=(step,))]
+    result, _ = found_with(KNOWN, tmp_path, found, "solution")
+    assert (result.mistakes, result.rationale) == (before.mistakes, before.rationale)
+    assert (result.where, result.fix) == (before.where, "Line 1: Write new instead of input('?').")
+    assert result.patch
 
 
 def test_a_change_that_a_known_mistake_does_not_explain_replaces_it(tmp_path: Path) -> None:

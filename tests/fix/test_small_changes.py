@@ -286,6 +286,48 @@ def test_the_function_that_reads_the_counter_comes_before_one_that_only_logs() -
     assert [cost for cost, new in found if "info(text)\n        self.counter_ += 1" in new] == [5]
 
 
+def test_a_method_whose_value_is_used_returns_the_object() -> None:
+    every = "    def every(self, period):\n        self.period = period\n\n"
+    text = NODE.replace("    def timer_callback", every + "    def timer_callback")
+    text = text.replace("node = MyFirstNode()", "node = MyFirstNode().every(1)")
+    found = [one for one in changes(text) if one.change.sort == "gives_itself"]
+    after = every.replace("= period\n", "= period\n        return self\n")
+    assert [(one.change.name, after in one.text) for one in found] == [("every", True)]
+
+
+def test_what_runs_in_del_is_not_changed() -> None:
+    end = "    def __del__(self):\n        self.end(self.counter_)\n\n"
+    text = NODE.replace("    def timer_callback", end + "    def timer_callback")
+    assert all(end in one.text for one in changes(text) if one.change.sort == "called")
+
+
+def test_a_change_that_leaves_a_name_unused_costs_more() -> None:
+    text = NODE.replace("self.create_timer(1.0,", "period = 5.0\n        self.create_timer(period,")
+    found = {one.text: one.cost for one in changes(text)}
+    hidden = text.replace("(period,", "(1.0,")
+    corrected = text.replace("= 5.0", "= 1")
+    assert found[corrected] < found[hidden]
+
+
+UNITS = [
+    ("self.create_timer(self.period,", "self.create_timer(self.period / 1000,"),
+    ("self.create_timer(a.nanoseconds,", "self.create_timer(a.nanoseconds / 1e9,"),
+]
+
+
+@pytest.mark.parametrize(("wrong", "right"), UNITS)
+def test_a_period_in_another_unit_becomes_seconds(wrong: str, right: str) -> None:
+    text = NODE.replace("self.create_timer(1.0,", wrong)
+    found = [one.change.sort for one in changes(text) if right in one.text]
+    assert found == ["seconds"]
+
+
+def test_ok_is_a_condition_already() -> None:
+    text = NODE.replace("    rclpy.spin(node)\n", "    x = rclpy.ok() == 0\n")
+    found = [(one.cost, one.change.sort) for one in changes(text) if "x = rclpy.ok()\n" in one.text]
+    assert found == [(1, "value")]
+
+
 def test_no_number_is_below_zero() -> None:
     text = NODE.replace("self.counter_ = 0", "self.counter_ = 2")
     assert not [one for one in changes(NODE) if "= -1" in one.text]

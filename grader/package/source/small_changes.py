@@ -42,12 +42,22 @@ class SmallChange:
         return self.change.at.lineno
 
 
+def lines_at_end(module: Module) -> set[int]:
+    """Return the lines of __del__: what goes wrong there is not seen, so that any change helps."""
+    ends = [n for n in module.nodes if isinstance(n, Function) and n.name == "__del__"]
+    return {line for n in ends for line in range(n.lineno, (n.end_lineno or n.lineno) + 1)}
+
+
 def lines_as_script(module: Module) -> set[int]:
     """Return the lines of a file that run only when it is run as a script."""
     guards = [
         s for s in module.tree.body if isinstance(s, ast.If) and "__name__" in ast.dump(s.test)
     ]
     return {line for s in guards for line in range(s.lineno, (s.end_lineno or s.lineno) + 1)}
+
+
+def _unchanged(module: Module) -> set[int]:
+    return lines_as_script(module) | lines_at_end(module)
 
 
 def _own_names(module: Module) -> set[str]:
@@ -75,7 +85,7 @@ def small_changes(source: NodeSource, goal: Goal) -> list[SmallChange]:
     for module in source.known_modules:
         if module.text.encoding not in UTF_8:
             continue
-        seen, script, read = {module.text.text}, lines_as_script(module), _own_names(module)
+        seen, script, read = {module.text.text}, _unchanged(module), _own_names(module)
         for sort in ALL:
             for cost, change in sort(module, source, goal):
                 new = module.edited(change.splices)

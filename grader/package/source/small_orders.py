@@ -175,6 +175,27 @@ def _returned(module: Module, source: NodeSource, goal: Goal) -> Found:
                 yield 2, Change("returned", last, module.line(last.lineno), new, splices, code)
 
 
+def _gives_itself(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield methods that return the object, where the value of a call is used and they give none."""
+    del goal
+    text = module.text
+    used = {
+        called_name(n)
+        for other in source.known_modules
+        for n in other.nodes
+        if isinstance(n, ast.Call) and not isinstance(other.parents.get(n), ast.Expr)
+    }
+    for function in (n for found in module.classes for n in found.body if isinstance(n, Function)):
+        last = function.body[-1]
+        gives = any(isinstance(n, ast.Return | ast.Yield) for n in ast.walk(function))
+        if gives or function.name not in used or not owns_lines(module, last):
+            continue
+        put = text.before(
+            (last.end_lineno or 0) + 1, indent_of(text.line(last.lineno)) + "return self"
+        )
+        yield 2, Change("gives_itself", last, function.name, "return self", (put,))
+
+
 def _targets(statement: ast.stmt) -> list[ast.expr]:
     if isinstance(statement, ast.AugAssign):
         return [statement.target]
@@ -192,4 +213,4 @@ def _rows(node: ast.stmt) -> range:
     return range(first_row(node), (node.end_lineno or node.lineno) + 1)
 
 
-SORTS: tuple[Sort, ...] = (_blocks, _added, _returned, _order, _removed)
+SORTS: tuple[Sort, ...] = (_blocks, _added, _returned, _gives_itself, _order, _removed)

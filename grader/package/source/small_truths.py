@@ -47,6 +47,10 @@ def _inexact(module: Module, source: NodeSource, goal: Goal) -> Found:
         elif isinstance(node, ast.Call) and dotted(node.func) == "int" and len(node.args) == 1:
             given = text.code(node.args[0])
             yield 2, of_piece(module, "inexact", node, f"round({given})", given)
+        elif isinstance(node, ast.AugAssign) and isinstance(node.op, ast.Add):
+            name = text.code(node.target)
+            new = f"{name} = round({name} + {text.code(node.value)}, {DIGITS})"
+            yield 1, of_piece(module, "inexact", node, new, name)
         elif isinstance(node, ast.BinOp) and isinstance(node.op, ast.FloorDiv):
             yield 2, _rounded(module, node.left)
 

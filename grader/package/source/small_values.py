@@ -16,6 +16,8 @@ from grader.package.source.names import called_name, calls_in, dotted, last_part
 from grader.package.source.node import LOG_METHODS, NodeSource
 
 SHOWN = ("info", "warn", "warning", "error", "fatal")
+OF_C = re.compile(r"%(?:z|l|ll|h)?[ud](?<!%d)")
+"""Formats of a number that printf has and Python does not."""
 TYPES = ("INTEGER", "DOUBLE", "STRING", "BOOL")
 """The types that the value of a parameter can have, as Parameter.Type names them."""
 MOST_NAMES = 6  # other names that are tried in the place of one
@@ -133,11 +135,20 @@ def _timers(module: Module, source: NodeSource, goal: Goal) -> Found:
         period = call.args[0] if call.args else given.get("timer_period_sec")
         if period is not None:
             yield 3, of_piece(module, "value", period, str(goal.period))
+            for unit in UNITS if not isinstance(period, ast.Constant) else ():
+                new = f"{_operand(module, period)} / {unit}"
+                yield 1, of_piece(module, "seconds", period, new)
         callback = call.args[1] if len(call.args) > 1 else given.get("callback")
         if callback is not None:
             for name in source.methods:
                 if not name.startswith("__"):
                     yield 3, of_piece(module, "value", callback, f"self.{name}")
+
+
+def _operand(module: Module, node: ast.expr) -> str:
+    """Return code that can be an operand."""
+    code = module.text.code(node)
+    return code if isinstance(node, ast.Name | ast.Attribute | ast.Call) else f"({code})"
 
 
 def _operators(module: Module, source: NodeSource, goal: Goal) -> Found:
@@ -168,6 +179,8 @@ def _compared(module: Module, node: ast.Compare) -> Found:
     if dotted(node.left) == "__name__":
         return
     written, right = type(node.ops[0]), node.comparators[0]
+    if dotted(node.left).endswith("ok()"):  # (what ok() returns is a condition already)
+        yield 1, of_piece(module, "value", node, module.text.code(node.left))
     if written in OTHER:
         yield 3, _between(module, node, node.left, right, OTHER[written])
         return
@@ -296,6 +309,9 @@ def _braces(module: Module, source: NodeSource, goal: Goal) -> Found:
     del source, goal
     for node in module.nodes:
         code = module.text.code(node) if isinstance(node, ast.JoinedStr | ast.Constant) else ""
+        percent = OF_C.sub("%d", code)
+        if percent != code and isinstance(node, ast.Constant):
+            yield 1, of_piece(module, "value", node, percent)
         if isinstance(node, ast.JoinedStr) and "{{" in code:
             yield 1, of_piece(module, "value", node, code.replace("{{", "{").replace("}}", "}"))
         elif isinstance(node, ast.Constant) and code[:1] in ("'", '"') and "{" in code:
@@ -353,6 +369,10 @@ def _names(module: Module, source: NodeSource, goal: Goal) -> Found:
     """Yield other names of the same function or class in the place of a name."""
     del goal
     own = [name for name in dict.fromkeys(_own_names(module)) if name not in source.methods]
+    classes = {found.name for found in module.classes}
+    for node in module.nodes:
+        if isinstance(node, ast.Attribute) and node.attr in own and dotted(node.value) in classes:
+            yield 2, of_piece(module, "value", node, f"self.{node.attr}")
     for function in (n for n in module.nodes if isinstance(n, Function)):
         local = [name for name in dict.fromkeys(_local_names(function)) if name != "self"]
         for node in ast.walk(function):
