@@ -9,7 +9,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.after_with import NO_CONTEXT
-from grader.mistakes.example import INIT, NODE, example
+from grader.mistakes.example import INIT, INNER, NODE, example
 from grader.mistakes.fixes import lines, node_init, node_life
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
@@ -21,6 +21,45 @@ from grader.package.source.names import calls_in, dotted, last_part
 NOT_INITIALIZED = r"NotInitializedException"
 NOT_READY = r"Context must be initialized"  # of rclpy on kilted
 NODES_MADE = msg("rclpy.init() connects the program to ROS; no node can be created before it.")
+
+ROBOT = """\
+from rclpy.node import Node
+
+
+class MyFirstNode(Node):
+    def __init__(self):
+        super().__init__('my_first_node')
+        self.counter_ = 0
+        self.create_timer(1.0, self.timer_callback)
+
+    def timer_callback(self):
+        self.get_logger().info('Hello time: ' + str(self.counter_))
+        self.counter_ += 1
+
+
+node = MyFirstNode()
+"""
+MAIN = f"""\
+#!/usr/bin/env python3
+import rclpy
+
+from {INNER}.robot import node
+
+
+def main(args=None):
+    rclpy.init(args=args)
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == '__main__':
+    main()
+"""
 
 
 def _inits(raised: Raised) -> list[ast.Call]:
@@ -54,6 +93,17 @@ def _made_on_import(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
     del match
     source = raised.source
     found = node_init.made_on_import(source)
+    if found is None and (other := node_init.made_in_module(source)) is not None:
+        made, imported = other
+        words = {
+            "made": next(targets_of(made), "node"),
+            "line": str(imported.lineno),
+            "path": source.entry.path,
+        }
+        value = made.value if isinstance(made, ast.Assign | ast.Expr) else None
+        words["call"] = source.module_of(made).text.code(value) if value is not None else ""
+        words["type"] = next((dotted(c.func) for c, _ in calls_in(made)), "")
+        return replace(raised.finding("made_on_import", at=made, params=words), variant="module")
     if found is None:
         return None
     made, init = found
@@ -189,14 +239,24 @@ KINDS = (
         ),
         msg("Move this line into {function}, below {written} (line {line})."),
         links.RCLPY,
-        whys=dict.fromkeys(
-            ("no_init", "no_init_global"),
-            msg(
-                "A line outside of functions runs when Python imports the file, before {function}. "
-                "No node can be created before rclpy.init()."
+        whys={
+            "module": msg(
+                "A line outside of functions runs when Python imports the file: here in line {line} of "
+                "{path}, before {function}. No node can be created before rclpy.init()."
             ),
-        ),
+            **dict.fromkeys(
+                ("no_init", "no_init_global"),
+                msg(
+                    "A line outside of functions runs when Python imports the file, before {function}. "
+                    "No node can be created before rclpy.init()."
+                ),
+            ),
+        },
         fixes={
+            "module": msg(
+                "Delete this line. In {path}, import {type} instead, and write {made} = {call} in "
+                "{function}, below rclpy.init()."
+            ),
             "no_init": msg("Move this line into {function}, and write {written} above it."),
             "no_init_global": msg(
                 "Move this line into {function}, and write {written} above it. Write global {name} "
@@ -221,6 +281,12 @@ KINDS = (
                 ),
                 Replace(NODE, "    rclpy.init(args=args)\n    try", "    setup(args)\n    try"),
                 Replace(NODE, "        rclpy.spin(node)\n    except", "        loop()\n    except"),
+                fails="run.starts",
+            ),
+            example(
+                "node_made_in_another_file",
+                Write(f"{INNER}/robot.py", ROBOT),
+                Write(NODE, MAIN),
                 fails="run.starts",
             ),
             example(

@@ -13,6 +13,7 @@ from grader.package.source.guard import is_guard
 from grader.package.source.module import code_of
 from grader.package.source.names import calls_in, dotted
 from grader.package.source.node import NodeSource
+from grader.package.source.own_imports import imports_of
 from grader.package.source.place import block_of
 
 PLAIN = ("Node", "rclpy.node.Node", "rclpy.create_node", "create_node")
@@ -68,6 +69,25 @@ def made_on_import(source: NodeSource) -> tuple[ast.stmt, ast.Call | None] | Non
     having = {f.name for call in inits if (f := source.function_around(call)) not in (None, main)}
     own = own or [call for call, name in calls_in(main) if name in having]
     return made[0], own[0] if len(own) == 1 else None
+
+
+def made_in_module(source: NodeSource) -> tuple[ast.stmt, ast.stmt] | None:
+    """Return where another file of the package makes the node when it is imported, and the import."""
+    for module in source.known_modules:
+        if module is source.entry:
+            continue
+        outside = [s for s in module.tree.body if isinstance(s, ast.Assign | ast.Expr)]
+        made = [s for s in outside for c, _ in calls_in(s) if source.is_node_class(c.func)]
+        imports = [
+            node
+            for node in source.entry.nodes
+            if isinstance(node, ast.Import | ast.ImportFrom)
+            for imported in imports_of(node, source.entry.path)
+            if module.path in imported.paths
+        ]
+        if len(made) == 1 and imports:
+            return made[0], imports[0]
+    return None
 
 
 def used_elsewhere(source: NodeSource, name: str) -> bool:

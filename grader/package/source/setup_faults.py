@@ -56,7 +56,13 @@ class _Reader:
     files: tuple[str, ...] = ()
 
     def argument(self, name: str) -> ast.expr | None:
-        return next((k.value for k in self.call.keywords if k.arg == name), None)
+        """Return what setup() gets for an argument; of a variable, its only value."""
+        given = next((k.value for k in self.call.keywords if k.arg == name), None)
+        if not isinstance(given, ast.Name):
+            return given
+        sets = [s for s in self.module.tree.body if isinstance(s, ast.Assign)]
+        values = [s.value for s in sets if given.id in [dotted(t) for t in s.targets]]
+        return values[0] if len(values) == 1 else given
 
     def fault(self, variant: str, at: Positioned, *splices: Splice, **words: str) -> SetupFault:
         new = self.module.text.spliced(splices) if splices and self.module.exact else None

@@ -169,6 +169,10 @@ def _operators(module: Module, source: NodeSource, goal: Goal) -> Found:
             new = f"{text.code(node.target)} += {text.code(node.value)}"
             yield 2, of_piece(module, "value", node, new)
         elif isinstance(node, ast.Assign) and len(node.targets) == 1 and is_name(node.targets[0]):
+            sum_of = node.value.left if isinstance(node.value, ast.BinOp) else None
+            if sum_of is not None and is_name(sum_of) and dotted(sum_of) != dotted(node.targets[0]):
+                kept = f"{text.code(sum_of)} = {text.code(node.value)}"
+                yield 1, of_piece(module, "value", node, kept)
             new = f"{text.code(node.targets[0])} += {text.code(node.value)}"
             if module.parents.get(node) is not module.tree:
                 yield 3, of_piece(module, "value", node, new)
