@@ -49,6 +49,10 @@ KINDS = (
                 "The order of these lines matters. The grader ran the node with this line above "
                 "{written}, and then this check passes."
             ),
+            "moved_down": msg(
+                "The order of these lines matters. The grader ran the node with this line below "
+                "{written}, and then this check passes."
+            ),
             "deleted": msg(
                 "The grader ran the node without this line, and then this check passes."
             ),
@@ -172,6 +176,7 @@ KINDS = (
             "with": msg("Delete the line {name}, and indent the lines of its block one step less."),
             "out": msg("Move this line out of the block of {form}, to below it."),
             "moved": msg("Move this line above {written}."),
+            "moved_down": msg("Move this line below {written}."),
             "deleted": msg("Delete this line."),
             "moved_lines": msg("Move all lines of {name} above {written}."),
             "base": msg(

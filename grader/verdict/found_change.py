@@ -21,6 +21,7 @@ CERTAIN = (
     *("yields", "returned", "falsy", "inexact", "unkept", "gives_itself"),
 )
 """The sorts of changes that hardly help by chance: a rule of Python is their reason."""
+MOVED = ("moved", "moved_down")
 ELSEWHERE = 10**6
 """The distance of a change in another file."""
 
@@ -81,7 +82,7 @@ class FoundChange:
         step = self.steps[0]
         if where is None or where.file != step.path or not where.line:
             return ELSEWHERE
-        lines = [step.line, *([int(step.form)] if step.sort == "moved" else [])]
+        lines = [step.line, *([int(step.form)] if step.sort in MOVED else [])]
         return min(abs(line - where.line) for line in lines)
 
     @property

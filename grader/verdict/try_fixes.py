@@ -68,9 +68,9 @@ def _with_small_change(
 ) -> CheckResult | None:
     """Return the result with a small change that was found and helps; None if there is none.
 
-    A known mistake keeps its reason with a change of its own line, or with a certain one of what it
-    names. If no such change helps, but a certain one of another place does, the mistake does not
-    explain the failure. It is then replaced by the change, as is what was only seen.
+    A known mistake keeps its reason with a change of its own line. If no such change helps, but a
+    certain one of another place does, the mistake is elsewhere, and the change is told instead of it,
+    as it is of what was only seen.
     """
     if evidence.search is None or evidence.with_fix is None:
         return None
@@ -87,11 +87,7 @@ def _with_small_change(
     if fitting is not None:
         return fitting
     sure = [one for one in found if one.is_certain and root.id not in CAUSED_ELSEWHERE]
-    told = [one for one in sure if _speaks_of(root, one)]
-    other = [one for one in sure if one not in told]
-    return _with_first(told, result, evidence, translate) or _with_first(
-        other, result, evidence, translate, replaces=True
-    )
+    return _with_first(sure, result, evidence, translate, replaces=True)
 
 
 def _nearest(

@@ -168,17 +168,7 @@ def test_a_known_mistake_gets_no_change_of_another_line(other: FoundChange, tmp_
     assert texts(result) == texts(before)
 
 
-def test_a_certain_change_of_what_a_known_mistake_names_is_its_fix(tmp_path: Path) -> None:
-    before, _ = found_with(KNOWN, tmp_path / "before", [], KNOWN)
-    step = replace(change(1, "kept").steps[0], name="input('?')")
-    found = [replace(change(1, "kept"), steps=(step,))]
-    result, _ = found_with(KNOWN, tmp_path, found, "solution")
-    assert (result.mistakes, result.rationale) == (before.mistakes, before.rationale)
-    assert (result.where, result.fix) == (before.where, "Line 1: Write new instead of input('?').")
-    assert result.patch
-
-
-def test_a_change_that_a_known_mistake_does_not_explain_replaces_it(tmp_path: Path) -> None:
+def test_a_certain_change_of_another_line_replaces_a_known_mistake(tmp_path: Path) -> None:
     before, _ = found_with(KNOWN, tmp_path / "before", [], KNOWN)
     found = [change(1, "asked_for")]
     result, _ = found_with(KNOWN, tmp_path / "helps", found, "solution")

@@ -55,7 +55,12 @@ MISTAKES = [
     (
         "    rclpy.init(args=args)\n    node = MyFirstNode()\n",
         "    node = MyFirstNode()\n    rclpy.init(args=args)\n",
-        "moved",
+        "moved_down",
+    ),
+    (
+        "    node = MyFirstNode()\n    rclpy.spin(node)\n",
+        "    rclpy.spin(node)\n    node = MyFirstNode()\n",
+        "moved_down",
     ),
     (
         "        self.counter_ += 1\n",
@@ -96,6 +101,16 @@ def test_one_of_the_changes_undoes_a_mistake(right: str, wrong: str, sort: str) 
     assert text != NODE
     found = [one for one in changes(text) if same(one.text) in (same(NODE), same(F_STRING))]
     assert [one.change.sort for one in found][:1] == [sort]
+
+
+def test_a_line_that_is_moved_up_is_told_with_the_line_below_it() -> None:
+    text = NODE.replace("    rclpy.init(args=args)\n", "").replace(
+        "    rclpy.shutdown()\n", "    rclpy.shutdown()\n    rclpy.init(args=args)\n"
+    )
+    found = [one.change for one in changes(text) if same(one.text) == same(NODE)]
+    assert [(one.sort, one.name, one.written) for one in found] == [
+        ("moved", "rclpy.init(args=args)", "node = MyFirstNode()")
+    ]
 
 
 def test_a_second_class_of_the_same_name_is_left_out() -> None:

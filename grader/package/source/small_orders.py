@@ -82,14 +82,15 @@ def _order(module: Module, source: NodeSource, goal: Goal) -> Found:
             for to, other in enumerate(own):
                 if to not in (at, at + 1):
                     put = text.before(first_row(other), *code)
-                    shown = module.line(other.lineno)
+                    down = to > at and sort == "moved" and isinstance(own[to - 1], SIMPLE)
+                    beside = own[to - 1] if down else other
                     change = Change(
-                        sort,
+                        "moved_down" if down else sort,
                         moved,
                         module.line(moved.lineno),
-                        shown,
+                        module.line(beside.lineno),
                         (*gone, put),
-                        str(other.lineno),
+                        str(beside.lineno),
                     )
                     yield 3 + (abs(at - to) > 1), change
 
