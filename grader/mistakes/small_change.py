@@ -92,8 +92,8 @@ KINDS = (
                 "node with another name, and then this check passes."
             ),
             "argument": msg(
-                "The grader ran the node without one of the arguments in this line, and then this "
-                "check passes."
+                "The grader ran the node without the argument {form} in this line, and then this check "
+                "passes."
             ),
             "called": msg(
                 "{name} only names the function. The grader ran the node with {written}, which calls "

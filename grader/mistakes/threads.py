@@ -60,6 +60,9 @@ def _asyncio(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
                 code = [s for s in function.body if not _is_docstring(s)]
                 variant = "only" if code == [statement] else "awaited"
                 words["lines"] = ", ".join(map(str, uses))
+            elsewhere = set(ast.walk(function)) - set(ast.walk(statement))
+            if not variant and any(isinstance(n, ast.Await) for n in elsewhere):
+                variant = "kept"
             return replace(found, variant=variant, words=words)
     return None
 
@@ -193,6 +196,7 @@ KINDS = (
                 "Delete this line, and write def {method} without async. Delete the word await before "
                 "each call of {method} (lines: {lines}). import asyncio is not needed any more."
             ),
+            "kept": msg("Delete this line. {method} stays async: another line in it has await."),
             "only": msg(
                 "Delete {method} with its lines, and what calls it (lines: {lines}). import asyncio is not "
                 "needed any more."
@@ -206,6 +210,19 @@ KINDS = (
         raised={r"RuntimeError: no running event loop": _asyncio},
         fixed_by=(node_threads.without_asyncio,),
         examples=(
+            example(
+                "asyncio_sleep_beside_another_await",
+                Replace(NODE, "import rclpy\nfrom", "import asyncio\nimport rclpy\nfrom"),
+                Replace(NODE, "    def timer_callback", "    async def write"),
+                Replace(
+                    NODE,
+                    "    async def write",
+                    "    async def timer_callback(self):\n        await self.write()\n"
+                    "        await asyncio.sleep(0.1)\n\n    async def write",
+                ),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
             example(
                 "asyncio_sleep_in_callback",
                 Replace(NODE, "import rclpy\nfrom", "import asyncio\nimport rclpy\nfrom"),

@@ -272,7 +272,7 @@ def _arguments(module: Module, source: NodeSource, goal: Goal) -> Found:
         function = text.code(call.func)
         for gone in given if len(given) > 1 or dotted(call.func) not in BUILTINS else ():
             rest = ", ".join(text.code(one) for one in given if one is not gone)
-            yield 3, of_piece(module, "argument", call, f"{function}({rest})")
+            yield 3, of_piece(module, "argument", call, f"{function}({rest})", text.code(gone))
         for keyword in call.keywords[:1] if not call.args else ():
             rest = "".join(f", {text.code(one)}" for one in call.keywords[1:])
             new = f"{function}({text.code(keyword.value)}{rest})"
