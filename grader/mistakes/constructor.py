@@ -169,7 +169,9 @@ def _never_runs(suspect: Suspect) -> RecognisedMistake | None:
     """The class has no __init__, but a method with nearly this name that creates the timer."""
     source, own = suspect.source, suspect.source.node_class
     methods = {m.name: m for m in source.own_methods}
+    makers = [m.name for m in source.own_methods if _calls_super(m)]
     near = _near_init(methods, cutoff=0.7)
+    near = near or (makers[0] if len(makers) == 1 and "__init__" not in methods else "")
     called = [last_part(name) for _, name in source.calls if "super" not in name]
     if own is None or not near or near in called:
         return None
@@ -568,6 +570,14 @@ KINDS = (
                 "init_never_called",
                 Replace(NODE, "    def __init__(self)", "    def _init_(self)"),
                 Replace(NODE, "super().__init__(", "super()._init_("),
+                Replace(NODE, "node = MyFirstNode()", "node = MyFirstNode('my_first_node')"),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+            example(
+                "init_with_the_name_of_ruby",
+                Replace(NODE, "    def __init__(self)", "    def initialize(self, name)"),
+                Replace(NODE, "super().__init__('my_first_node')", "super().__init__(name)"),
                 Replace(NODE, "node = MyFirstNode()", "node = MyFirstNode('my_first_node')"),
                 fails="run.output",
                 blocks=SILENT,

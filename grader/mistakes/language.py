@@ -457,9 +457,11 @@ def _shown(suspect: Suspect, callback: Function) -> set[ast.AST]:
 
 
 def _called(source: NodeSource, parts: set[ast.AST]) -> list[Function]:
-    """Return the node's methods that are called in these parts."""
+    """Return the node's methods that are called in these parts, and its properties read there."""
     calls = [part for part in parts if isinstance(part, ast.Call)]
     methods = [source.method(own_name(call.func)) for call in calls]
+    read = [source.method(own_name(p)) for p in parts if isinstance(p, ast.Attribute)]
+    methods += [m for m in read if m is not None and "property" in map(dotted, m.decorator_list)]
     return [method for method in dict.fromkeys(methods) if method is not None]
 
 
@@ -927,6 +929,19 @@ KINDS = (
                 ),
                 fails="run.output",
                 note="there is no counter",
+            ),
+            example(
+                "property_that_asks_a_clock",
+                Replace(NODE, "import rclpy\nfrom", "import time\n\nimport rclpy\nfrom"),
+                Replace(NODE, "self.counter_ = 0", "self.start_ = time.monotonic()"),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    @property\n    def counter_(self):\n"
+                    "        return round(time.monotonic() - self.start_)\n\n    def timer_callback",
+                ),
+                Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
             ),
             example(
                 "time_of_day",

@@ -150,6 +150,8 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
         return None
     if any(last_part(t) == callback.name for n in source.all_nodes for t in targets_of(n)):
         return None  # (another function takes its place)
+    if _calls_a_value(callback):
+        return None
     if (late := _logs_after_spin(suspect, callback)) is not None:
         return late
     found = suspect.finding("log_missing", callback)
@@ -158,6 +160,15 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
     owner = _node_in(source, callback)
     words = {**found.words, "name": callback.name, "written": f"{owner}.get_logger().info(…)"}
     return replace(found, words=words, variant="function" if owner else "function_only")
+
+
+def _calls_a_value(callback: Function) -> bool:
+    """Whether a callback calls what it has looked up, such as a function of a dict."""
+    own = {
+        n.id for n in ast.walk(callback) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
+    }
+    calls = [n.func for n in ast.walk(callback) if isinstance(n, ast.Call)]
+    return any(isinstance(f, ast.Subscript | ast.Call) or dotted(f) in own for f in calls)
 
 
 def _logs_after_spin(suspect: Suspect, callback: Function) -> RecognisedMistake | None:

@@ -313,6 +313,8 @@ def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         words = {"name": function, "written": f"self.{function}", "function": function}
         found = raised.finding("argument_missing", at=outside[0].call)
         return replace(found, variant="outside", words={**found.words, **words})
+    if (of_timer := _timer_without_object(raised, match)) is not None:
+        return of_timer
     if match["name"] == "self" and "." in match["function"]:
         return _through_object(raised, match["function"]) or replace(found, variant="class")
     if "." in match["function"] and _on_class(raised, match):
@@ -336,6 +338,23 @@ def _on_class(raised: Raised, match: re.Match[str]) -> bool:
     here = [c for c in calls if raised.line in lines_of(c) and c.args]
     plain = len(made) == 1 and has_self(made[0]) and not made[0].decorator_list
     return plain and len(here) == 1 and dotted(here[0].args[0]) != "self"
+
+
+def _timer_without_object(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A timer calls a method as the function of its class, so that nothing is passed as self."""
+    statement = statement_at(raised.module, raised.line)
+    names = [name for _, name in calls_in(statement)] if statement is not None else []
+    timers = [c for c, name in raised.source.calls if last_part(name) == "create_timer"]
+    spun = any(last_part(name).startswith("spin") for name in names)
+    if match["name"] != "self" or not spun or len(timers) != 1 or len(timers[0].args) < 2:
+        return None
+    code = raised.source.module_of(timers[0]).text.code(timers[0].args[1])
+    method = last_part(match["function"])
+    if code == f"self.{method}":
+        return None
+    found = raised.finding("argument_missing", at=timers[0], params={"name": code})
+    words = {**found.words, "function": match["function"], "method": method}
+    return replace(found, variant="of_timer", words=words)
 
 
 def _spin_without_node(raised: Raised, found: RecognisedMistake) -> RecognisedMistake:
@@ -782,6 +801,10 @@ KINDS = (
                 "its methods. Write {written} instead of {name} on this line."
             ),
             "class_object": msg("Write {written} instead of {name}."),
+            "of_timer": msg(
+                "Write self.{method} instead of {name}. If {name} can be several functions, write "
+                "functools.partial({name}, self), and import functools at the top of the file."
+            ),
             "spin": msg("Write rclpy.spin({node}): spin needs the node that was created."),
             "spin_unnamed": msg(
                 "Give the node that line {line} creates a name: write {written} there. Write "
@@ -793,6 +816,11 @@ KINDS = (
         },
         whys={
             "class_object": ON_CLASS,
+            "of_timer": msg(
+                "This line gives the timer {name}, and that is {function} as a function of the class: no "
+                "object belongs to it. Python passes self only if the method is read from an object, as in "
+                "self.{method}."
+            ),
             "outside": msg(
                 "The timer calls {function} without arguments. Only a method of an object gets self, "
                 "and {function} is outside of the class."
@@ -907,6 +935,17 @@ KINDS = (
                     "        run(MyFirstNode)\n    except",
                 ),
                 fails="run.starts",
+            ),
+            example(
+                "functions_of_the_class_as_callbacks",
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)\n",
+                    "        for job in (MyFirstNode.timer_callback,):\n"
+                    "            self.create_timer(1.0, job)\n",
+                ),
+                fails="run.output",
+                blocks=DEAD,
             ),
             example(
                 "log_without_text",

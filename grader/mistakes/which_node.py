@@ -256,6 +256,9 @@ def _method_not_called(suspect: Suspect) -> RecognisedMistake | None:
         return _property_not_read(suspect, function, timers[0].call)
     if function.name.startswith("on_") and _lifecycle_import(suspect) is not None:
         return None
+    makes = any(name == "super().__init__" for _, name in calls_in(function))
+    if makes and "__init__" not in source.methods:
+        return None  # (it should be __init__)
     return _call_missing(suspect, function)
 
 

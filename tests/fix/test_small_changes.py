@@ -343,6 +343,21 @@ def test_ok_is_a_condition_already() -> None:
     assert found == [(1, "value")]
 
 
+def test_the_calls_of_a_table_become_functions() -> None:
+    table = "    table = {1: args.on_one(), 2: args.on_two()}\n"
+    text = NODE.replace("    rclpy.spin(node)\n", table + "    rclpy.spin(node)\n")
+    after = "    table = {1: args.on_one, 2: args.on_two}\n"
+    found = [one.change.sort for one in changes(text) if after in one.text]
+    assert found == ["not_called"]
+
+
+def test_a_mask_is_left_out_before_its_bits_are_changed() -> None:
+    text = NODE.replace("self.counter_ += 1", "self.counter_ = self.counter_ + 1 & (1 << 2) - 1")
+    assert not [one for one in changes(text) if "(0 << 2)" in one.text or "<< 3" in one.text]
+    found = [one.cost for one in changes(text) if "= self.counter_ + 1\n" in one.text]
+    assert found == [2]
+
+
 def test_no_number_is_below_zero() -> None:
     text = NODE.replace("self.counter_ = 0", "self.counter_ = 2")
     assert not [one for one in changes(NODE) if "= -1" in one.text]

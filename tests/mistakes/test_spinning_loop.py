@@ -19,7 +19,7 @@ def told(text: str, symptom: str = "run.never_spins") -> tuple[str, str]:
     """Return the reason and the fix."""
     found = behind_symptom(symptom, Suspect(source_in(text), ASSIGNMENT))
     assert found is not None
-    assert found.kind == "node.spin_once"
+    assert found.kind in ("node.spin_once", "node.spin_loop_ends")
     kind, words = CATALOGUE[found.kind], {**found.params, **found.words}
     return str(kind.rationale(words, found.variant)), str(kind.fix_text(words, found.variant))
 

@@ -21,7 +21,7 @@ def count_of(node: NodeSource) -> tuple[str, bool]:
     names = [name for name in starts_of(node) if name.startswith("self.")]
     parts = list(ast.walk(node.callback)) if node.callback is not None else []
     added = [name for name in names if any(adds_to(part, name) for part in parts)]
-    taken = {f"self.{name}" for name in node.attributes} - set(names)
+    taken = {f"self.{name}" for name in (*node.attributes, *node.methods)} - set(names)
     new = next(n for n in (COUNTER, f"{COUNTER}_", "self.number_of_calls") if n not in taken)
     return (*added, *names, new)[0], bool(added)
 

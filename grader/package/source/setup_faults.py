@@ -14,7 +14,13 @@ from grader.package.source.module import Module
 from grader.package.source.names import dotted
 from grader.package.source.python import can_parse
 from grader.package.source.setup_packages import FINDERS, parsed_setup, setup_call, value_of
-from grader.package.source.setup_pairs import PairFault, absolute_file, absolute_folder, pair_fault
+from grader.package.source.setup_pairs import (
+    TEXT,
+    PairFault,
+    absolute_file,
+    absolute_folder,
+    pair_fault,
+)
 from grader.package.source.setup_values import (
     RefusedValue,
     path_object,
@@ -634,12 +640,13 @@ def _pairs(reader: _Reader) -> list[tuple[ast.expr, ast.expr]]:
 def _file_alone(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
     """A file instead of a list of files in `data_files`."""
     del match
-    for _, files in _pairs(reader):
-        if isinstance(files, ast.Constant) and isinstance(files.value, str):
-            wanted = f"[{reader.module.text.code(files)}]"
-            swap = reader.module.text.swap(files, wanted)
-            return reader.fault("file_alone", files, swap, wanted=wanted)
-    return None
+    code = reader.module.text.code
+    alone = [files for _, files in _pairs(reader) if isinstance(files, TEXT)]
+    if not alone:
+        return None
+    swaps = [reader.module.text.swap(files, f"[{code(files)}]") for files in alone]
+    wanted = ", ".join(f"[{code(files)}]" for files in alone)
+    return reader.fault("file_alone", alone[0], *swaps, wanted=wanted)
 
 
 def _not_copied(reader: _Reader, match: re.Match[str]) -> SetupFault | None:

@@ -31,6 +31,7 @@ SIGNS: dict[type[ast.AST], str] = {
     ast.Gt: ">",
     ast.GtE: ">=",
 }
+BITS = ast.LShift | ast.RShift | ast.Pow
 SUMS: tuple[type[ast.AST], ...] = (ast.Add, ast.Sub)
 COMPARED: tuple[type[ast.AST], ...] = (ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq)
 OTHER: dict[type[ast.AST], str] = {
@@ -67,8 +68,11 @@ def _numbers(module: Module, source: NodeSource, goal: Goal) -> Found:
     """Yield other numbers, truth values and names in the place of the constants."""
     del source
     for node in module.nodes:
-        if not isinstance(node, ast.Constant) or isinstance(module.parents.get(node), ast.Expr):
+        around = module.parents.get(node)
+        if not isinstance(node, ast.Constant) or isinstance(around, ast.Expr):
             continue
+        if isinstance(around, ast.BinOp) and isinstance(around.op, BITS):
+            continue  # (another number of bits hides what is wrong)
         value = node.value
         if isinstance(value, bool):
             yield 3, of_piece(module, "value", node, str(not value))
@@ -261,6 +265,19 @@ def _called(module: Module, source: NodeSource, goal: Goal) -> Found:
                 yield 2, of_piece(module, "called", node, f"{module.text.code(node)}()")
         elif isinstance(node, ast.Call) and isinstance(around, ast.Call | ast.keyword):
             yield 3, of_piece(module, "not_called", node, module.text.code(node.func))
+        elif isinstance(node, ast.Dict | ast.List | ast.Tuple):
+            yield from _none_called(module, node)
+
+
+def _none_called(module: Module, node: ast.Dict | ast.List | ast.Tuple) -> Found:
+    """Yield a collection whose calls without arguments become the functions that they call."""
+    items = node.values if isinstance(node, ast.Dict) else node.elts
+    calls = [n for n in items if isinstance(n, ast.Call) and not n.args and not n.keywords]
+    if calls and not isinstance(getattr(node, "ctx", None), ast.Store):
+        text = module.text
+        swaps = tuple(text.swap(call, text.code(call.func)) for call in calls)
+        name, new = text.code(calls[0]), text.code(calls[0].func)
+        yield 2, Change("not_called", calls[0], name, new, swaps)
 
 
 def _arguments(module: Module, source: NodeSource, goal: Goal) -> Found:
@@ -328,6 +345,7 @@ def _braces(module: Module, source: NodeSource, goal: Goal) -> Found:
 def _parts(module: Module, source: NodeSource, goal: Goal) -> Found:
     """Yield a part of an expression in the place of the whole."""
     del source, goal
+    code = module.text.code
     for node in module.nodes:
         if isinstance(node, ast.expr):
             around = module.parents.get(node)
@@ -335,12 +353,16 @@ def _parts(module: Module, source: NodeSource, goal: Goal) -> Found:
                 if isinstance(around, ast.Expr) and not isinstance(part, ast.Call):
                     continue  # (a statement that only names a value does nothing)
                 if not isinstance(part, ast.Starred):
-                    both = isinstance(node, ast.BinOp) and not _has_constant(node)
-                    yield 3 + 2 * both, of_piece(module, "value", node, module.text.code(part))
+                    yield _cost_of_part(node, part), of_piece(module, "value", node, code(part))
 
 
-def _has_constant(node: ast.BinOp) -> bool:
-    return any(isinstance(part, ast.Constant) for part in (node.left, node.right))
+def _cost_of_part(node: ast.expr, part: ast.expr) -> int:
+    """Return how far a part is from the whole: a mask or a modulo may be too much in it."""
+    if not isinstance(node, ast.BinOp):
+        return 3
+    if isinstance(node.op, ast.Mod | ast.BitAnd) and part is node.left:
+        return 2
+    return 3 if any(isinstance(p, ast.Constant) for p in (node.left, node.right)) else 5
 
 
 def _parts_of(node: ast.expr, around: ast.AST | None) -> list[ast.expr]:
