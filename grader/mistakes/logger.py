@@ -150,7 +150,7 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
         return None
     if any(last_part(t) == callback.name for n in source.all_nodes for t in targets_of(n)):
         return None  # (another function takes its place)
-    if _calls_a_value(callback):
+    if any(map(_calls_a_value, (callback, *source.methods.values()))):
         return None
     if (late := _logs_after_spin(suspect, callback)) is not None:
         return late

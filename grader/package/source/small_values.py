@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from grader.base.nearest import nearest
 from grader.package.edit.text import Splice
 from grader.package.source.change import Change, of_piece
-from grader.package.source.module import Function, Module
+from grader.package.source.module import Function, Module, code_of
 from grader.package.source.names import called_name, calls_in, dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS, NodeSource
 
@@ -143,10 +143,16 @@ def _timers(module: Module, source: NodeSource, goal: Goal) -> Found:
                 new = f"{_operand(module, period)} / {unit}"
                 yield 1, of_piece(module, "seconds", period, new)
         callback = call.args[1] if len(call.args) > 1 else given.get("callback")
-        if callback is not None:
+        given_method = source.method(own_name(callback)) if callback is not None else None
+        if callback is not None and not (given_method and _does_something(given_method)):
             for name in source.methods:
                 if not name.startswith("__"):
                     yield 3, of_piece(module, "value", callback, f"self.{name}")
+
+
+def _does_something(function: Function) -> bool:
+    """Whether a function has more than a text and pass."""
+    return any(not isinstance(statement, ast.Pass) for statement in code_of(function))
 
 
 def _operand(module: Module, node: ast.expr) -> str:
