@@ -861,7 +861,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "method": "make_handler",
         "inner": "handler",
     },
-    "node.never_awaited": {"name": "say_hello"},
+    "node.never_awaited": {"name": "say_hello", "others": "next_number"},
     "node.static_self": {
         "name": "staticmethod",
         "written": "self",

@@ -373,7 +373,7 @@ def _executor_replaced(raised: Raised, match: re.Match[str]) -> RecognisedMistak
         stored = isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store)
         if stored and isinstance(part, ast.Attribute) and dotted(part) == "self.executor":
             found = raised.finding("name_taken", at=part, name="executor", written="executor_")
-            return replace(found, variant="property")
+            return replace(found, variant="executor")
     return None
 
 
@@ -730,13 +730,22 @@ KINDS = (
             "Give the attribute another name where it is set, for example self.{name}_ instead of self.{name}."
         ),
         whys={
+            "executor": msg(
+                "Each node has self.{name} already: your class inherits it from Node. To set it gives the "
+                "node's executor another value, and ROS calls the add_node of that, which only an executor "
+                "of ROS has."
+            ),
             "property": msg(
                 "Each node has self.{name} already: your class inherits it from Node. ROS keeps its "
                 "own value there, and it cannot be set."
-            )
+            ),
         },
         fixes={
             "property": msg(
+                "Use another name for your value, for example self.{name}_, on this line and "
+                "wherever you use it."
+            ),
+            "executor": msg(
                 "Use another name for your value, for example self.{name}_, on this line and "
                 "wherever you use it."
             ),

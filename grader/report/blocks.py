@@ -139,6 +139,8 @@ def evidence_of(
 
 FASTER = say("(The grader's clock runs faster than a real one, so the times are closer together.)")
 STAMPED = re.compile(r"^\[[A-Z]+\] \[(\d+\.\d{9})\]")
+LEFT_OUT = re.compile(r"^… .{1,100} …\r?$", re.MULTILINE)
+"""The line of an output whose middle was not kept: how many lines it had is not known."""
 CLOSE = 0.5  # seconds between two lines; the grader's clock may also run as fast as a real one
 
 
@@ -159,7 +161,9 @@ def quotation(
     text = text if whole else folded(text, translate=page.translate)
     shown, count = last_lines(text, lines=lines, translate=page.translate)
     head = say("What {title}:", title=title)
-    if len(shown) != count:
+    if len(shown) != count and LEFT_OUT.search(text):
+        head = say("What {title} (the last {shown} lines):", title=title, shown=len(shown))
+    elif len(shown) != count:
         head = say(
             "What {title} (the last {shown} of {count} lines):",
             title=title,
