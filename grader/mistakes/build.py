@@ -283,6 +283,10 @@ KINDS = (
                 "Python reads the file from top to bottom. Move lines {line} to {last}, which define "
                 "{name}, above setup(, then build again."
             ),
+            "python_2": msg(
+                "{name} is a function of Python 2. Python 3 does not have it. Delete the line that calls it "
+                "and write in setup.py itself what it gives, then build again."
+            ),
             "undefined": msg(
                 "No line of setup.py defines {name}. If it is a text, write quotes around it: "
                 "'{name}'. If it is a variable, give it a value above setup(. Then build again."

@@ -488,6 +488,10 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.parameter_refused": {"name": "self.judge", "text": "hello", "line": 14},
     "node.error_only_logged": {"text": "it failed: division by zero."},
     "node.spin_loop_ends": {"name": "node.n < 3", "wanted": "rclpy.spin(node)", "loop": "while"},
+    "node.print_of_python_2": {
+        "name": "print >>sys.stderr, 'up'",
+        "written": "print('up', file=sys.stderr)",
+    },
     "node.own_topic": {"name": "'hello'", "written": "'~/hello'", "line": 12},
     "node.config_not_read": {"name": "'settings.ini'", "text": "'hello'"},
     "node.text_not_a_number": {"text": "'1.0s'"},

@@ -290,7 +290,8 @@ def _made_attribute(case: Case, call: ast.Call) -> Files | None:
     if any(text.code(n) != name for n in used):  # (in an f-string, before Python 3.12)
         return None
     indent = indent_of(text.line(last.lineno))
-    places = [text.span(n)[0] for n in used if n not in first.targets]
+    set_there = first.targets if isinstance(first, ast.Assign) else [first.target]
+    places = [text.span(n)[0] for n in used if n not in set_there]
     return case.changed(
         node.module,
         text.without(first.lineno),

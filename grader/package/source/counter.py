@@ -129,9 +129,13 @@ def _scope(function: Function) -> Iterator[ast.AST]:
             waiting += ast.iter_child_nodes(node)
 
 
-def local_start(function: Function, name: str) -> ast.Assign | None:
+def local_start(function: Function, name: str) -> ast.Assign | ast.AnnAssign | None:
     """Return the line of a function that sets its own variable to a number, if it counts it up."""
-    numbers = [s for s in function.body if isinstance(s, ast.Assign) and dict(_numbers([s]))]
+    numbers = [
+        s
+        for s in function.body
+        if isinstance(s, ast.Assign | ast.AnnAssign) and dict(_numbers([s]))
+    ]
     found = [s for s in numbers if name in targets_of(s)]
     set_again = [n for n in ast.walk(function) if name in targets_of(n) and n not in found]
     counted = bool(set_again) or f"self.{name}" in _added(function)

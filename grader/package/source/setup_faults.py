@@ -32,6 +32,8 @@ from grader.package.source.values import Evaluator, Table, Text
 
 CONSTANTS = {"true": "True", "false": "False", "null": "None", "none": "None"}
 """What other languages call Python's constants."""
+PYTHON_2 = ("execfile", "unicode", "xrange", "raw_input", "basestring", "reduce", "file")
+"""Functions that Python 2 had, and that Python 3 does not have."""
 IMPORTED = ("setup", *FINDERS)
 TEXTS = (
     *("version", "license", "maintainer", "maintainer_email", "author", "author_email"),
@@ -267,6 +269,8 @@ def _name(reader: _Reader, match: re.Match[str]) -> SetupFault | None:
         above = next((s for s in module.tree.body if reader.call in ast.walk(s)), None)
         insert = [module.text.before(above.lineno, row, "")] if above is not None else []
         return reader.fault("variable", first, *insert, name=name, statement=row)
+    if name in PYTHON_2:
+        return reader.fault("python_2", first, name=name)
     parent = module.parents.get(first)
     is_text = isinstance(parent, ast.keyword) and parent.arg in TEXTS
     is_item = isinstance(parent, ast.List)

@@ -7,7 +7,7 @@ import ast
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.change import Change, of_piece
 from grader.package.source.module import Function, Module, is_text
-from grader.package.source.names import called_name, dotted
+from grader.package.source.names import SPINS, called_name, dotted
 from grader.package.source.node import LOG_METHODS, NodeSource
 from grader.package.source.place import block_of, blocks_in, first_row, owns_lines
 from grader.package.source.small_values import MOST_NAMES, Found, Goal, Sort, counters_of, is_name
@@ -80,7 +80,7 @@ def _order(module: Module, source: NodeSource, goal: Goal) -> Found:
             code = [text.line(row) for row in _rows(moved)]
             gone = tuple(text.without(row) for row in _rows(moved))
             for to, other in enumerate(own):
-                if to not in (at, at + 1):
+                if to not in (at, at + 1) and not _hides(moved, own[at + 1 : to]):
                     put = text.before(first_row(other), *code)
                     down = to > at and sort == "moved" and isinstance(own[to - 1], SIMPLE)
                     beside = own[to - 1] if down else other
@@ -93,6 +93,18 @@ def _order(module: Module, source: NodeSource, goal: Goal) -> Found:
                         str(beside.lineno),
                     )
                     yield 3 + (abs(at - to) > 1), change
+
+
+def _hides(moved: ast.stmt, above: list[ast.stmt]) -> bool:
+    """Whether a statement would come below one that spins, where it may never be reached."""
+    spins = any(
+        called_name(n) in SPINS
+        for statement in above
+        for n in ast.walk(statement)
+        if isinstance(n, ast.Call)
+    )
+    ends = [called_name(n) for n in ast.walk(moved) if isinstance(n, ast.Call)]
+    return spins and not set(ends) & {"shutdown", "try_shutdown", "destroy_node"}
 
 
 def _added(module: Module, source: NodeSource, goal: Goal) -> Found:
