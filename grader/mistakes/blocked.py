@@ -129,7 +129,9 @@ def _waits(suspect: Suspect) -> RecognisedMistake | None:
             owner, _, method = name.rpartition(".")
             endless = method in WAITS and (method == "recv" or not call.args + call.keywords)
             if endless and owner in _made(source, *WAITS[method]):
-                return suspect.finding("callback_waits", call, name=f"{name}()")
+                found = suspect.finding("callback_waits", call, name=f"{name}()")
+                words = {**found.words, "written": f"{owner}.get_nowait()"}
+                return replace(found, words=words, variant="queue" if method == "get" else "")
             if name == "input" or full_name(source.module_of(call), call.func) == "signal.pause":
                 return suspect.finding("callback_waits", call, name=f"{last_part(name)}()")
     return None
@@ -208,6 +210,12 @@ KINDS = (
             "Remove this line, and what uses its result, from the callback: it must return without "
             "waiting, and the timer calls it again."
         ),
+        fixes={
+            "queue": msg(
+                "Write {written} instead of {name}, in a try with except queue.Empty: return. Then the "
+                "callback uses what is there, and does not wait."
+            )
+        },
         behind=dict.fromkeys(("run.stops", "run.no_lines"), _waits),
         deletes=("",),
         examples=(

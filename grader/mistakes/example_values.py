@@ -377,7 +377,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "written": "threading.RLock",
     },
     "node.lock_kept": {"name": "self.lock", "method": "tick"},
-    "node.callback_waits": {"name": "self.jobs.get()"},
+    "node.callback_waits": {"name": "self.jobs.get()", "written": "self.jobs.get_nowait()"},
     "node.waits_at_end": {"name": "input()", "loop": "while", "line": "31-32"},
     "node.timer_cancelled": {"name": "self.timer.cancel()", "method": "check"},
     "node.timer_reset": {"name": "self.timer.reset()", "method": "check"},

@@ -158,8 +158,27 @@ def _tiny(suspect: Suspect) -> RecognisedMistake | None:
     code = source.module_of(value).text.code(value)
     if "\n" in code:
         return None
+    if seconds is None and (part := _part_of_a_span(suspect)) is not None:
+        return part
     found = suspect.finding("period_tiny", value, name=code, written=repr(suspect.output.period))
     return found if seconds is not None else replace(found, variant="unknown")
+
+
+def _part_of_a_span(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the only microseconds of a timedelta: they are the part below a second."""
+    source = suspect.source
+    nodes = [n for module in source.known_modules for n in module.nodes]
+    parts = [n for n in nodes if isinstance(n, ast.Attribute) and n.attr == "microseconds"]
+    if len(parts) != 1:
+        return None
+    module = source.module_of(parts[0])
+    around = module.parents.get(parts[0])
+    divided = isinstance(around, ast.BinOp) and isinstance(around.op, ast.Div)
+    whole = around if isinstance(around, ast.BinOp) and divided else parts[0]
+    name = module.text.code(whole)
+    written = f"{module.text.code(parts[0].value)}.total_seconds()"
+    found = suspect.finding("period_tiny", whole, name=name, written=written)
+    return replace(found, variant="part") if "\n" not in name else None
 
 
 def _known(suspect: Suspect) -> RecognisedMistake | None:
@@ -231,11 +250,15 @@ KINDS = (
         ),
         msg("Write {written} instead of {name} on this line."),
         whys={
+            "part": msg(
+                "microseconds of a timedelta is only the part below a whole second, and 0 for one second. "
+                "total_seconds() is the whole. With a period of 0 the timer calls {callback} without a pause."
+            ),
             "unknown": msg(
                 "Only {callback} logs, and the timer calls it. Lines without a pause come from a "
                 "period of 0 or nearly 0. The timer's period is {name}, which has such a value when "
                 "the node runs."
-            )
+            ),
         },
         behind={
             "run.too_much_output": _tiny,
@@ -247,6 +270,18 @@ KINDS = (
                 "period_nearly_zero",
                 Replace(NODE, "create_timer(1.0,", "create_timer(1e-6,"),
                 fails="run.period",
+            ),
+            example(
+                "microseconds_of_a_timedelta",
+                Replace(NODE, "import rclpy\n", "from datetime import timedelta\n\nimport rclpy\n"),
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "def seconds(span):\n    return span.microseconds / 1e6\n\n\nclass MyFirstNode",
+                ),
+                Replace(NODE, "create_timer(1.0,", "create_timer(seconds(timedelta(seconds=1)),"),
+                fails="run.output",
+                blocks=("run.spins", *DEAD),
             ),
             example(
                 "period_of_division",
