@@ -831,6 +831,12 @@ KINDS = (
                 "margin, below the class, without self and without @staticmethod. Then write "
                 "'{wanted}' in setup.py, and build again."
             ),
+            "in_class_object": msg(
+                "{function} is a method (line {line} of {path}) and needs an object of {owner}, which the "
+                "executable does not make. Write at the end of {path}, above if __name__ if that is there, two "
+                "lines: def {function}(): at the left margin, and below it, indented, {owner}().{function}(). Then "
+                "write '{wanted}' in setup.py, and build again."
+            ),
             "in_class_called": msg(
                 "In {path}, write {function} instead of {code} in line {at}, and move the def of "
                 "{function} (line {line}) out of the class: to the left margin, below the class, "
@@ -839,6 +845,27 @@ KINDS = (
             ),
         },
         examples=(
+            example(
+                "main_is_a_method_of_an_object",
+                Replace(
+                    NODE,
+                    "        super().__init__(",
+                    "        rclpy.init()\n        super().__init__(",
+                ),
+                Replace(
+                    NODE,
+                    '\n\ndef main(args=None):\n    """Run the node until Ctrl+C."""\n'
+                    + BODY_OF_MAIN,
+                    "\n    def main(self):\n        try:\n            rclpy.spin(self)\n"
+                    "        except KeyboardInterrupt:\n            pass\n"
+                    "        finally:\n            self.destroy_node()\n"
+                    "            rclpy.try_shutdown()\n",
+                ),
+                Replace(NODE, "'__main__':\n    main()", "'__main__':\n    MyFirstNode().main()"),
+                Replace(SETUP, "my_first_node:main", "my_first_node:MyFirstNode.main"),
+                fails="entry_point.mapping",
+                blocks=UNSTARTED,
+            ),
             example(
                 "main_of_the_class",
                 Replace(

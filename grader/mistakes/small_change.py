@@ -29,6 +29,15 @@ KINDS = (
                 "The lines below {name} run only when its condition is true. The grader ran the node "
                 "with these lines each time, and then this check passes."
             ),
+            "branches": msg(
+                "Each call runs only one branch of this condition. The grader ran the node with the lines below "
+                "{name} each time, and without the other branches, and then this check passes."
+            ),
+            "given_back": msg(
+                "A function that gets a number changes only its own variable: {form} stays as it is. The grader "
+                "ran the node with a function that returns the changed number, and with {written}, and then this "
+                "check passes."
+            ),
             "else": msg(
                 "The grader ran the node without the condition {name}, with only the lines of its "
                 "else, and then this check passes."
@@ -171,6 +180,13 @@ KINDS = (
             "else": msg(
                 "Delete the line {name} with the lines below it, and keep the lines of its else, "
                 "indented one step less."
+            ),
+            "branches": msg(
+                "Delete the whole condition with all its branches, and keep only the lines below {name}, "
+                "indented one step less."
+            ),
+            "given_back": msg(
+                "Return the changed number at the end of the function, and write {written} instead of {name}."
             ),
             "loop": msg("Delete the line {name}, and indent the lines of its block one step less."),
             "with": msg("Delete the line {name}, and indent the lines of its block one step less."),

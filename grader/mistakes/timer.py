@@ -134,6 +134,10 @@ def _stop_of_timer(suspect: Suspect, *endings: str, logs: bool = True) -> Recogn
     """
     source, callback = suspect.source, suspect.source.callback
     early = parts_until_ctrl_c(source)
+    statements = [n.value for n in source.all_nodes if isinstance(n, ast.Expr)]
+    resets = [n for n in statements if isinstance(n, ast.Attribute) and n.attr == "reset"]
+    if resets:
+        return None  # (the () is missing behind what starts the timer again)
     for call, name in source.calls:
         if not name.endswith(endings) or call not in early or not _is_of_timer(source, call, name):
             continue

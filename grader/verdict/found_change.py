@@ -19,6 +19,7 @@ OWN_REASON = (
 CERTAIN = (
     *("called", "not_called", "argument", "kept", "asked_for"),
     *("yields", "returned", "falsy", "inexact", "unkept", "gives_itself"),
+    "given_back",
 )
 """The sorts of changes that hardly help by chance: a rule of Python is their reason."""
 MOVED = ("moved", "moved_down")

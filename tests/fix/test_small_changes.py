@@ -358,6 +358,16 @@ def test_a_mask_is_left_out_before_its_bits_are_changed() -> None:
     assert found == [2]
 
 
+def test_a_function_gives_back_the_number_that_it_changes() -> None:
+    add = "def add(number):\n    number += 1\n\n\n"
+    text = NODE.replace("self.counter_ += 1", "add(self.counter_)").replace(
+        "def main", add + "def main"
+    )
+    found = [one for one in changes(text) if one.change.sort == "given_back"]
+    assert [one.change.written for one in found] == ["self.counter_ = add(self.counter_)"]
+    assert "    number += 1\n    return number\n" in found[0].text
+
+
 def test_no_number_is_below_zero() -> None:
     text = NODE.replace("self.counter_ = 0", "self.counter_ = 2")
     assert not [one for one in changes(NODE) if "= -1" in one.text]

@@ -28,6 +28,28 @@ def line_in_class(found: bytes, given: str, function: str) -> int:
     return next((n.lineno for n in methods if n.name == function), 0)
 
 
+def uses_its_object(found: bytes, given: str) -> bool:
+    """Whether the method `Class.function` uses the object on which it is called."""
+    owner, _, name = given.partition(".")
+    try:
+        body = parse_python(found).tree.body
+    except PythonFault:
+        return False
+    methods = [
+        n
+        for cls in body
+        if isinstance(cls, ast.ClassDef) and cls.name == owner
+        for n in cls.body
+        if isinstance(n, Function) and n.name == name and n.args.args and not n.decorator_list
+    ]
+    return any(
+        isinstance(part, ast.Name) and part.id == method.args.args[0].arg
+        for method in methods
+        for statement in method.body
+        for part in ast.walk(statement)
+    )
+
+
 def calls_of_method(found: bytes, given: str) -> list[tuple[int, str]]:
     """Return the calls of the method `Class.function` outside of its class: line and what is called.
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from typing import TypeGuard
 
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.change import Change, of_piece
@@ -11,7 +12,7 @@ from grader.package.source.module import Function, Module
 from grader.package.source.names import called_name, dotted, parameters_of
 from grader.package.source.node import LOG_METHODS, NodeSource
 from grader.package.source.place import first_row, owns_lines
-from grader.package.source.small_values import BUILTINS, Found, Goal, Sort
+from grader.package.source.small_values import BUILTINS, Found, Goal, Sort, is_name
 
 LAZY = ("map", "filter", "zip", "iter", "enumerate", "range", "reversed")
 """Builtins that make an object which is used up."""
@@ -146,4 +147,35 @@ def _plain(module: Module, source: NodeSource, goal: Goal) -> Found:
                 yield 2, Change("yields", node, module.line(node.lineno), "", gone)
 
 
-SORTS: tuple[Sort, ...] = (_kept, _asked_for, _plain, _once)
+def _given_back(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield calls that get back the number which a function changes only for itself."""
+    del source, goal
+    text = module.text
+    for node in module.nodes:
+        call = node.value if isinstance(node, ast.Expr) else None
+        function = module.functions.get(dotted(call.func)) if isinstance(call, ast.Call) else None
+        if not isinstance(call, ast.Call) or function is None or call.keywords:
+            continue
+        inside = [n for statement in function.body for n in ast.walk(statement)]
+        changed = [
+            n.target.id for n in inside if isinstance(n, ast.AugAssign) and is_local(n.target)
+        ]
+        names = [a.arg for a in function.args.args]
+        last = function.body[-1]
+        if any(isinstance(n, ast.Return) for n in inside) or not owns_lines(module, last):
+            continue
+        for name, given in zip(names, call.args, strict=False):
+            if name in changed and is_name(given):
+                indent = indent_of(text.line(last.lineno))
+                put = text.before((last.end_lineno or 0) + 1, f"{indent}return {name}")
+                new = f"{text.code(given)} = {text.code(call)}"
+                splices = (put, text.swap(call, new))
+                yield 1, Change("given_back", call, text.code(call), new, splices, text.code(given))
+
+
+def is_local(node: ast.AST) -> TypeGuard[ast.Name]:
+    """Whether this is a name without a dot."""
+    return isinstance(node, ast.Name)
+
+
+SORTS: tuple[Sort, ...] = (_kept, _given_back, _asked_for, _plain, _once)

@@ -29,7 +29,9 @@ def _blocks(module: Module, source: NodeSource, goal: Goal) -> Found:
         if not module.line(node.lineno).startswith("elif"):
             if isinstance(node, HEADED):
                 cost = 4 if isinstance(node, ast.If) else 3
-                yield cost, _only(module, node, node.body, HEADS.get(type(node), "loop"))
+                sort = HEADS.get(type(node), "loop")
+                branches = isinstance(node, ast.If) and bool(node.orelse)
+                yield cost, _only(module, node, node.body, "branches" if branches else sort)
             rest = [] if isinstance(node, ast.With) else node.orelse
             if isinstance(node, ast.If) and rest and module.line(rest[0].lineno)[:4] != "elif":
                 yield 5, _only(module, node, rest, "else")

@@ -9,7 +9,7 @@ from grader.base.i18n.message import Message, say
 from grader.base.nearest import meant, nearest, there_is, with_difference
 from grader.base.shown import shown
 from grader.package.source.entry_points import Entry, EntryPoints, Misplaced, is_refused, misplaced
-from grader.package.source.in_class import calls_of_method, line_in_class
+from grader.package.source.in_class import calls_of_method, line_in_class, uses_its_object
 from grader.package.source.python import PythonFault, parse_python
 from grader.package.source.values import Table, Text
 from grader.report.model import Where
@@ -361,6 +361,9 @@ def other_target(evidence: Evidence, entry: Entry, entries: list[Entry]) -> Fail
     calls = calls_of_method(data, target.partition(":")[2]) if in_class else []
     places = {"at": str(calls[0][0]), "code": shown(calls[0][1])} if len(calls) == 1 else {}
     variant = "in_class_called" if places else "in_class" if in_class else ""
+    if in_class and uses_its_object(data, target.partition(":")[2]):
+        variant = "in_class_object"
+        places = {"owner": shown(target.partition(":")[2].partition(".")[0])}
     there = [e for e in entries if "".join(e.target.split()) == wanted.target]
     swapped = mistake == "setup.other_module" and len(there) == 1
     if swapped:
