@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from typing import TypeGuard
 
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.change import Change, of_piece
+from grader.package.source.counter import targets_of
 from grader.package.source.module import Function, Module
 from grader.package.source.names import called_name, dotted, parameters_of
 from grader.package.source.node import LOG_METHODS, NodeSource
@@ -157,9 +157,7 @@ def _given_back(module: Module, source: NodeSource, goal: Goal) -> Found:
         if not isinstance(call, ast.Call) or function is None or call.keywords:
             continue
         inside = [n for statement in function.body for n in ast.walk(statement)]
-        changed = [
-            n.target.id for n in inside if isinstance(n, ast.AugAssign) and is_local(n.target)
-        ]
+        changed = {name for n in inside for name in targets_of(n) if "." not in name}
         names = [a.arg for a in function.args.args]
         last = function.body[-1]
         if any(isinstance(n, ast.Return) for n in inside) or not owns_lines(module, last):
@@ -171,11 +169,6 @@ def _given_back(module: Module, source: NodeSource, goal: Goal) -> Found:
                 new = f"{text.code(given)} = {text.code(call)}"
                 splices = (put, text.swap(call, new))
                 yield 1, Change("given_back", call, text.code(call), new, splices, text.code(given))
-
-
-def is_local(node: ast.AST) -> TypeGuard[ast.Name]:
-    """Whether this is a name without a dot."""
-    return isinstance(node, ast.Name)
 
 
 SORTS: tuple[Sort, ...] = (_kept, _given_back, _asked_for, _plain, _once)
