@@ -4,14 +4,17 @@ ROS is imported once, and each variant runs in a fork. There ROS time steps from
 next one while the node waits, so that a run of many periods takes some milliseconds. The standard
 input is one JSON object: `module` and `function` to call, and `variants`, each the new texts of
 modules by their names; `until` is in nanoseconds of ROS time, `lines` the most lines, `each` and
-`seconds` the most wall time for one variant and for all, `jobs` how many run at once. The output is
-a JSON line for each variant that was run: its index, the `lines` (instant, logger, text), how it
-`ended`, the number of `steps` that ROS time made, and whether the code `slept`. What it says is no proof: the student's code
-runs in the same process.
+`seconds` the most wall time for one variant and for all, `jobs` how many run at once. `watched` has
+null for each variant, or the `file`, `first` and `last` line of a statement, and pieces of `code`
+whose values are asked for. The output is a JSON line for each variant that was run: its index, the
+`lines` (instant, logger, text), how it `ended`, the number of `steps` that ROS time made, whether
+the code `slept`, and for each piece of code its first `values`. What it says is no proof: the
+student's code runs in the same process.
 """
 
 from __future__ import annotations
 
+import ast
 import builtins
 import contextlib
 import importlib
@@ -23,15 +26,19 @@ import os
 import select
 import signal
 import sys
+import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from importlib.machinery import ModuleSpec
-from types import ModuleType
+from types import FrameType, ModuleType
 from typing import Any, NoReturn
 
 SECOND = 10**9
 SHOWN = 20  # the level of info()
 LONGEST = 300  # characters of a line
+MOST_VALUES = 3
+LONGEST_VALUE = 30
+PLAIN = (bool, int, float, str, type(None))
 PRELOADED = (
     *("rcl_interfaces.msg", "rcl_interfaces.srv", "rosgraph_msgs.msg"),
     *("type_description_interfaces.srv", "std_msgs.msg"),
@@ -56,11 +63,84 @@ class Sources(importlib.abc.MetaPathFinder, importlib.abc.InspectLoader):
         return self._texts[fullname]
 
 
+class _Known(ast.NodeTransformer):
+    """Puts the values of names and attributes of a frame into code; LookupError if one is not plain.
+
+    No code of the student runs for it: properties are left alone.
+    """
+
+    def __init__(self, frame: FrameType) -> None:
+        self._frame = frame
+
+    def _object(self, node: ast.AST) -> Any:
+        if isinstance(node, ast.Name):
+            names = {**self._frame.f_globals, **self._frame.f_locals}
+            return names[node.id]
+        if not isinstance(node, ast.Attribute):
+            raise LookupError
+        owner = self._object(node.value)
+        own = getattr(owner, "__dict__", {})
+        found = own[node.attr] if node.attr in own else inspect.getattr_static(owner, node.attr)
+        if hasattr(type(found), "__get__"):
+            raise LookupError
+        return found
+
+    def _value(self, node: ast.expr) -> ast.AST:
+        found = self._object(node)
+        if type(found) not in PLAIN:
+            raise LookupError
+        return ast.Constant(found)
+
+    visit_Name = visit_Attribute = _value  # noqa: N815 - the names that ast calls
+
+
+class Watched:
+    """Takes the values that code has each time just before a statement runs."""
+
+    def __init__(self, file: str, first: int, last: int, code: Sequence[str]) -> None:
+        self._file, self._lines, self._code = file, range(first, last + 1), code
+        self.values: list[list[str]] = [[] for _ in code]
+
+    def install(self) -> None:
+        """Watch all threads."""
+        threading.settrace(self._called)
+        sys.settrace(self._called)
+
+    def _called(self, frame: FrameType, event: str, _: Any) -> Any:
+        if event != "call" or not frame.f_code.co_filename.endswith(self._file):
+            return None
+        inside = False
+
+        def line(frame: FrameType, event: str, _: Any) -> Any:
+            nonlocal inside
+            if event == "line":
+                here = frame.f_lineno in self._lines
+                if here and not inside:
+                    self._take(frame)
+                inside = here
+            return line
+
+        return line
+
+    def _take(self, frame: FrameType) -> None:
+        for code, values in zip(self._code, self.values):
+            if len(values) < MOST_VALUES:
+                with contextlib.suppress(
+                    Exception
+                ):  # (a name without a value, or a value of another kind)
+                    tree = _Known(frame).visit(ast.parse(code, mode="eval"))
+                    now = ast.fix_missing_locations(tree)
+                    value = eval(compile(now, "code", "eval"), {"__builtins__": {}})  # noqa: S307 - in the sandbox, of plain values
+                    if type(value) in PLAIN and len(repr(value)) <= LONGEST_VALUE:
+                        values.append(repr(value))
+
+
 class ShortRun:
     """One run of a variant, in a fork; `until` and `most` end it."""
 
-    def __init__(self, report: int, until: int, most: int) -> None:
+    def __init__(self, report: int, until: int, most: int, watched: Watched | None) -> None:
         self._report, self._until, self._most = report, until, most
+        self._watched = watched
         self._begin = self._now = SECOND
         self._idle = False
         self._nodes: list[Any] = []
@@ -143,6 +223,7 @@ class ShortRun:
             "ended": how,
             "steps": self._steps,
             "slept": self._slept,
+            "values": self._watched.values if self._watched is not None else [],
         }
         with os.fdopen(self._report, "wb", closefd=False) as pipe:
             pipe.write(json.dumps(said).encode())
@@ -150,6 +231,8 @@ class ShortRun:
 
     def play(self, module: str, function: str) -> NoReturn:
         """Call the function of the module."""
+        if self._watched is not None:
+            self._watched.install()
         try:
             found: Any = importlib.import_module(module)
             for part in function.split("."):
@@ -202,7 +285,8 @@ def main() -> None:
                 os.setsid()
                 os.close(out)
                 sys.meta_path.insert(0, Sources(texts))
-                run = ShortRun(write, asked["until"], asked["lines"])
+                watched = Watched(**asked["watched"][index]) if asked["watched"][index] else None
+                run = ShortRun(write, asked["until"], asked["lines"], watched)
                 run.install()
                 run.play(asked["module"], asked["function"])
             os.close(write)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from grader.sandbox.base import Sandbox
@@ -27,18 +27,30 @@ class ShortRun:
 
     `ended` is "lines" or "time" if it still ran, "waits" if it waits for what never comes,
     "returned", "exit", "killed", or an exception with its line. `steps` is how often ROS time went on,
-    `slept` whether the code called time.sleep, which holds up the callbacks.
+    `slept` whether the code called time.sleep, which holds up the callbacks. `values` are those that
+    watched code had first, as Python writes them.
     """
 
     lines: tuple[tuple[int, str, str], ...]
     ended: str
     steps: int
     slept: bool = False
+    values: tuple[tuple[str, ...], ...] = ()
 
     @property
     def lives(self) -> bool:
         """Whether the node still ran at the end."""
         return self.ended in ("lines", "time")
+
+
+@dataclass(frozen=True)
+class Watched:
+    """Code whose values are asked for just before a statement runs, the lines `first` to `last`."""
+
+    file: str
+    first: int
+    last: int
+    code: tuple[str, ...]
 
 
 KILLED = ShortRun((), "killed", 0)
@@ -52,15 +64,18 @@ def run_variants(
     *,
     period: float,
     seconds: float,
+    watched: Sequence[Watched] = (),
 ) -> list[ShortRun | None]:
     """Return what each variant did; None for those that were not run within `seconds`.
 
-    A variant is the new texts of modules by their names. The workspace has been built.
+    A variant is the new texts of modules by their names; `watched` is of the first variants. The
+    workspace has been built.
     """
     asked = {
         "module": module,
         "function": function,
         "variants": variants,
+        "watched": [*map(asdict, watched), *[None] * (len(variants) - len(watched))],
         "until": int((MOST_LINES + 5) * period * 1e9),
         "lines": MOST_LINES,
         "each": EACH_SECONDS,
@@ -88,7 +103,9 @@ def _take(line: str, found: list[ShortRun | None]) -> None:
         run = KILLED
         if seen is not None:
             lines = tuple((int(at), str(name), str(text)) for at, name, text in seen["lines"])
-            run = ShortRun(lines, str(seen["ended"]), int(seen["steps"]), bool(seen["slept"]))
+            values = tuple(tuple(map(str, each)) for each in seen["values"])
+            ended, steps = str(seen["ended"]), int(seen["steps"])
+            run = ShortRun(lines, ended, steps, bool(seen["slept"]), values)
         if isinstance(index, int) and 0 <= index < len(found):
             found[index] = run
     except (ValueError, TypeError, LookupError, RecursionError):

@@ -38,6 +38,10 @@ def rank_of(level: int, cost: int) -> int:
     return cost + SHORT * (WHOLE - level)
 
 
+Values = tuple[tuple[str, tuple[str, ...]], ...]
+"""Pieces of code, each with the values that it has first."""
+
+
 @dataclass(frozen=True)
 class Step:
     """One change of a file, as a text can show it."""
@@ -55,12 +59,14 @@ class FoundChange:
     """One or two changes of a node: the new texts of files, by their path.
 
     `level` is how far the node gets with it. If it does not count, the text of its lines is right.
+    `values` are code and the values that it has first at the place of the change, without it.
     """
 
     steps: tuple[Step, ...]
     texts: Mapping[str, str]
     cost: int
     level: int = WHOLE
+    values: Values = ()
 
     @property
     def counts(self) -> bool:

@@ -6,28 +6,39 @@ built and marked as a fix is, and only one that helps is shown.
 
 from __future__ import annotations
 
+import ast
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import islice
 
 from grader.base.i18n.message import Message, joined, say
 from grader.base.shown import shown
 from grader.course.assignment import Assignment, Output
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.recognised import RecognisedMistake
-from grader.package.source.names import module_name
+from grader.package.source.names import dotted, module_name
 from grader.package.source.node import NodeSource, read_node
 from grader.package.source.small_changes import SmallChange, small_changes
 from grader.package.source.small_values import Goal
 from grader.report.model import Where
 from grader.run.observer import number_reader
-from grader.run.variants import ShortRun, run_variants
+from grader.run.variants import ShortRun, Watched, run_variants
 from grader.sandbox.base import Sandbox
 from grader.verdict.checks.actual_node import actual_path
 from grader.verdict.checks.parsed import data_of
 from grader.verdict.evidence import Evidence, Search
-from grader.verdict.found_change import NEARLY, WHOLE, FoundChange, Step, rank_of
+from grader.verdict.found_change import (
+    CERTAIN,
+    NEARLY,
+    OWN_REASON,
+    WHOLE,
+    FoundChange,
+    Step,
+    Values,
+    rank_of,
+)
 
 KIND, FIRST = "node.small_change", "node.one_of_two"
 SECONDS = 10.0
@@ -39,6 +50,8 @@ MOST_SECOND = 150
 MOST_FIRST = 3
 """The most first changes that are tried with a second one."""
 MOST_FOUND = 12
+MOST_VALUES = 3
+"""The most pieces of code whose values a text shows."""
 LEAST_LINES = 6
 LONGEST = 90  # characters of a piece of code that a text shows
 TEXT, STEP = 5, 6
@@ -72,6 +85,7 @@ class _Tried:
     level: int
     ended: str
     slept: bool = False
+    last: SmallChange | None = None
 
 
 class _Search:
@@ -107,10 +121,22 @@ class _Search:
                 one for one in tried if one.level in (TEXT, STEP) and one.steps[0].sort == "value"
             ]
         good.sort(key=lambda one: rank_of(one.level, one.cost))
+        values = self._values(good[:MOST_FOUND])
         return [
-            FoundChange(_told(one, base), one.texts, one.cost, one.level)
-            for one in good[:MOST_FOUND]
+            FoundChange(_told(one, base), one.texts, one.cost, one.level, seen)
+            for one, seen in zip(good, values)
         ]
+
+    def _values(self, found: Sequence[_Tried]) -> list[Values]:
+        """Return the values that the code of each change has, without the change."""
+        asked = [one.last if len(one.steps) == 1 else None for one in found]
+        watched = {n: watched_at(one) for n, one in enumerate(asked) if one is not None}
+        runs = self._variants([{}] * len(watched), list(watched.values())) if watched else []
+        values: list[Values] = [()] * len(found)
+        for (n, at), run in zip(watched.items(), runs):
+            seen = run.values if run is not None else ()
+            values[n] = tuple((code, each) for code, each in zip(at.code, seen) if each)
+        return values
 
     def _twice(self, base: _Tried, tried: Sequence[_Tried]) -> list[_Tried]:
         """Return the pairs of changes that help."""
@@ -144,23 +170,54 @@ class _Search:
             one_line(change.written).removesuffix(":"),
             one_line(change.form).removesuffix(":"),
         )
-        return _Tried((*steps, step), {**texts, found.path: found.text}, cost + found.cost, 0, "")
+        new = {**texts, found.path: found.text}
+        return _Tried((*steps, step), new, cost + found.cost, 0, "", last=found)
 
     def _run(self, tried: Sequence[_Tried]) -> list[_Tried]:
         """Return the changes that were run, with how far the node gets."""
-        seen = run_variants(
+        texts = [{module_name(path): text for path, text in one.texts.items()} for one in tried]
+        return [
+            replace(one, level=level(run, self._output), ended=run.ended, slept=run.slept)
+            for one, run in zip(tried, self._variants(texts))
+            if run is not None
+        ]
+
+    def _variants(
+        self, texts: Sequence[Mapping[str, str]], watched: Sequence[Watched] = ()
+    ) -> list[ShortRun | None]:
+        return run_variants(
             self._sandbox,
             module_name(self._source.entry.path),
             self._function,
-            [{module_name(path): text for path, text in one.texts.items()} for one in tried],
+            texts,
             period=self._output.period,
             seconds=SECONDS,
+            watched=watched,
         )
-        return [
-            _Tried(one.steps, one.texts, one.cost, level(run, self._output), run.ended, run.slept)
-            for one, run in zip(tried, seen)
-            if run is not None
-        ]
+
+
+def watched_at(found: SmallChange) -> Watched:
+    """Return the code whose values show what a change does: names in it, itself, and the new code."""
+    module, at = found.module, found.change.at
+    statement = next(n for n in (at, *module.around(at)) if isinstance(n, ast.stmt))
+    block = getattr(statement, "body", None)
+    last = max(block[0].lineno - 1, statement.lineno) if block else statement.end_lineno
+    parts = ast.walk(at) if isinstance(at, ast.expr) else ()
+    pieces = [n for n in parts if isinstance(n, ast.Name | ast.Attribute) and dotted(n)]
+    inner = {part for n in pieces for part in ast.walk(n) if part is not n}
+    names = [module.text.code(n) for n in pieces if n not in inner]
+    code = [c for c in (*names, found.change.name, found.change.written) if not _is_literal(c)]
+    return Watched(
+        found.path, statement.lineno, last or statement.lineno, tuple(dict.fromkeys(code))
+    )
+
+
+def _is_literal(code: str) -> bool:
+    try:
+        ast.literal_eval(code)
+    except (ValueError, SyntaxError):
+        return False
+    return True
 
 
 def _told(tried: _Tried, base: _Tried) -> tuple[Step, ...]:
@@ -212,6 +269,34 @@ def fix_text(change: FoundChange, where: Where | None) -> Message | str:
         here = where is not None and where.line == step.line and len(change.steps) == 1
         texts.append(text if here else say("Line {line}: {fix}", line=step.line, fix=text))
     return joined(*texts, by=" ")
+
+
+def value_texts(change: FoundChange) -> list[Message]:
+    """Return what the code of a change was when the grader ran the node without the change."""
+    step, *more = change.steps
+    if more or step.sort in (*OWN_REASON, *CERTAIN):
+        return []
+    known = dict(change.values)
+    if known.get(step.name) == known.get(step.written, ()):
+        return []
+    texts = []
+    for code, values in islice(known.items(), MOST_VALUES):
+        given = {"name": one_line(code), "values": ", ".join(values)}
+        if code == step.written:
+            texts.append(say("{name} has the value {values} there.", **given))
+        elif len(values) == 1:
+            texts.append(
+                say("When the grader ran the node, {name} was {values} in this line.", **given)
+            )
+        else:
+            texts.append(
+                say(
+                    "When the grader ran the node, {name} was {values} in this line, one after the "
+                    "other.",
+                    **given,
+                )
+            )
+    return texts
 
 
 def _variant(step: Step) -> str:

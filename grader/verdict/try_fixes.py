@@ -27,7 +27,7 @@ from grader.verdict.evaluate import evaluate_again, evaluate_checks
 from grader.verdict.evidence import Evidence
 from grader.verdict.fix import fixes_of, patch_text
 from grader.verdict.found_change import FAR, FoundChange
-from grader.verdict.search import KIND, fix_text, recognised
+from grader.verdict.search import KIND, fix_text, recognised, value_texts
 
 MOST_TRIED = 6
 """The most fixes of one package that are tried: each takes a build and a run."""
@@ -126,7 +126,9 @@ def _with_first(
                 result = evaluate_again(result.id, evidence, translate, found=recognised(change))
             fix = result.fix if result.consequence_of else translate(fix_text(change, result.where))
             other = [say("Another change may fit what you want to do better.")]
-            advice = [*result.advice, *map(translate, other if change.counts else [])]
+            seen = [] if result.consequence_of else value_texts(change)
+            more = [*seen, *(other if change.counts else [])]
+            advice = [*result.advice, *map(translate, more)]
             update = {"fix": fix, "patch": patch_text(old, new), "advice": advice}
             return result.model_copy(update=update)
     return None

@@ -14,7 +14,7 @@ from grader.base.unheard import unheard
 from grader.package.submission import Submission
 from grader.report.model import CheckResult, Where
 from grader.run.session import Session
-from grader.run.variants import KILLED, ShortRun, run_variants
+from grader.run.variants import KILLED, ShortRun, Watched, run_variants
 from grader.sandbox.choose import open_sandbox
 from grader.verdict.evaluate import evaluate_checks
 from grader.verdict.evidence import Evidence
@@ -22,7 +22,7 @@ from grader.verdict.evidence_file import Judged
 from grader.verdict.found_change import NEARLY, WHOLE, FoundChange, Step
 from grader.verdict.mark import mark, replay
 from grader.verdict.recording import Recording, evidence_of, record
-from grader.verdict.search import STEP, TEXT, level
+from grader.verdict.search import STEP, TEXT, level, value_texts
 from grader.verdict.try_fixes import with_tried_fix
 from tests import marking, recorded
 from tests.corpus.broken import BROKEN
@@ -326,6 +326,59 @@ def test_variants_run_with_the_real_ros(distro: str, tmp_path: Path) -> None:
     assert [text for _, _, text in runs[6].lines[:2]] == ["Hello time: 0", "Hello time: 0"]
     assert [run.slept for run in (runs[0], runs[6])] == [False, True]
     assert (runs[7].ended, len(runs[7].lines)) == ("returned", 1)
+
+
+@pytest.mark.full
+def test_the_values_of_watched_code_are_those_before_its_line(tmp_path: Path) -> None:
+    root = package_with(MASKED, tmp_path)
+    line = next(
+        n for n, text in enumerate((root / NODE).read_text().split("\n"), 1) if "& 7" in text
+    )
+    code = (
+        "self.counter_",
+        "(self.counter_ + 1) & 7",
+        "self.get_logger()",
+        "self.handle",
+        "absent",
+    )
+    order = marking.order(root)
+    sandbox = open_sandbox(order.sandbox, order.distro, order.limits)
+    with Session(sandbox, order.assignment) as session:
+        session.build(marking.taken_in(root))
+        (run,) = run_variants(
+            sandbox,
+            "my_robot_controller.my_first_node",
+            "main",
+            [{}],
+            period=1.0,
+            seconds=20,
+            watched=[Watched(NODE, line, line, code)],
+        )
+    assert run is not None
+    assert run.values == (("0", "1", "2"), ("1", "2", "3"), (), (), ())
+
+
+VALUES: list[tuple[FoundChange, list[str]]] = [
+    (
+        replace(change(14), values=(("old", ("True",)), ("new", ("False",)))),
+        [
+            "When the grader ran the node, old was True in this line.",
+            "new has the value False there.",
+        ],
+    ),
+    (
+        replace(change(14), values=(("self.last", ("1", "2")),)),
+        ["When the grader ran the node, self.last was 1, 2 in this line, one after the other."],
+    ),
+    (replace(change(14), values=(("old", ("1",)), ("new", ("1",)))), []),
+    (replace(change(14, "kept"), values=(("old", ("1",)),)), []),
+    (replace(change(14, "value", "value"), values=(("old", ("1",)),)), []),
+]
+
+
+@pytest.mark.parametrize(("found", "expected"), VALUES)
+def test_the_values_in_a_line_explain_a_change(found: FoundChange, expected: list[str]) -> None:
+    assert [str(ENGLISH(text)) for text in value_texts(found)] == expected
 
 
 @pytest.mark.full

@@ -372,3 +372,10 @@ def test_no_number_is_below_zero() -> None:
     text = NODE.replace("self.counter_ = 0", "self.counter_ = 2")
     assert not [one for one in changes(NODE) if "= -1" in one.text]
     assert [one for one in changes(text) if "self.counter_ = 1\n" in one.text]
+
+
+def test_nothing_is_compared_with_itself() -> None:
+    loop = "        self.last = 3\n        while self.counter_ > self.last:\n            self.counter_ -= 1\n"
+    found = changes(NODE.replace("        self.counter_ += 1\n", loop))
+    assert found
+    assert not [one for one in found if "self.last > self.last" in one.text]

@@ -31,10 +31,15 @@ UNUSED = 2
 class SmallChange:
     """A change of one file, with the file's new text; `cost` is how far it is from the old one."""
 
-    path: str
+    module: Module
     change: Change
     text: str
     cost: int
+
+    @property
+    def path(self) -> str:
+        """The file that it changes."""
+        return self.module.path
 
     @property
     def line(self) -> int:
@@ -76,6 +81,12 @@ def _read(nodes: Iterable[ast.AST]) -> set[str]:
     return {last_part(dotted(n)) for n in names if isinstance(n.ctx, ast.Load)}
 
 
+def _compares_the_same(nodes: Iterable[ast.AST]) -> bool:
+    """Return whether something is compared with itself, which nobody means."""
+    pairs = ((n.left, n.comparators[0]) for n in nodes if isinstance(n, ast.Compare))
+    return any(dotted(left) == dotted(right) != "" for left, right in pairs)
+
+
 def small_changes(source: NodeSource, goal: Goal) -> list[SmallChange]:
     """Return the changes of all files of a node, the smallest first; each gives another text.
 
@@ -92,10 +103,9 @@ def small_changes(source: NodeSource, goal: Goal) -> list[SmallChange]:
                 text = new.decode() if new is not None else ""
                 if text and text not in seen and change.at.lineno not in script:
                     seen.add(text)
-                    more = (
-                        UNUSED
-                        if change.sort in OF_PIECES and read - _read(ast.walk(ast.parse(text)))
-                        else 0
-                    )
-                    found.append(SmallChange(module.path, change, text, cost + more))
+                    nodes = [*ast.walk(ast.parse(text))] if change.sort in OF_PIECES else []
+                    if _compares_the_same(nodes) and not _compares_the_same(module.nodes):
+                        continue
+                    more = UNUSED if nodes and read - _read(nodes) else 0
+                    found.append(SmallChange(module, change, text, cost + more))
     return sorted(found, key=lambda one: one.cost)
