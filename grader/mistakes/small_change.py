@@ -25,6 +25,15 @@ KINDS = (
                 "ROS counts periods in seconds. The grader ran the node with {written} instead of "
                 "{name} in this line, and then this check passes."
             ),
+            "field": msg(
+                "The value of a parameter is in one field only, that of its type. The other fields are 0, empty "
+                "or false. The grader ran the node with {written} instead of {name} in this line, and then this "
+                "check passes."
+            ),
+            "unit": msg(
+                "One second is 1000 milliseconds, 1000000 microseconds or 1000000000 nanoseconds. The grader "
+                "ran the node with {written} instead of {name} in this line, and then this check passes."
+            ),
             "condition": msg(
                 "The lines below {name} run only when its condition is true. The grader ran the node "
                 "with these lines each time, and then this check passes."

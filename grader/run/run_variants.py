@@ -38,6 +38,8 @@ SHOWN = 20  # the level of info()
 LONGEST = 300  # characters of a line
 MOST_VALUES = 3
 LONGEST_VALUE = 30
+CPU_SECONDS = 0.4
+"""The most CPU time of a variant: a run of many periods takes a quarter of it."""
 PLAIN = (bool, int, float, str, type(None))
 PRELOADED = (
     *("rcl_interfaces.msg", "rcl_interfaces.srv", "rosgraph_msgs.msg"),
@@ -231,6 +233,8 @@ class ShortRun:
 
     def play(self, module: str, function: str) -> NoReturn:
         """Call the function of the module."""
+        signal.signal(signal.SIGPROF, lambda *_: self.end("killed"))
+        signal.setitimer(signal.ITIMER_PROF, CPU_SECONDS)
         if self._watched is not None:
             self._watched.install()
         try:

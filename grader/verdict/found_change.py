@@ -13,13 +13,24 @@ NEARLY, WHOLE = 8, 9
 FAR = 2  # lines, from which a change is of another place
 OWN_REASON = (
     *("emptied", "moved_lines", "renamed", "out", "condition", "loop", "with", "else"),
-    *("once", "once_init", "kept", "asked_for", "yields", "returned", "falsy", "inexact"),
+    *(
+        "once",
+        "once_init",
+        "kept",
+        "asked_for",
+        "yields",
+        "returned",
+        "falsy",
+        "inexact",
+        "unit",
+        "field",
+    ),
 )
 """The sorts of changes that only their own reason explains."""
 CERTAIN = (
     *("called", "not_called", "argument", "kept", "asked_for"),
     *("yields", "returned", "falsy", "inexact", "unkept", "gives_itself"),
-    "given_back",
+    *("given_back", "unit", "field"),
 )
 """The sorts of changes that hardly help by chance: a rule of Python is their reason."""
 MOVED = ("moved", "moved_down")

@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import islice
+from itertools import islice, pairwise
 
 from grader.base.i18n.message import Message, joined, say
 from grader.base.shown import shown
@@ -121,19 +121,40 @@ class _Search:
                 one for one in tried if one.level in (TEXT, STEP) and one.steps[0].sort == "value"
             ]
         good.sort(key=lambda one: rank_of(one.level, one.cost))
-        values = self._values(good[:MOST_FOUND])
+        kept = self._without_skipped_loops(good[:MOST_FOUND])
         return [
             FoundChange(_told(one, base), one.texts, one.cost, one.level, seen)
-            for one, seen in zip(good, values)
+            for one, seen in zip(kept, self._values(kept))
         ]
+
+    def _without_skipped_loops(self, found: Sequence[_Tried]) -> list[_Tried]:
+        """Return the changes without those after which a loop that ran does not run any more.
+
+        They hide what the loop does, and it is the loop that the student means.
+        """
+        blocks = [loop_of(one.last) if one.last is not None else None for one in found]
+        asked = [(one, block) for one, block in zip(found, blocks) if block is not None]
+        watched = [block for _, block in asked]
+        before = self._variants([{}] * len(asked), watched)
+        after = self._variants([_by_module(one.texts) for one, _ in asked], watched)
+        skipped = [
+            one
+            for (one, _), old, new in zip(asked, before, after)
+            if old is not None
+            and new is not None
+            and (any(old.values) or old.ended == "killed")
+            and not any(new.values)
+        ]
+        return [one for one in found if one not in skipped]
 
     def _values(self, found: Sequence[_Tried]) -> list[Values]:
         """Return the values that the code of each change has, without the change."""
         asked = [one.last if len(one.steps) == 1 else None for one in found]
         watched = {n: watched_at(one) for n, one in enumerate(asked) if one is not None}
-        runs = self._variants([{}] * len(watched), list(watched.values())) if watched else []
         values: list[Values] = [()] * len(found)
-        for (n, at), run in zip(watched.items(), runs):
+        for (n, at), run in zip(
+            watched.items(), self._variants([{}] * len(watched), [*watched.values()])
+        ):
             seen = run.values if run is not None else ()
             values[n] = tuple((code, each) for code, each in zip(at.code, seen) if each)
         return values
@@ -175,7 +196,7 @@ class _Search:
 
     def _run(self, tried: Sequence[_Tried]) -> list[_Tried]:
         """Return the changes that were run, with how far the node gets."""
-        texts = [{module_name(path): text for path, text in one.texts.items()} for one in tried]
+        texts = [_by_module(one.texts) for one in tried]
         return [
             replace(one, level=level(run, self._output), ended=run.ended, slept=run.slept)
             for one, run in zip(tried, self._variants(texts))
@@ -185,6 +206,8 @@ class _Search:
     def _variants(
         self, texts: Sequence[Mapping[str, str]], watched: Sequence[Watched] = ()
     ) -> list[ShortRun | None]:
+        if not texts:
+            return []
         return run_variants(
             self._sandbox,
             module_name(self._source.entry.path),
@@ -194,6 +217,27 @@ class _Search:
             seconds=SECONDS,
             watched=watched,
         )
+
+
+def _by_module(texts: Mapping[str, str]) -> dict[str, str]:
+    return {module_name(path): text for path, text in texts.items()}
+
+
+def loop_of(found: SmallChange) -> Watched | None:
+    """Return the lines of the loop whose condition or values a change is in; None if there is none."""
+    at = found.change.at
+    for inner, outer in pairwise((at, *found.module.around(at))):
+        if isinstance(outer, ast.While | ast.For) and inner in (
+            getattr(outer, "test", None),
+            getattr(outer, "iter", None),
+        ):
+            block = outer.body
+            return Watched(
+                found.path, block[0].lineno, block[-1].end_lineno or block[0].lineno, ("True",)
+            )
+        if isinstance(outer, ast.stmt):
+            return None
+    return None
 
 
 def watched_at(found: SmallChange) -> Watched:

@@ -49,6 +49,8 @@ VAGUE = {
 """What was seen that has many causes: its text alone helps little."""
 CAUSED_ELSEWHERE = ("node.text_not_a_number",)
 """The mistakes of a line whose cause is a value from another one: a change of the line hides it."""
+REWRITTEN = ("node.measures_time", "node.period_tiny")
+"""The mistakes whose fix writes the program in another way: a certain change of it comes first."""
 EVERYWHERE = {*keyword.kwlist, "self", "rclpy", "node", "Node", "main", "init", "info"}
 """Names that do not tell which lines of a program a text speaks of."""
 ERRORS = (*RAISES, "build.setup_error")
@@ -58,7 +60,13 @@ ERRORS = (*RAISES, "build.setup_error")
 def with_tried_fix(result: CheckResult, evidence: Evidence, translate: Translator) -> CheckResult:
     """Return a failed check's result with a fix that helps, if one is known or can be found."""
     found = _with_known_fix(result, evidence, translate)
-    if found.patch or found.consequence_of or not found.id.startswith(RUNS):
+    root = _root(found)
+    if found.consequence_of or not found.id.startswith(RUNS):
+        return found
+    if found.patch and root is not None and root.id in REWRITTEN:
+        sure = [one for one in _found_changes(evidence) if one.is_certain]
+        return _with_first(sure, result, evidence, translate, replaces=True) or found
+    if found.patch:
         return found
     return _with_small_change(found, evidence, translate) or found
 
@@ -72,14 +80,10 @@ def _with_small_change(
     certain one of another place does, the mistake is elsewhere, and the change is told instead of it,
     as it is of what was only seen.
     """
-    if evidence.search is None or evidence.with_fix is None:
-        return None
     root = _root(result)
     if root is None and not {mistake.id for mistake in result.mistakes} & VAGUE:
         return None
-    if evidence.found_changes is None:
-        evidence.found_changes = evidence.search(evidence)
-    found = evidence.found_changes
+    found = _found_changes(evidence)
     if root is None:
         return _with_first(_nearest(found, result, evidence), result, evidence, translate)
     fits = [one for one in found if _fits(one, result, root)]
@@ -88,6 +92,15 @@ def _with_small_change(
         return fitting
     sure = [one for one in found if one.is_certain and root.id not in CAUSED_ELSEWHERE]
     return _with_first(sure, result, evidence, translate, replaces=True)
+
+
+def _found_changes(evidence: Evidence) -> Sequence[FoundChange]:
+    """Return the small changes that help a package, which is searched once."""
+    if evidence.search is None or evidence.with_fix is None:
+        return []
+    if evidence.found_changes is None:
+        evidence.found_changes = evidence.search(evidence)
+    return evidence.found_changes
 
 
 def _nearest(

@@ -179,6 +179,19 @@ def test_a_certain_change_of_another_line_replaces_a_known_mistake(tmp_path: Pat
     assert texts(result) == texts(before)
 
 
+def test_a_fix_that_rewrites_a_program_gives_way_to_a_certain_change(tmp_path: Path) -> None:
+    name = "period_nearly_zero"
+    found = [change(1, "unit"), change(14, "value")]
+    result, _ = found_with(name, tmp_path, found, "solution", known="solution")
+    assert ids(result)[0] == "node.small_change"
+    assert result.where == Where(file=NODE, line=1)
+    result, _ = found_with(name, tmp_path / "chance", found[1:], "solution", known="solution")
+    assert ids(result)[0] == "node.period_tiny"
+    assert result.patch
+    result, _ = found_with(name, tmp_path / "not", found, name, known="solution")
+    assert ids(result)[0] == "node.period_tiny"
+
+
 def test_of_changes_that_help_the_nearest_is_shown(tmp_path: Path) -> None:
     before, _ = found_with("text_capital", tmp_path / "before", [], "text_capital")
     assert before.where is not None
@@ -326,6 +339,31 @@ def test_variants_run_with_the_real_ros(distro: str, tmp_path: Path) -> None:
     assert [text for _, _, text in runs[6].lines[:2]] == ["Hello time: 0", "Hello time: 0"]
     assert [run.slept for run in (runs[0], runs[6])] == [False, True]
     assert (runs[7].ended, len(runs[7].lines)) == ("returned", 1)
+
+
+WAITS = (
+    LATE.replace("        node.begin()\n", "")
+    .replace("import rclpy\n", "import time\nimport rclpy\n", 1)
+    .replace(
+        "        self.counter_ = 0\n",
+        "        self.counter_ = 0\n        self.begin()\n        self.wait()\n",
+    )
+    .replace(
+        "    def begin(self):\n",
+        "    def wait(self):\n        while not self.counter_ > 3:\n            time.sleep(0.1)\n\n    def begin(self):\n",
+    )
+)
+
+
+@pytest.mark.full
+def test_a_change_that_only_skips_a_loop_is_not_told(tmp_path: Path) -> None:
+    root = package_with(WAITS, tmp_path)
+    order = replace(marking.order(root), tries_fixes=True)
+    report = mark(marking.taken_in(root), order, unheard)
+    check = next(check for check in report.checks if check.status == "failed")
+    assert check.where is not None
+    assert "instead of" not in check.fix
+    assert "+        while" not in check.patch
 
 
 @pytest.mark.full

@@ -317,10 +317,10 @@ def test_what_runs_in_del_is_not_changed() -> None:
 
 
 def test_a_change_that_leaves_a_name_unused_costs_more() -> None:
-    text = NODE.replace("self.create_timer(1.0,", "period = 5.0\n        self.create_timer(period,")
+    text = NODE.replace("self.counter_ = 0", "first = 5\n        self.counter_ = 0 + first")
     found = {one.text: one.cost for one in changes(text)}
-    hidden = text.replace("(period,", "(1.0,")
-    corrected = text.replace("= 5.0", "= 1")
+    hidden = text.replace("= 0 + first", "= 0")
+    corrected = text.replace("= 5", "= 0")
     assert found[corrected] < found[hidden]
 
 
@@ -379,3 +379,25 @@ def test_nothing_is_compared_with_itself() -> None:
     found = changes(NODE.replace("        self.counter_ += 1\n", loop))
     assert found
     assert not [one for one in found if "self.last > self.last" in one.text]
+
+
+def test_a_conversion_gets_other_units() -> None:
+    text = NODE.replace("self.counter_ = 0", "self.counter_ = 0\n        self.ms = 5 // 1000")
+    found = [one.change for one in changes(text) if one.change.sort == "unit"]
+    assert [(one.name, one.written) for one in found] == [
+        ("1000", "1000000"),
+        ("1000", "1000000000"),
+    ]
+    assert not [one for one in changes(NODE) if one.change.sort == "unit"]
+
+
+def test_a_parameter_is_read_from_its_other_fields() -> None:
+    text = NODE.replace("(1.0,", "(self.get_parameter('p').get_parameter_value().double_value,")
+    found = [one for one in changes(text) if one.change.sort == "field"]
+    assert {one.change.written for one in found} == {"integer_value", "string_value", "bool_value"}
+    assert all(f"get_parameter_value().{one.change.written}," in one.text for one in found)
+
+
+def test_a_period_that_is_worked_out_stays() -> None:
+    text = NODE.replace("create_timer(1.0,", "create_timer(self.seconds(),")
+    assert not [one for one in changes(text) if "create_timer(1.0," in one.text]

@@ -18,6 +18,8 @@ from grader.package.source.node import LOG_METHODS, NodeSource
 SHOWN = ("info", "warn", "warning", "error", "fatal")
 OF_C = re.compile(r"%(?:z|l|ll|h)?[ud](?<!%d)")
 """Formats of a number that printf has and Python does not."""
+FIELDS = ("integer_value", "double_value", "string_value", "bool_value")
+"""The fields of a ParameterValue: one has the value, and the others are 0, empty or false."""
 TYPES = ("INTEGER", "DOUBLE", "STRING", "BOOL")
 """The types that the value of a parameter can have, as Parameter.Type names them."""
 MOST_NAMES = 6  # other names that are tried in the place of one
@@ -82,7 +84,6 @@ def _numbers(module: Module, source: NodeSource, goal: Goal) -> Found:
         elif isinstance(value, int | float):
             near: list[float] = [value + 1, value - 1] if isinstance(value, int) else []
             near += [round(value * 10, 9), round(value / 10, 9)]
-            near += [type(value)(other) for other in UNITS if value in UNITS]
             wanted = dict.fromkeys([goal.start, goal.step, goal.period, *near])
             for number in (n for n in wanted if n != value and n >= 0):
                 cost = _cost(value, number, goal)
@@ -92,6 +93,23 @@ def _numbers(module: Module, source: NodeSource, goal: Goal) -> Found:
             for other in dict.fromkeys(_words(module)):
                 cost = 4 if nearest(value, [other]) else 6
                 yield cost, of_piece(module, "value", node, repr(other))
+
+
+def _of_units(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield other units in conversions, and the fields that a parameter of another type has."""
+    del source, goal
+    for node in module.nodes:
+        if isinstance(node, ast.Constant) and isinstance(module.parents.get(node), ast.BinOp):
+            value = node.value
+            if isinstance(value, int | float) and value in UNITS:
+                for other in (unit for unit in UNITS if unit != value):
+                    yield UNIT, of_piece(module, "unit", node, str(type(value)(other)))
+        elif isinstance(node, ast.Attribute) and node.attr in FIELDS:
+            for field in FIELDS:
+                if field != node.attr:
+                    new = f"{module.text.code(node.value)}.{field}"
+                    swap = (module.text.swap(node, new),)
+                    yield 1, Change("field", node, node.attr, field, swap)
 
 
 def _cost(value: float, number: float, goal: Goal) -> int:
@@ -138,7 +156,8 @@ def _timers(module: Module, source: NodeSource, goal: Goal) -> Found:
         given = {keyword.arg: keyword.value for keyword in call.keywords}
         period = call.args[0] if call.args else given.get("timer_period_sec")
         if period is not None:
-            yield 3, of_piece(module, "value", period, str(goal.period))
+            if not any(isinstance(n, ast.Name | ast.Call) for n in ast.walk(period)):
+                yield 3, of_piece(module, "value", period, str(goal.period))
             for unit in UNITS if not isinstance(period, ast.Constant) else ():
                 new = f"{_operand(module, period)} / {unit}"
                 yield 1, of_piece(module, "seconds", period, new)
@@ -488,6 +507,7 @@ SORTS: tuple[Sort, ...] = (
         _logged,
         _called,
         _timers,
+        _of_units,
         _numbers,
         _operators,
         _arguments,
