@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
@@ -23,6 +24,7 @@ from grader.package.source.counter import (
 )
 from grader.package.source.module import Function
 from grader.package.source.names import dotted
+from grader.package.source.place import blocks_in
 from grader.package.source.plain_counter import plain_start
 
 
@@ -34,11 +36,20 @@ def _adds_before_log(suspect: Suspect) -> RecognisedMistake | None:
         return _before_log(suspect, grown, counter)
     texts = texts_of(callback, counter.logged)
     read = min([counter.logged.lineno, *(text.lineno for text in texts)])
-    added = [n for n in ast.walk(callback) if adds_to(n, counter.name)]
+    gone = {n for block in _left_blocks(callback) for s in block for n in ast.walk(s)}
+    added = [n for n in ast.walk(callback) if adds_to(n, counter.name) and n not in gone]
     first = min(added, key=lambda n: getattr(n, "lineno", 0), default=None)
     if not isinstance(first, ast.Assign | ast.AugAssign) or first.lineno >= read:
         return None
     return _before_log(suspect, first, counter)
+
+
+def _left_blocks(callback: Function) -> Iterator[list[ast.stmt]]:
+    """Yield the blocks of a callback after which the lines below them do not run."""
+    for node in ast.walk(callback):
+        for block in blocks_in(node) if node is not callback else ():
+            if isinstance(block[-1], ast.Return | ast.Raise | ast.Continue):
+                yield block
 
 
 def _before_log(suspect: Suspect, added: ast.stmt, counter: Counter) -> RecognisedMistake:

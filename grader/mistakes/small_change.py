@@ -25,6 +25,10 @@ KINDS = (
                 "ROS counts periods in seconds. The grader ran the node with {written} instead of "
                 "{name} in this line, and then this check passes."
             ),
+            "before_spin": msg(
+                "{written} waits until Ctrl+C, so no line below it runs before. The grader ran the node with this "
+                "line above it, and then this check passes."
+            ),
             "field": msg(
                 "The value of a parameter is in one field only, that of its type. The other fields are 0, empty "
                 "or false. The grader ran the node with {written} instead of {name} in this line, and then this "
@@ -201,6 +205,7 @@ KINDS = (
             "with": msg("Delete the line {name}, and indent the lines of its block one step less."),
             "out": msg("Move this line out of the block of {form}, to below it."),
             "moved": msg("Move this line above {written}."),
+            "before_spin": msg("Move this line above {written}."),
             "moved_down": msg("Move this line below {written}."),
             "deleted": msg("Delete this line."),
             "moved_lines": msg("Move all lines of {name} above {written}."),

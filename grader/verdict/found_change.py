@@ -30,10 +30,10 @@ OWN_REASON = (
 CERTAIN = (
     *("called", "not_called", "argument", "kept", "asked_for"),
     *("yields", "returned", "falsy", "inexact", "unkept", "gives_itself"),
-    *("given_back", "unit", "field"),
+    *("given_back", "unit", "field", "before_spin"),
 )
 """The sorts of changes that hardly help by chance: a rule of Python is their reason."""
-MOVED = ("moved", "moved_down")
+MOVED = ("moved", "moved_down", "before_spin")
 ELSEWHERE = 10**6
 """The distance of a change in another file."""
 

@@ -52,6 +52,7 @@ MOST_FIRST = 3
 MOST_FOUND = 12
 MOST_VALUES = 3
 """The most pieces of code whose values a text shows."""
+LEAVES = ast.Return | ast.Raise | ast.Continue | ast.Break | ast.Pass
 LEAST_LINES = 6
 LONGEST = 90  # characters of a piece of code that a text shows
 TEXT, STEP = 5, 6
@@ -121,18 +122,18 @@ class _Search:
                 one for one in tried if one.level in (TEXT, STEP) and one.steps[0].sort == "value"
             ]
         good.sort(key=lambda one: rank_of(one.level, one.cost))
-        kept = self._without_skipped_loops(good[:MOST_FOUND])
+        kept = self._without_skipped_blocks(good[:MOST_FOUND])
         return [
             FoundChange(_told(one, base), one.texts, one.cost, one.level, seen)
             for one, seen in zip(kept, self._values(kept))
         ]
 
-    def _without_skipped_loops(self, found: Sequence[_Tried]) -> list[_Tried]:
-        """Return the changes without those after which a loop that ran does not run any more.
+    def _without_skipped_blocks(self, found: Sequence[_Tried]) -> list[_Tried]:
+        """Return the changes without those after which a block that ran does not run any more.
 
-        They hide what the loop does, and it is the loop that the student means.
+        They hide what the block does, and it is the block that has the mistake or is too much.
         """
-        blocks = [loop_of(one.last) if one.last is not None else None for one in found]
+        blocks = [block_of(one.last) if one.last is not None else None for one in found]
         asked = [(one, block) for one, block in zip(found, blocks) if block is not None]
         watched = [block for _, block in asked]
         before = self._variants([{}] * len(asked), watched)
@@ -223,18 +224,20 @@ def _by_module(texts: Mapping[str, str]) -> dict[str, str]:
     return {module_name(path): text for path, text in texts.items()}
 
 
-def loop_of(found: SmallChange) -> Watched | None:
-    """Return the lines of the loop whose condition or values a change is in; None if there is none."""
+def block_of(found: SmallChange) -> Watched | None:
+    """Return the lines of the loop or condition whose head a change is in; None if there is none.
+
+    A condition that only leaves the function or the loop is none.
+    """
     at = found.change.at
     for inner, outer in pairwise((at, *found.module.around(at))):
-        if isinstance(outer, ast.While | ast.For) and inner in (
-            getattr(outer, "test", None),
-            getattr(outer, "iter", None),
-        ):
+        heads = (getattr(outer, "test", None), getattr(outer, "iter", None))
+        if isinstance(outer, ast.While | ast.For | ast.If) and inner in heads:
             block = outer.body
-            return Watched(
-                found.path, block[0].lineno, block[-1].end_lineno or block[0].lineno, ("True",)
-            )
+            if isinstance(outer, ast.If) and all(isinstance(s, LEAVES) for s in block):
+                return None
+            last = block[-1].end_lineno or block[0].lineno
+            return Watched(found.path, block[0].lineno, last, ("True",))
         if isinstance(outer, ast.stmt):
             return None
     return None

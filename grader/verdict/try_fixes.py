@@ -51,6 +51,8 @@ CAUSED_ELSEWHERE = ("node.text_not_a_number",)
 """The mistakes of a line whose cause is a value from another one: a change of the line hides it."""
 REWRITTEN = ("node.measures_time", "node.period_tiny")
 """The mistakes whose fix writes the program in another way: a certain change of it comes first."""
+SLIGHT = 2
+"""The highest cost of a change of a mistake's own line that a certain change elsewhere does not replace."""
 EVERYWHERE = {*keyword.kwlist, "self", "rclpy", "node", "Node", "main", "init", "info"}
 """Names that do not tell which lines of a program a text speaks of."""
 ERRORS = (*RAISES, "build.setup_error")
@@ -64,7 +66,11 @@ def with_tried_fix(result: CheckResult, evidence: Evidence, translate: Translato
     if found.consequence_of or not found.id.startswith(RUNS):
         return found
     if found.patch and root is not None and root.id in REWRITTEN:
-        sure = [one for one in _found_changes(evidence) if one.is_certain]
+        sure = [
+            one
+            for one in _found_changes(evidence)
+            if one.is_certain or (one.cost <= SLIGHT and _fits(one, found, root))
+        ]
         return _with_first(sure, result, evidence, translate, replaces=True) or found
     if found.patch:
         return found
@@ -86,12 +92,15 @@ def _with_small_change(
     found = _found_changes(evidence)
     if root is None:
         return _with_first(_nearest(found, result, evidence), result, evidence, translate)
-    fits = [one for one in found if _fits(one, result, root)]
-    fitting = _with_first(_nearest(fits, result, evidence), result, evidence, translate)
-    if fitting is not None:
-        return fitting
+    fits = _nearest([one for one in found if _fits(one, result, root)], result, evidence)
     sure = [one for one in found if one.is_certain and root.id not in CAUSED_ELSEWHERE]
-    return _with_first(sure, result, evidence, translate, replaces=True)
+    tries = [
+        lambda: _with_first(fits, result, evidence, translate),
+        lambda: _with_first(sure, result, evidence, translate, replaces=True),
+    ]
+    if fits and fits[0].cost > SLIGHT:
+        tries.reverse()
+    return tries[0]() or tries[1]()
 
 
 def _found_changes(evidence: Evidence) -> Sequence[FoundChange]:

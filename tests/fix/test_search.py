@@ -179,6 +179,19 @@ def test_a_certain_change_of_another_line_replaces_a_known_mistake(tmp_path: Pat
     assert texts(result) == texts(before)
 
 
+def test_a_certain_change_comes_before_a_costly_one_of_the_own_line(tmp_path: Path) -> None:
+    before, _ = found_with(KNOWN, tmp_path / "before", [], KNOWN)
+    assert before.where is not None
+    own, sure = change(before.where.line or 0), change(1, "unit")
+    result, _ = found_with(KNOWN, tmp_path / "costly", [own, sure], "solution")
+    assert ids(result)[0] == "node.small_change"
+    assert result.where == Where(file=NODE, line=1)
+    slight = replace(own, cost=2)
+    result, _ = found_with(KNOWN, tmp_path / "slight", [slight, sure], "solution")
+    assert ids(result) == ids(before)
+    assert result.patch
+
+
 def test_a_fix_that_rewrites_a_program_gives_way_to_a_certain_change(tmp_path: Path) -> None:
     name = "period_nearly_zero"
     found = [change(1, "unit"), change(14, "value")]

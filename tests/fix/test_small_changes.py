@@ -401,3 +401,45 @@ def test_a_parameter_is_read_from_its_other_fields() -> None:
 def test_a_period_that_is_worked_out_stays() -> None:
     text = NODE.replace("create_timer(1.0,", "create_timer(self.seconds(),")
     assert not [one for one in changes(text) if "create_timer(1.0," in one.text]
+
+
+def test_a_line_below_spin_is_moved_above_it() -> None:
+    text = NODE.replace("    rclpy.spin(node)\n", "    rclpy.spin(node)\n    node.begin()\n")
+    found = [one.change for one in changes(text) if one.change.sort == "before_spin"]
+    assert [(one.name, one.written) for one in found] == [("node.begin()", "rclpy.spin(node)")]
+    assert not [one for one in changes(NODE) if one.change.sort == "before_spin"]
+
+
+SWITCH = NODE.replace("self.counter_ = 0", "self.counter_ = 0\n        self.on = False").replace(
+    "        self.counter_ += 1\n", "        if not self.on:\n            self.counter_ += 1\n"
+)
+
+
+def test_a_switch_is_not_turned_round_where_it_is_asked() -> None:
+    found = [one.text for one in changes(SWITCH)]
+    assert not [one for one in found if "if self.on:" in one or "if self.on is None:" in one]
+    assert [one for one in found if "self.on = True" in one]
+    number = SWITCH.replace("self.on = False", "self.on = 0")
+    assert [one for one in changes(number) if "if self.on is None:" in one.text]
+
+
+def test_a_modulo_becomes_no_sum() -> None:
+    text = NODE.replace("(1.0,", "(self.counter_ % 10,")
+    assert not [one for one in changes(text) if "self.counter_ + 10" in one.text]
+
+
+def test_a_level_that_is_not_shown_becomes_info() -> None:
+    text = NODE.replace("(self):\n        self.get", "(self, level='debug'):\n        self.get")
+    assert [one for one in changes(text) if "level='info'" in one.text]
+
+
+def test_only_a_line_like_that_of_the_count_gets_its_text() -> None:
+    ready = NODE.replace(
+        "self.counter_ = 0\n", "self.counter_ = 0\n        self.get_logger().info('ready')\n"
+    )
+    texts = [one.text for one in changes(ready)]
+    assert not [
+        one for one in texts if one.count("f'Hello time: {self.counter_}'") and "'ready'" not in one
+    ]
+    close = NODE.replace('"Hello time: " +', '"hello Time " +')
+    assert [one for one in changes(close) if "info(f'Hello time: {self.counter_}')" in one.text]

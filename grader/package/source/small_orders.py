@@ -82,12 +82,17 @@ def _order(module: Module, source: NodeSource, goal: Goal) -> Found:
             code = [text.line(row) for row in _rows(moved)]
             gone = tuple(text.without(row) for row in _rows(moved))
             for to, other in enumerate(own):
+                if to == at + 2 and _waits_above(moved, own[at + 1]):
+                    continue  # (it is the line below that moves)
                 if to not in (at, at + 1) and not _hides(moved, own[at + 1 : to]):
                     put = text.before(first_row(other), *code)
                     down = to > at and sort == "moved" and isinstance(own[to - 1], SIMPLE)
                     beside = own[to - 1] if down else other
+                    kind = "moved_down" if down else sort
+                    if to == at - 1 and _waits_above(other, moved):
+                        kind = "before_spin"
                     change = Change(
-                        "moved_down" if down else sort,
+                        kind,
                         moved,
                         module.line(moved.lineno),
                         module.line(beside.lineno),
@@ -99,14 +104,23 @@ def _order(module: Module, source: NodeSource, goal: Goal) -> Found:
 
 def _hides(moved: ast.stmt, above: list[ast.stmt]) -> bool:
     """Whether a statement would come below one that spins, where it may never be reached."""
-    spins = any(
-        called_name(n) in SPINS
-        for statement in above
-        for n in ast.walk(statement)
-        if isinstance(n, ast.Call)
-    )
-    ends = [called_name(n) for n in ast.walk(moved) if isinstance(n, ast.Call)]
-    return spins and not set(ends) & {"shutdown", "try_shutdown", "destroy_node"}
+    return any(map(_spins, above)) and not _ends(moved)
+
+
+def _waits_above(statement: ast.stmt, below: ast.stmt) -> bool:
+    """Whether a statement spins, and so keeps the one below it from running, which it does not need."""
+    needed = {n.id for n in ast.walk(statement) if isinstance(n, ast.Name)}
+    return _spins(statement) and not _ends(below) and not needed & _stored(below)
+
+
+def _spins(statement: ast.stmt) -> bool:
+    calls = (n for n in ast.walk(statement) if isinstance(n, ast.Call))
+    return any(called_name(call) in SPINS for call in calls)
+
+
+def _ends(statement: ast.stmt) -> bool:
+    calls = (n for n in ast.walk(statement) if isinstance(n, ast.Call))
+    return any(called_name(c) in ("shutdown", "try_shutdown", "destroy_node") for c in calls)
 
 
 def _added(module: Module, source: NodeSource, goal: Goal) -> Found:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 
 from grader.package.source.change import Change, of_piece
+from grader.package.source.counter import targets_of
 from grader.package.source.module import Module
 from grader.package.source.names import dotted
 from grader.package.source.node import NodeSource
@@ -18,7 +19,7 @@ REACHED = (ast.Eq, ast.GtE, ast.Gt, ast.NotEq, ast.LtE, ast.Lt)
 def _falsy(module: Module, source: NodeSource, goal: Goal) -> Found:
     """Yield conditions that ask for None, where any empty value and 0 count as no value."""
     del source, goal
-    text = module.text
+    text, switches = module.text, _switches(module)
     for node in module.nodes:
         if isinstance(node, ast.BoolOp) and isinstance(node.op, ast.Or) and len(node.values) == 2:
             first, other = (text.code(value) for value in node.values)
@@ -28,10 +29,21 @@ def _falsy(module: Module, source: NodeSource, goal: Goal) -> Found:
         elif isinstance(node, ast.If | ast.IfExp | ast.While):
             test = node.test
             asked = test.operand if isinstance(test, ast.UnaryOp) else test
-            if dotted(asked) and not isinstance(asked, ast.Call):
+            if dotted(asked) and not isinstance(asked, ast.Call) and dotted(asked) not in switches:
                 named = text.code(asked)
                 new = f"{named} is None" if asked is not test else f"{named} is not None"
                 yield 2, of_piece(module, "falsy", test, new, named)
+
+
+def _switches(module: Module) -> set[str]:
+    """Return the names that get a truth value: they are asked for that, and not for None."""
+    sets = [n for n in module.nodes if isinstance(n, ast.Assign | ast.AnnAssign)]
+    return {
+        name
+        for n in sets
+        if isinstance(n.value, ast.Constant) and isinstance(n.value.value, bool)
+        for name in targets_of(n)
+    }
 
 
 def _inexact(module: Module, source: NodeSource, goal: Goal) -> Found:

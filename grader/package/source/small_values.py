@@ -16,6 +16,7 @@ from grader.package.source.names import called_name, calls_in, dotted, last_part
 from grader.package.source.node import LOG_METHODS, NodeSource
 
 SHOWN = ("info", "warn", "warning", "error", "fatal")
+HIDDEN = ("debug", "DEBUG")
 OF_C = re.compile(r"%(?:z|l|ll|h)?[ud](?<!%d)")
 """Formats of a number that printf has and Python does not."""
 FIELDS = ("integer_value", "double_value", "string_value", "bool_value")
@@ -35,6 +36,7 @@ SIGNS: dict[type[ast.AST], str] = {
 }
 BITS = ast.LShift | ast.RShift | ast.Pow
 SUMS: tuple[type[ast.AST], ...] = (ast.Add, ast.Sub)
+SUMMED = ast.Add | ast.Sub | ast.Mult | ast.Div
 COMPARED: tuple[type[ast.AST], ...] = (ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq)
 OTHER: dict[type[ast.AST], str] = {
     ast.In: "not in",
@@ -89,6 +91,8 @@ def _numbers(module: Module, source: NodeSource, goal: Goal) -> Found:
                 cost = _cost(value, number, goal)
                 sort = "seconds" if cost == UNIT else "value"
                 yield cost, of_piece(module, sort, node, str(number))
+        elif isinstance(value, str) and value in HIDDEN:
+            yield 2, of_piece(module, "value", node, repr(SHOWN[0]))
         elif isinstance(value, str) and value.isidentifier():
             for other in dict.fromkeys(_words(module)):
                 cost = 4 if nearest(value, [other]) else 6
@@ -186,7 +190,7 @@ def _operators(module: Module, source: NodeSource, goal: Goal) -> Found:
     text = module.text
     for node in module.nodes:
         if isinstance(node, ast.BinOp):
-            for kind in SUMS:
+            for kind in SUMS if isinstance(node.op, SUMMED) or _is_text(node.left) else ():
                 if not isinstance(node.op, kind):
                     yield 2, _between(module, node, node.left, node.right, SIGNS[kind])
         elif isinstance(node, ast.Compare) and len(node.ops) == 1:
@@ -205,6 +209,10 @@ def _operators(module: Module, source: NodeSource, goal: Goal) -> Found:
             new = f"{text.code(node.targets[0])} += {text.code(node.value)}"
             if module.parents.get(node) is not module.tree:
                 yield 3, of_piece(module, "value", node, new)
+
+
+def _is_text(node: ast.AST) -> bool:
+    return isinstance(node, ast.Constant) and isinstance(node.value, str)
 
 
 def _compared(module: Module, node: ast.Compare) -> Found:
@@ -344,10 +352,19 @@ def _logged(module: Module, source: NodeSource, goal: Goal) -> Found:
             code = module.text.code(function.value)
             yield 1, of_piece(module, "value", function, f"{code}.info")
             continue
+        if not _is_like(call.args[0], goal):
+            continue
         for name in counters_of(source):
             if not set(text) & set("'{}\\"):
                 new = f"f'{goal.before}{{{name}}}{goal.after}'"
                 yield 4, of_piece(module, "value", call.args[0], new)
+
+
+def _is_like(logged: ast.expr, goal: Goal) -> bool:
+    """Whether a logged text is meant to be the line of the count: it has some of its words, or no words."""
+    parts = [n.value for n in ast.walk(logged) if _is_text(n) and isinstance(n, ast.Constant)]
+    words = set(re.findall(r"\w+", " ".join(map(str, parts)).lower()))
+    return not words or bool(words & set(re.findall(r"\w+", (goal.before + goal.after).lower())))
 
 
 def _braces(module: Module, source: NodeSource, goal: Goal) -> Found:
@@ -406,7 +423,8 @@ def _parts_of(node: ast.expr, around: ast.AST | None) -> list[ast.expr]:
     if isinstance(node, ast.List | ast.Tuple | ast.Set) and len(node.elts) == 1:
         return [node.elts[0]]
     if isinstance(node, ast.UnaryOp):
-        return [node.operand]
+        switch = isinstance(node.op, ast.Not) and is_name(node.operand)
+        return [] if switch else [node.operand]  # (what sets a switch is the mistake)
     if isinstance(node, ast.Subscript):
         return [node.value, *([] if isinstance(node.slice, ast.Slice) else [node.slice])]
     if isinstance(node, ast.Starred | ast.Await):
