@@ -15,6 +15,9 @@ from grader.package.edit.tree import Replace
 from grader.package.source.names import SPINS, calls_in, dotted, last_part, own_name
 from grader.package.source.node import NodeSource
 
+THREADS = ("Thread", "MultiThreadedExecutor")
+"""What lets another thread spin while a rate waits."""
+
 
 def _rates(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a rate that sleeps on the thread that must spin."""
@@ -24,7 +27,7 @@ def _rates(suspect: Suspect) -> RecognisedMistake | None:
         if isinstance(node, ast.Assign) and dotted(node.value).endswith("create_rate()")
         for target in map(dotted, node.targets)
     }
-    threads = any(last_part(name) == "Thread" for _, name in suspect.source.calls)
+    threads = any(last_part(name) in THREADS for _, name in suspect.source.calls)
     for call, name in suspect.source.calls if not threads else []:
         before, _, method = name.rpartition(".")
         if method == "sleep" and (before in rates or before.endswith("create_rate()")):

@@ -28,8 +28,28 @@ def _thread(suspect: Suspect) -> RecognisedMistake | None:
             loop = "while" if isinstance(thread.loop, ast.While) else "for"
             found = suspect.finding("thread_for_timer", thread.call, name=thread.target.name)
             words = {**found.words, "loop": loop, "line": thread.loop.lineno}
-            return replace(found, variant="daemon" if thread.daemon else "", words=words)
+            variant = "daemon" if thread.daemon or _may_end(thread.loop) else ""
+            return replace(found, variant=variant, words=words)
     return None
+
+
+def _thread_alone(suspect: Suspect) -> RecognisedMistake | None:
+    """The same in a node that has no timer."""
+    return _thread(suspect) if not suspect.source.timers else None
+
+
+def _may_end(loop: ast.While | ast.For) -> bool:
+    """Whether Ctrl+C can end a loop: its condition is not always true, as that of rclpy.ok()."""
+    return not isinstance(loop, ast.While) or not isinstance(loop.test, ast.Constant)
+
+
+def _lasts(suspect: Suspect) -> RecognisedMistake | None:
+    """The same where Ctrl+C did not end the program."""
+    found = _thread(suspect)
+    line = found.where.line if found is not None and found.where is not None else None
+    threads = [t for t in own_threads(suspect.source) if t.call.lineno == line]
+    ends = any(thread.daemon for thread in threads)
+    return found if found is None or ends else replace(found, variant="")
 
 
 def _goes_on(suspect: Suspect) -> RecognisedMistake | None:
@@ -114,8 +134,9 @@ KINDS = (
         },
         behind={
             "run.never_spins": _thread,
-            "run.ignores_interrupt": _thread,
+            "run.ignores_interrupt": _lasts,
             "run.by_hand": _thread,
+            "run.twice": _thread_alone,
             "run.wrong_period": _thread,
         },
         fixed_by=(node_threads.timer,),
