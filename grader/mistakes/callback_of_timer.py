@@ -141,9 +141,18 @@ def _in_quotes(suspect: Suspect) -> RecognisedMistake | None:
 
 def _calls_back_at_once(suspect: Suspect) -> RecognisedMistake | None:
     for timer in suspect.source.timers:
-        if timer.called:
+        if timer.called and not _makes_callback(suspect.source, timer):
             return _without_brackets(suspect, timer)
     return None
+
+
+def _makes_callback(source: NodeSource, timer: Timer) -> bool:
+    """Whether the method that is called returns a function, which the timer then calls."""
+    method = source.methods.get(timer.method)
+    parts = list(ast.walk(method)) if method is not None else []
+    inner = {n.name for n in parts if isinstance(n, Function) and n is not method}
+    returned = [n.value for n in parts if isinstance(n, ast.Return)]
+    return any(isinstance(v, ast.Lambda) or (v and dotted(v) in inner) for v in returned)
 
 
 def _is_callback(raised: Raised, match: re.Match[str]) -> bool:
