@@ -236,7 +236,10 @@ def _inner(suspect: Suspect) -> RecognisedMistake | None:
         inner = isinstance(node, ast.FunctionDef) and node is not callback
         unused = inner and isinstance(node, ast.FunctionDef) and node.name not in used
         if unused and isinstance(node, ast.FunctionDef) and source.logs(node):
-            return suspect.finding("inner_not_called", node, name=node.name)
+            found = suspect.finding("inner_not_called", node, name=node.name)
+            given = [a.arg for a in (*node.args.posonlyargs, *node.args.args)]
+            words = {**found.words, "names": ", ".join(given)}
+            return replace(found, words=words, variant="given") if given else found
     return None
 
 
@@ -714,6 +717,12 @@ KINDS = (
         msg("A function in the callback is not called"),
         msg("def only defines {name}. Its lines run when something calls {name}()."),
         msg("Remove the line def {name}, and indent its lines as far as the def is indented now."),
+        fixes={
+            "given": msg(
+                "Call {name}(…) below its lines, indented as far as the def, with a value for each of "
+                "its parameters: {names}"
+            )
+        },
         behind={"run.no_lines": _inner},
         fixed_by=(node_callback.without_def,),
         examples=(

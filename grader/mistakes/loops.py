@@ -259,10 +259,10 @@ KINDS = (
     _node(
         "constructor_repeats",
         "spin",
-        msg("A loop keeps __init__ from returning, so spin is never reached"),
+        msg("A loop keeps __init__ from returning, so spin is not reached"),
         msg(
             "{function} creates the node and then spins it. While this loop runs, __init__ does "
-            "not return: rclpy.spin is never called, and ROS can call no callback of the node."
+            "not return: rclpy.spin is not called, and ROS can call no callback of the node."
         ),
         msg(
             "Put the lines of the loop into a method, without the {name} and without a sleep, and "

@@ -281,7 +281,7 @@ def _other_callback(suspect: Suspect) -> RecognisedMistake | None:
     if timer is None:
         return None
     logging = [m for m in source.methods.values() if source.logs(m) and m.name != "__init__"]
-    other = callback is None or callback.name != timer.method
+    other = callback is None or all(callback.name != t.method for t in source.timers)
     named = isinstance(timer.callback, ast.Name | ast.Attribute)
     if not (timer.method and named and other and logging):
         return None

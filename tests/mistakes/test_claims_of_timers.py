@@ -9,6 +9,8 @@ import pytest
 
 from grader.mistakes.recognise import behind_symptom
 from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.package.source.small_changes import small_changes
+from grader.package.source.small_values import Goal
 from grader.report.model import Where
 from tests.marking import ASSIGNMENT
 from tests.mistakes.test_from_source import line_of, look, node_in, raised
@@ -296,3 +298,51 @@ def test_a_static_callback_is_not_what_cannot_be_called() -> None:
     text = changed((DEF, f"    @staticmethod\n{DEF.replace('self', '')}"), ("str(self", "''(self"))
     error = "TypeError: 'str' object is not callable"
     assert kind_of(raised(error, text, line_of(text, "info("))) != "node.callback_decorated"
+
+
+@pytest.mark.parametrize("first", ["count", "timer_callback"])
+def test_the_callback_is_that_of_the_timer_that_logs(first: str) -> None:
+    other = "count" if first == "timer_callback" else "timer_callback"
+    timers = "".join(TIMER.replace("timer_callback", name) for name in (first, other))
+    count = "    def count(self):\n        self.other_ = 1\n\n"
+    text = changed(
+        (TIMER, timers), (DEF, count + DEF), (LOG, f"        if self.counter_ > 3:\n    {LOG}")
+    )
+    found = look("run.no_lines", text)
+    assert kind_of(found) == "node.log_if"
+    assert kind_of(look("run.no_lines", text.replace(".info(", ".debug("))) == "node.debug_level"
+
+
+def test_an_inner_function_with_a_parameter_is_to_be_called() -> None:
+    inner = f"        def say(number):\n    {LOG.replace('self.counter_', 'number')}"
+    found = look("run.no_lines", changed((LOG, inner)))
+    assert kind_of(found) == "node.inner_not_called"
+    assert fix_of(found).endswith("with a value for each of its parameters: number")
+
+
+@pytest.mark.parametrize("value", ["None", "False"])
+def test_a_flag_is_not_asked_for_none(value: str) -> None:
+    text = changed(
+        (START, f"{START}        self.on = {value}\n"), (LOG, f"        if self.on:\n    {LOG}")
+    )
+    source = node_in(text)
+    goal = Goal("Hello time: ", "", 0, 1, 1.0)
+    texts = [change.text for change in small_changes(source, goal)]
+    assert any("self.on is not None" in each for each in texts) == (value == "None")
+
+
+def test_a_text_that_is_made_above_the_log_shows_the_counter_too() -> None:
+    base = f"class Base(Node):\n{DEF}{STEP}\n\n"
+    made = (
+        "        text = 'Hello time: ' + str(self.counter_)\n        self.get_logger().info(text)\n"
+    )
+    text = changed(("class MyFirstNode(Node)", f"{base}class MyFirstNode(Base)"), (BODY, made))
+    assert kind_of(look("run.constant_counter", text)) == "node.base_replaced"
+
+
+@pytest.mark.parametrize(
+    "text", ["'Hello time: ' + str(self.counter_)", "f'Hello {1}' + self.counter_"]
+)
+def test_a_text_with_the_counter_is_no_sum_under_another_name(text: str) -> None:
+    made = f"        text = {text}\n        self.get_logger().info(text)\n"
+    assert kind_of(look("run.constant_counter", changed((BODY, made)))) != "node.counter_other_name"
