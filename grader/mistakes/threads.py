@@ -71,14 +71,18 @@ def _asyncio(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         if full_name(module, call.func).startswith("asyncio."):
             written = f"{ast.unparse(call.func)}(…)"
             found = raised.finding("asyncio_used", at=statement, name=written)
-            looped = any(isinstance(n, ast.While | ast.For) for n in module.around(statement))
+            loops = [n for n in module.around(statement) if isinstance(n, ast.While | ast.For)]
+            looped = bool(loops)
             sleeps = full_name(module, call.func) == "asyncio.sleep"
             variant = ("loop" if looped else "") if sleeps else "other"
             words = {**found.words, "method": function.name}
             uses = _awaited(module, function.name)
-            if uses and not variant:
+            if uses and variant in ("", "loop"):
                 code = [s for s in function.body if not _is_docstring(s)]
-                variant = "only" if code == [statement] else "awaited"
+                alone = len(loops) == 1 and loops[0].body == [statement]
+                whole: ast.stmt = loops[0] if alone else statement
+                other = "loop_awaited" if variant else "awaited"
+                variant = "only" if code == [whole] else other
                 words["lines"] = ", ".join(map(str, uses))
             elsewhere = set(ast.walk(function)) - set(ast.walk(statement))
             if not variant and any(isinstance(n, ast.Await) for n in elsewhere):
@@ -212,6 +216,11 @@ KINDS = (
                 "Delete the loop around this line and this line, and write def {method} without "
                 "async. A timer calls a method again and again: self.create_timer({period}, "
                 "self.{callback})"
+            ),
+            "loop_awaited": msg(
+                "Delete the loop around this line and this line, and write def {method} without async. "
+                "Delete the word await before each call of {method} (lines: {lines}). A timer calls a "
+                "method again and again: self.create_timer({period}, self.{callback})"
             ),
             "awaited": msg(
                 "Delete this line, and write def {method} without async. Delete the word await before "

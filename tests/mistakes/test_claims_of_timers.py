@@ -231,8 +231,8 @@ def test_a_value_for_each_argument_is_not_the_first_value(tmp_path: Path) -> Non
 
 def test_a_rate_may_wait_beside_other_threads() -> None:
     rate = (STEP, f"{STEP}        self.create_rate(1.0).sleep()\n")
-    assert kind_of(look("run.stops", changed(rate))) == "node.rate_sleep"
-    assert kind_of(look("run.stops", changed(rate, THREADS))) != "node.rate_sleep"
+    assert "nothing ever wakes it" in why_of(look("run.stops", changed(rate)))
+    assert "nothing ever wakes it" not in why_of(look("run.stops", changed(rate, THREADS)))
 
 
 def test_a_count_that_begins_in_the_constructor_ends_there_too(tmp_path: Path) -> None:
@@ -346,3 +346,40 @@ def test_a_text_that_is_made_above_the_log_shows_the_counter_too() -> None:
 def test_a_text_with_the_counter_is_no_sum_under_another_name(text: str) -> None:
     made = f"        text = {text}\n        self.get_logger().info(text)\n"
     assert kind_of(look("run.constant_counter", changed((BODY, made)))) != "node.counter_other_name"
+
+
+def test_a_callback_that_is_made_and_not_returned_is_named() -> None:
+    inner = f"        def say():\n    {LOG}    {STEP}"
+    text = changed(("self.timer_callback)", "self.timer_callback())"), (BODY, inner))
+    found = raised("TypeError: 'NoneType' object is not callable", text, None)
+    assert found is not None
+    assert (found.kind, found.variant) == ("node.callback_called", "not_returned")
+    assert fix_of(found).startswith("Write return say as the last line of timer_callback")
+    assert found.where is not None
+    assert found.where.line == line_of(text, "def say")
+
+
+@pytest.mark.parametrize(
+    ("more", "expected"),
+    [
+        ("", "Delete pause with its lines"),
+        ("        self.x = 1\n", "Delete the loop around this line"),
+    ],
+)
+def test_a_loop_of_asyncio_goes_with_what_awaits_it(more: str, expected: str) -> None:
+    loop = "        for i in range(2):\n            await asyncio.sleep(0.1)\n"
+    pause = f"\n    async def pause(self):\n{more}{loop}"
+    text = changed((IMPORT, "import asyncio\nimport rclpy\nfrom"), (DEF, f"    async {DEF.strip()}\n"),
+                   (BODY, f"        await self.pause()\n{BODY}{pause}"))  # fmt: skip
+    found = raised("RuntimeError: no running event loop", text, line_of(text, "asyncio.sleep"))
+    assert fix_of(found).startswith(expected)
+    assert f"(lines: {line_of(text, 'await self.pause')})" in fix_of(found)
+
+
+def test_a_callback_that_calls_itself_under_a_condition_is_named(tmp_path: Path) -> None:
+    again = "        if self.counter_ < 5:\n            self.timer_callback()\n"
+    text = changed((STEP, STEP + again))
+    found = look("run.twice", text)
+    assert found is not None
+    assert (found.kind, found.variant) == ("node.calls_itself", "timed_if")
+    assert patched(found, text, tmp_path) == changed()
