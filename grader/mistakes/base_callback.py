@@ -11,7 +11,7 @@ from grader.mistakes.example import LOG_LINE, NODE, STEP_LINE, example
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import adds_to, names_given
+from grader.package.source.counter import adds_to, names_given, targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
@@ -49,6 +49,9 @@ def _found(source: NodeSource) -> Replaced | None:
             if len(logs) != 1 or len(source.logs(method)) != 1:
                 continue
             shown = set(names_given(source.logs(method)[0]))
+            for made in (s for s in method.body if isinstance(s, ast.Assign)):
+                if shown.intersection(targets_of(made)):
+                    shown |= {dotted(n) for n in ast.walk(made.value)} - {"", "self"}
             for base in bases:
                 steps = [s for s in _body_of(base, method.name) if _adds(s, shown)]
                 if len(steps) == 1 and not any(_adds(n, shown) for n in ast.walk(method)):

@@ -28,6 +28,8 @@ def _kept(source: NodeSource) -> tuple[Function, ast.expr, str] | None:
     found = []
     shown = {m for part in parts_of_callback(source) for m in _methods_read(source, part)}
     for method in {*source.methods.values(), *shown}:
+        if len(method.args.args) > 1 or method.args.vararg or method.args.kwonlyargs:
+            continue  # (a value is kept for each of the arguments)
         for decorator in method.decorator_list:
             called = decorator.func if isinstance(decorator, ast.Call) else decorator
             name = last_part(dotted(called))
@@ -85,9 +87,13 @@ def _without(found: RecognisedMistake) -> RecognisedMistake:
 def _calculated_anew(case: Case) -> Files | None:
     """Write @property for the property that is kept."""
     kept = _kept(case.node) if case.node is not None else None
-    if case.node is None or kept is None or kept[2] != CACHED_PROPERTY:
+    if case.node is None or kept is None:
         return None
     module = case.node.module_of(kept[0])
+    if kept[2] != CACHED_PROPERTY:
+        row = kept[1].lineno
+        alone = module.line(row) == f"@{module.text.code(kept[1])}"
+        return case.changed(module, module.text.without(row)) if alone else None
     return case.changed(module, module.text.swap(kept[1], "property"))
 
 

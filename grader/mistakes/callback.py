@@ -10,13 +10,14 @@ from grader.base.i18n.message import msg
 from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, example
-from grader.mistakes.fixes import node_timer
+from grader.mistakes.fixes import node_callback, node_timer
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import MISSING_ARGUMENT, Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
+from grader.package.source.counter import targets_of
 from grader.package.source.endless import goes_on
 from grader.package.source.module import Function
-from grader.package.source.names import dotted, last_part
+from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.parameters import def_after, needed_besides_self, only_self, uses_of
 from grader.package.source.sleeps import literal_sleeps, longest_sleep
 
@@ -35,7 +36,7 @@ def _no_self(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     method = raised.source.methods.get(called) if called else callback
     method = callback if callback is not None and callback.name == called else method
     method = method or (_of_object(raised, function) if function else None)
-    if method is None or method.args.args:
+    if method is None or method.args.args or "staticmethod" in map(dotted, method.decorator_list):
         return None
     return _with_line(raised.finding("callback_no_self", at=method), raised, method)
 
@@ -86,10 +87,12 @@ def _decorator(method: Function) -> ast.expr | None:
 
 
 def _decorated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    del match
+    without_self = "required positional argument" in match[0]
     names = {timer.method for timer in raised.source.timers}
     for name, method in raised.source.methods.items():
         found = _decorator(method)
+        if found is not None and dotted(found) == "staticmethod" and not without_self:
+            continue  # (it can be called, and has no self)
         if found is not None and name in names:
             mistake = raised.finding("callback_decorated", at=found, name=dotted(found))
             return replace(mistake, variant=dotted(found))
@@ -117,10 +120,12 @@ def _sleeps(suspect: Suspect) -> RecognisedMistake | None:
 
 def _never_ends(suspect: Suspect) -> RecognisedMistake | None:
     source, callback = suspect.source, suspect.source.callback
+    in_threads = bool(source.calls_of("MultiThreadedExecutor"))
     others = [source.methods[t.method] for t in source.timers if t.method in source.methods]
     for method in dict.fromkeys([*([callback] if callback is not None else []), *others]):
         found = never_ends_in(method)
-        if found is None:
+        found = found or _waits_for_value(method)
+        if found is None or (method is not callback and in_threads):
             continue
         name = "while" if isinstance(found, ast.While) else "input()"
         mistake = suspect.finding("callback_never_ends", found, name=name)
@@ -128,6 +133,22 @@ def _never_ends(suspect: Suspect) -> RecognisedMistake | None:
             return mistake
         words = {**mistake.words, "method": method.name}
         return replace(mistake, words=words, variant="other")
+    return None
+
+
+def _waits_for_value(method: Function) -> ast.While | None:
+    """Return a loop that sleeps until an attribute changes, which nothing in the loop changes."""
+    for loop in ast.walk(method):
+        if not isinstance(loop, ast.While) or not isinstance(loop.test, ast.Compare | ast.UnaryOp):
+            continue
+        tested = {dotted(n) for n in ast.walk(loop.test) if isinstance(n, ast.Attribute)}
+        left = any(isinstance(n, ast.Break | ast.Return | ast.Await) for n in ast.walk(loop))
+        called = [name for _, name in calls_in(loop)]
+        sleeps = bool(called) and all(last_part(name) == "sleep" for name in called)
+        changed = {name for n in ast.walk(loop) for name in targets_of(n)}
+        own = bool(tested) and all(name.startswith("self.") for name in tested)
+        if own and sleeps and not left and not tested & changed:
+            return loop
     return None
 
 
@@ -227,15 +248,15 @@ KINDS = (
         "callback",
         msg("The callback sleeps for longer than the period"),
         msg(
-            "While a callback sleeps, nothing else in the node runs: the timer has to wait, and "
-            "each line comes late."
+            "While a callback sleeps, it does not return, and the timer cannot call it again: the timer "
+            "has to wait, and lines come late."
         ),
         msg("Remove the sleep from {callback}: the timer alone makes the pauses."),
         links.EXECUTORS,
         whys={
             "several": msg(
-                "While a callback sleeps, nothing else in the node runs. The sleeps of one call take "
-                "{total} s together: the timer has to wait, and each line comes late."
+                "While a callback sleeps, it does not return, and the timer cannot call it again. The "
+                "sleeps of one call take {total} s together: the timer has to wait, and lines come late."
             )
         },
         fixes={
@@ -246,6 +267,7 @@ KINDS = (
         },
         behind={"run.wrong_period": _sleeps},
         deletes=("",),
+        fixed_by=(node_callback.without_sleeps,),
         examples=(
             example(
                 "sleeps_twice_in_callback",
@@ -280,6 +302,7 @@ KINDS = (
         },
         fixes={"other": msg("Remove {name} from {method}: its timer does the repeating.")},
         behind={"run.no_lines": _never_ends, "run.stops": _never_ends},
+        fixed_by=(node_callback.without_question,),
         examples=(
             example(
                 "asks_in_callback",

@@ -46,7 +46,25 @@ KEPT = msg(
 def _called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     del match
     called = [timer for timer in raised.source.timers if timer.called]
-    return _without_brackets(raised, called[0]) if called else None
+    return (
+        _not_returned(raised, called[0]) or _without_brackets(raised, called[0]) if called else None
+    )
+
+
+def _not_returned(raised: Raised, timer: Timer) -> RecognisedMistake | None:
+    """The method that is called defines the callback, and does not return it."""
+    source, method = raised.source, raised.source.methods.get(timer.method)
+    inner = [s for s in method.body if isinstance(s, Function)] if method is not None else []
+    if method is None or len(inner) != 1 or not source.logs(inner[0]):
+        return None
+    used = [n for s in method.body if s is not inner[0] for n in ast.walk(s)]
+    if source.logs(method) != source.logs(inner[0]) or any(isinstance(n, ast.Return) for n in used):
+        return None
+    if inner[0].name in {n.id for n in used if isinstance(n, ast.Name)}:
+        return None
+    found = raised.finding("callback_called", at=inner[0])
+    words = {"method": method.name, "inner": inner[0].name, "line": str(timer.call.lineno)}
+    return replace(found, words={**found.words, **words}, variant="not_returned")
 
 
 def _without_brackets(where: Raised | Suspect, timer: Timer) -> RecognisedMistake | None:
@@ -141,9 +159,18 @@ def _in_quotes(suspect: Suspect) -> RecognisedMistake | None:
 
 def _calls_back_at_once(suspect: Suspect) -> RecognisedMistake | None:
     for timer in suspect.source.timers:
-        if timer.called:
+        if timer.called and not _makes_callback(suspect.source, timer):
             return _without_brackets(suspect, timer)
     return None
+
+
+def _makes_callback(source: NodeSource, timer: Timer) -> bool:
+    """Whether the method that is called returns a function, which the timer then calls."""
+    method = source.methods.get(timer.method)
+    parts = list(ast.walk(method)) if method is not None else []
+    inner = {n.name for n in parts if isinstance(n, Function) and n is not method}
+    returned = [n.value for n in parts if isinstance(n, ast.Return)]
+    return any(isinstance(v, ast.Lambda) or (v and dotted(v) in inner) for v in returned)
 
 
 def _is_callback(raised: Raised, match: re.Match[str]) -> bool:
@@ -220,6 +247,9 @@ KINDS = (
         CALLED,
         msg("Remove the () after the callback's name: create_timer({period}, {written})"),
         fixes={
+            "not_returned": msg(
+                "Write return {inner} as the last line of {method}, indented as far as def {inner}."
+            ),
             "wrapped": msg("Pass the callback itself: write {written} instead of {name}."),
             "lambda": msg("Write {written} instead of {name}."),
             "partial": msg(
@@ -228,6 +258,10 @@ KINDS = (
             "partial_here": msg("Write {written} instead of {name}."),
         },
         whys={
+            "not_returned": msg(
+                "{method} defines the function {inner}, and does not return it. So the call of {method} "
+                "in line {line} gives the timer None in place of a callback."
+            ),
             "lambda": KEPT,
             "partial": KEPT,
             "partial_here": KEPT,

@@ -14,6 +14,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
+from grader.package.source.counter import adds_to, logged_counter
 from grader.package.source.place import function_at, statement_at
 
 
@@ -34,12 +35,30 @@ def _before_spin(suspect: Suspect) -> RecognisedMistake | None:
     if len(set(suspect.lines[:2])) < 2:  # the callback begins with the same number
         return found
     later = suspect.finding("logs_before_timer", statement, function=function.name, counts="on")
+    logged = logged_counter(source)
+    steps = [
+        n.lineno
+        for n in ast.walk(function)
+        if isinstance(n, ast.stmt) and logged is not None and adds_to(n, logged[1])
+    ]
+    if steps:
+        words = {**later.words, "line": ", ".join(map(str, steps))}
+        params = {**later.params, **({"step": steps[0]} if len(steps) == 1 else {})}
+        return replace(later, variant="counts_too", words=words, params=params)
     return replace(later, variant="counts_on")
 
 
 def _deleted(case: Case) -> Files | None:
-    """Delete the line, if the callback then logs the count from its start."""
-    return lines.deleted(case) if "counts" not in case.finding.params else None
+    """Delete the line, and what counts beside it, if the callback then logs the count from its start."""
+    if "counts" not in case.finding.params:
+        return lines.deleted(case)
+    module, step = case.module, case.finding.params.get("step")
+    rows = [int(row) for row in (case.finding.line, step) if row]
+    found = [statement_at(module, row) for row in rows] if module is not None else []
+    alone = [s for s in found if module is not None and s and lines.own_lines(module, s)]
+    if module is None or len(alone) != 2 or any(s.lineno != s.end_lineno for s in alone):
+        return None
+    return case.changed(module, *(module.text.without(s.lineno) for s in alone))
 
 
 _node = Family("node", links.FIRST_NODE)
@@ -55,20 +74,25 @@ KINDS = (
         ),
         msg("Delete this line: only {callback} logs the count."),
         behind=dict.fromkeys(("run.by_hand", "run.wrong_step", "run.wrong_start"), _before_spin),
-        whys={
-            "counts_on": msg(
+        whys=dict.fromkeys(
+            ("counts_on", "counts_too"),
+            msg(
                 "This line of {function} runs once, before any time has passed: the count begins one "
                 "period too early. {callback} goes on with the next number."
-            )
-        },
+            ),
+        ),
         fixes={
+            "counts_too": msg(
+                "Delete this line, and what adds to the counter in {function} (line {line}): only "
+                "{callback} logs and counts."
+            ),
             "counts_on": msg(
                 "Delete this line, and let {callback} log before it adds to the counter: its first line "
                 "then has {start}."
-            )
+            ),
         },
         fixed_by=(_deleted,),
-        deletes=("", "counts_on"),
+        deletes=("", "counts_on", "counts_too"),
         examples=(
             example(
                 "first_line_in_init",

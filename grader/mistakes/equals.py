@@ -12,7 +12,14 @@ from grader.mistakes.example import NODE, example
 from grader.mistakes.fixes import node_equals
 from grader.mistakes.fixes.node_equals import Compared, arrows_in, compared_in
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import NAME_ERROR, OWN_ATTRIBUTE, Raised, RecognisedMistake, of_self
+from grader.mistakes.recognised import (
+    NAME_ERROR,
+    OWN_ATTRIBUTE,
+    Raised,
+    RecognisedMistake,
+    Suspect,
+    of_self,
+)
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import parts_of_callback, targets_of
 from grader.package.source.names import dotted, last_part
@@ -95,6 +102,19 @@ def _finding(raised: Raised, one: Compared, before: str = "") -> RecognisedMista
     return replace(found, words={**found.words, "line": str(one.statement.lineno)})
 
 
+def _kept(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the only statement of the node that compares a value, and does nothing with the result."""
+    source = suspect.source
+    found = [one for one in compared_in(source.module) if one.statement in source.own_nodes]
+    if len(found) != 1 or not isinstance(found[0].statement, ast.Expr):
+        return None
+    one = found[0]
+    params: dict[str, str | int] = {"name": one.name, "written": one.written(source.module)}
+    mistake = suspect.finding("compared_not_assigned", one.statement, **params)
+    words = {**mistake.words, "line": str(one.statement.lineno)}
+    return replace(mistake, words=words, variant="kept")
+
+
 def _arrow(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A name has no value, because its line has the arrow <- of other languages."""
     for one in arrows_in(raised.module):
@@ -136,9 +156,22 @@ KINDS = (
         msg("== only compares: it reads {name}, which has no value yet. One = assigns a value."),
         msg("Write one = in line {line}: {written}"),
         links.PYTHON_CLASSES,
+        whys={
+            "kept": msg(
+                "== only compares: this line does nothing with the result, and {name} keeps the value that "
+                "it has. One = assigns a value."
+            )
+        },
         fixes={
             "own": msg("Write one = in line {line}, and self. before the name: {written}"),
         },
+        behind=dict.fromkeys(
+            (
+                *("run.no_lines", "run.stops", "run.constant_counter", "run.wrong_start"),
+                *("run.wrong_step", "run.wrong_text", "run.wrong_period", "run.twice"),
+            ),
+            _kept,
+        ),
         raised={OWN_ATTRIBUTE: _attribute, NAME_ERROR: _variable, UNBOUND: _variable},
         fixed_by=(node_equals.assigned,),
         examples=(

@@ -18,7 +18,7 @@ from grader.mistakes.example import (
     STEP_LINE,
     example,
 )
-from grader.mistakes.fixes import lines, node_loops, node_timer, node_try
+from grader.mistakes.fixes import lines, node_callback, node_loops, node_timer, node_try
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromSource, Raised, RecognisedMistake, Suspect, first_of
@@ -28,7 +28,7 @@ from grader.mistakes.worked_out import worked_out
 from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import adds_to, logged_counter, starts_of, targets_of
-from grader.package.source.endless import methods_run_by
+from grader.package.source.endless import calls_of_methods, methods_run_by
 from grader.package.source.module import Function, Module, is_text
 from grader.package.source.names import called_name, calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
@@ -108,10 +108,16 @@ def _around_all_logs(suspect: Suspect) -> Iterator[ast.If]:
     """Yield the conditions that have all log calls of the callback in their block."""
     source, callback = suspect.source, suspect.source.callback
     for block in _blocks(suspect):
-        logs = source.logs(block)
-        all_logs = source.logs(callback) if callback is not None else []
+        logs = _logs_of(source, block)
+        all_logs = _logs_of(source, callback) if callback is not None else []
         if isinstance(block, ast.If) and logs and len(logs) == len(all_logs):
             yield block
+
+
+def _logs_of(source: NodeSource, part: ast.AST) -> list[ast.Call]:
+    """Return the calls of a part that log, and those of methods that do."""
+    called = [call for call, method in calls_of_methods(source, part) if source.logs(method)]
+    return [*source.logs(part), *called]
 
 
 def _logs_each_nth(suspect: Suspect) -> RecognisedMistake | None:
@@ -230,7 +236,10 @@ def _inner(suspect: Suspect) -> RecognisedMistake | None:
         inner = isinstance(node, ast.FunctionDef) and node is not callback
         unused = inner and isinstance(node, ast.FunctionDef) and node.name not in used
         if unused and isinstance(node, ast.FunctionDef) and source.logs(node):
-            return suspect.finding("inner_not_called", node, name=node.name)
+            found = suspect.finding("inner_not_called", node, name=node.name)
+            given = [a.arg for a in (*node.args.posonlyargs, *node.args.args)]
+            words = {**found.words, "names": ", ".join(given)}
+            return replace(found, words=words, variant="given") if given else found
     return None
 
 
@@ -315,12 +324,22 @@ def _level_given(source: NodeSource, call: ast.Call) -> str:
     return ast.unparse(sets[0]) if len(sets) == 1 else given
 
 
+def _of_other_logger(suspect: Suspect, call: ast.Call) -> bool:
+    """Whether a call sets the level of a logger by a name that is not the node's."""
+    given = call.args[0] if called_name(call) == "set_logger_level" and call.args else None
+    owner = call.func.value if isinstance(call.func, ast.Attribute) else None
+    if isinstance(owner, ast.Call) and called_name(owner) == "get_logger" and owner.args:
+        given = owner.args[0]
+    name = given.value if isinstance(given, ast.Constant) else None
+    return isinstance(name, str) and name != suspect.assignment.node_name
+
+
 def _level(suspect: Suspect) -> RecognisedMistake | None:
     for call, name in suspect.source.calls:
         given = _level_given(suspect.source, call) if last_part(name) in LEVELS else ""
         hides = re.search(r"\b(?:WARN|WARNING|ERROR|FATAL)\b", given)
         level = hides[0] if hides else NUMBERS.get(given, "")
-        if last_part(name) in LEVELS and level:
+        if last_part(name) in LEVELS and level and not _of_other_logger(suspect, call):
             return suspect.finding("level_set", call, name=last_part(name), level=level)
     return None
 
@@ -698,7 +717,14 @@ KINDS = (
         msg("A function in the callback is not called"),
         msg("def only defines {name}. Its lines run when something calls {name}()."),
         msg("Remove the line def {name}, and indent its lines as far as the def is indented now."),
+        fixes={
+            "given": msg(
+                "Call {name}(…) below its lines, indented as far as the def, with a value for each of "
+                "its parameters: {names}"
+            )
+        },
         behind={"run.no_lines": _inner},
+        fixed_by=(node_callback.without_def,),
         examples=(
             example(
                 "inner_function",

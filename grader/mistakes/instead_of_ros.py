@@ -35,6 +35,8 @@ ROS_NODE = ("rclpy.node", "rclpy.lifecycle", "rclpy.lifecycle.node")
 
 
 def _threading_timer(suspect: Suspect) -> RecognisedMistake | None:
+    if suspect.source.timers:
+        return None  # (the node's own timer calls the callback)
     for call in suspect.source.calls_of("Timer"):
         if full_name(suspect.source.module_of(call), call.func) == "threading.Timer":
             if thread_timer(suspect.source) is not None:
@@ -167,11 +169,13 @@ def _duration(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
 def _other_node_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """Look for a base class that is imported from elsewhere than rclpy."""
     del match
+    own = {found.name for module in raised.source.known_modules for found in module.classes}
     for found in raised.source.family:
         for base in map(dotted, found.bases):
             for bound, full, node in imports(raised.source.module_of(found)):
                 if (
                     base == bound
+                    and base not in own
                     and isinstance(node, ast.ImportFrom)
                     and node.module not in ROS_NODE
                 ):

@@ -380,12 +380,22 @@ def _other_attribute(suspect: Suspect) -> RecognisedMistake | None:
         return None
     for node in ast.walk(callback):
         value = node.value if isinstance(node, ast.Assign) else None
-        if isinstance(value, ast.BinOp) and isinstance(value.op, ast.Add):
+        if isinstance(value, ast.BinOp) and isinstance(value.op, ast.Add) and not _has_text(value):
             names = {dotted(n) for n in ast.walk(value)}
             others = [name for name in targets_of(node) if name != logged[1]]
             if isinstance(node, ast.Assign) and logged[1] in names and others:
                 return suspect.finding("counter_other_name", node, name=logged[1], value=others[0])
     return None
+
+
+def _has_text(value: ast.expr) -> bool:
+    """Whether a sum is of texts: it has a text, or a call of str()."""
+    return any(
+        isinstance(n, ast.JoinedStr)
+        or (isinstance(n, ast.Constant) and isinstance(n.value, str))
+        or (isinstance(n, ast.Call) and dotted(n.func) == "str")
+        for n in ast.walk(value)
+    )
 
 
 def _condition(suspect: Suspect) -> RecognisedMistake | None:

@@ -83,6 +83,14 @@ def _in_main(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _in_constructor(suspect: Suspect) -> RecognisedMistake | None:
+    """The same, told for a program that spins the node below the loop, or nowhere."""
+    found = _constructor(suspect)
+    variant = f"{found.variant}_unspun".lstrip("_") if found is not None else ""
+    spins = any(last_part(name).startswith("spin") for _, name in suspect.source.calls)
+    return replace(found, variant=variant) if found and variant in UNSPUN and not spins else found
+
+
+def _constructor(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a loop that keeps __init__ from returning."""
     source, init = suspect.source, suspect.source.methods.get("__init__")
     if init is None:
@@ -121,6 +129,11 @@ def _in_constructor(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+UNSPUN = ("unspun", "timer_unspun", "calls_unspun", "method_unspun")
+NOT_SPUN = msg(
+    "While this loop runs, __init__ does not return, and ROS can call no callback of the node. No line "
+    "of the program spins the node: there is no rclpy.spin."
+)
 _node = Family("node", links.EXECUTORS)
 KINDS = (
     _node(
@@ -163,16 +176,16 @@ KINDS = (
     _node(
         "callback_repeats",
         "callback",
-        msg("The callback repeats itself in a loop, and does not return"),
+        msg("The callback repeats in a loop what the timer repeats"),
         msg(
             "The timer calls {callback} again in each period. While the loop in it runs, it does "
-            "not return: the timer cannot call it, and ROS can call no other callback."
+            "not return, and the timer cannot call it again."
         ),
         msg("Delete this {name}, and indent its lines as far as the {name} is indented now."),
         whys={
             "flood": msg(
                 "This loop does not wait, and logs without end. While it runs, the callback does "
-                "not return: the timer cannot call it again, and ROS can call no other callback."
+                "not return, and the timer cannot call it again."
             )
         },
         fixes={
@@ -246,16 +259,36 @@ KINDS = (
     _node(
         "constructor_repeats",
         "spin",
-        msg("A loop keeps __init__ from returning, so spin is never reached"),
+        msg("A loop keeps __init__ from returning, so spin is not reached"),
         msg(
             "{function} creates the node and then spins it. While this loop runs, __init__ does "
-            "not return: rclpy.spin is never called, and ROS can call no callback of the node."
+            "not return: rclpy.spin is not called, and ROS can call no callback of the node."
         ),
         msg(
             "Put the lines of the loop into a method, without the {name} and without a sleep, and "
             "create a timer here that calls it: self.create_timer({period}, self.{callback})"
         ),
+        whys=dict.fromkeys(UNSPUN, NOT_SPUN),
         fixes={
+            "unspun": msg(
+                "Put the lines of the loop into a method, without the {name} and without a sleep, and "
+                "create a timer here that calls it: self.create_timer({period}, self.{callback}) Then "
+                "call rclpy.spin with the node in {function}."
+            ),
+            "timer_unspun": msg(
+                "Delete this {name} with all its lines, and call rclpy.spin with the node in {function}: "
+                "the timer calls {callback} in each period then."
+            ),
+            "calls_unspun": msg(
+                "Write self.create_timer({period}, self.{method}) instead of this {name} with all its "
+                "lines, and call rclpy.spin with the node in {function}: the timer calls {method} in "
+                "each period then."
+            ),
+            "method_unspun": msg(
+                "Write self.create_timer({period}, self.{method}) instead of self.{method}() on "
+                "line {line}. Delete this {name} and the sleep in it, and indent its other lines "
+                "as far as the {name} is indented now. Then call rclpy.spin with the node in {function}."
+            ),
             "timer": msg(
                 "Delete this {name} with all its lines: the timer calls {callback} in each period."
             ),
@@ -274,6 +307,7 @@ KINDS = (
                 "as far as the {name} is indented now."
             ),
         },
+        deletes=("timer", "timer_unspun"),
         behind={
             "run.never_spins": _in_constructor,
             "run.no_lines": _in_constructor,

@@ -106,7 +106,7 @@ KINDS = (
         msg("A sleep holds back a timer of another period"),
         msg(
             "The timer is set to {seconds} s. Only the sleep of {slept} s in {callback} delays the "
-            "next line, and while a callback sleeps, the node can do nothing else."
+            "next line: while a callback sleeps, the timer cannot call it again."
         ),
         msg(
             "Write {period} as the period in this line, and delete the sleep in line {line}: the "

@@ -25,6 +25,7 @@ def _rates(suspect: Suspect) -> RecognisedMistake | None:
         for target in map(dotted, node.targets)
     }
     threads = any(last_part(name) == "Thread" for _, name in suspect.source.calls)
+    several = bool(suspect.source.calls_of("MultiThreadedExecutor"))
     for call, name in suspect.source.calls if not threads else []:
         before, _, method = name.rpartition(".")
         if method == "sleep" and (before in rates or before.endswith("create_rate()")):
@@ -32,7 +33,9 @@ def _rates(suspect: Suspect) -> RecognisedMistake | None:
             around = suspect.source.module_of(call).around(call)
             loops = [part for part in around if isinstance(part, ast.While | ast.For)]
             if not loops:
-                return replace(found, variant="alone")
+                return replace(found, variant="threads" if several else "alone")
+            if several:
+                return None  # (another thread can spin while the loop waits)
             spun = _spun(suspect, before)
             if spun.startswith("self"):
                 spun = next(iter(sorted(suspect.source.node_variables)), "node")
@@ -106,6 +109,10 @@ MAIN_CALLS = msg(
     "it. Write self.create_timer({period}, self.{method}) in __init__, and rclpy.spin({node}) in "
     "{function} in the place of {written} (line {at})."
 )
+ALONE = msg(
+    "Remove this line, and the line that creates the rate if it is another one. The timer already calls "
+    "{callback} in each period."
+)
 IN_METHOD = (
     Replace(NODE, "        self.create_timer(1.0, self.timer_callback)\n", ""),
     Replace(NODE, "    def timer_callback(self):\n", "    def run(self):\n"),
@@ -135,10 +142,14 @@ KINDS = (
         ),
         links.EXECUTORS,
         whys={
+            "threads": msg(
+                "{name}() waits in a callback, and the callback does not return as long as it waits: the "
+                "timer cannot call it again."
+            ),
             "method": msg(
                 "rclpy.spin wakes a rate. {function} calls {written} in its place, and the loop of "
                 "{method} waits in {name}(): nothing spins, so nothing ever wakes the rate."
-            )
+            ),
         },
         fixes={
             "spins": msg(
@@ -176,10 +187,8 @@ KINDS = (
                 "Delete the loop and the rate (lines {line}), and keep what the loop does once: the "
                 "timer repeats it."
             ),
-            "alone": msg(
-                "Remove this line, and the line that creates the rate if it is another one. The timer already calls "
-                "{callback} in each period."
-            ),
+            "alone": ALONE,
+            "threads": ALONE,
         },
         behind={
             "run.no_lines": _rates,

@@ -202,7 +202,20 @@ def _callback(suspect: Suspect) -> RecognisedMistake | None:
     if callback is None or source.method(callback.name) is not callback:
         return None
     where = place_of(source, callback)
-    return _itself(Raised("", where, source, suspect.assignment), callback)
+    always = _itself(Raised("", where, source, suspect.assignment), callback)
+    return always or _itself_if(suspect, callback)
+
+
+def _itself_if(suspect: Suspect, callback: Function) -> RecognisedMistake | None:
+    """The timer's callback calls itself under a condition: the one call of the timer logs several lines."""
+    source, name = suspect.source, f"self.{callback.name}"
+    module = source.module_of(callback)
+    calls = [call for call, called in calls_in(callback) if called == name]
+    timed = any(timer.method == callback.name for timer in source.timers)
+    if len(calls) != 1 or not timed or not isinstance(module.parents.get(calls[0]), ast.Expr):
+        return None
+    params = {"name": module.text.code(calls[0]), "function": callback.name}
+    return replace(suspect.finding("calls_itself", calls[0], **params), variant="timed_if")
 
 
 def _deleted(case: Case) -> Files | None:
@@ -290,6 +303,10 @@ KINDS = (
                 "{function} calls itself to go on. Python keeps a place for each call that has not "
                 "returned, and stops the program after about 1000 of them."
             ),
+            "timed_if": msg(
+                "{function} calls itself here. So one call of the timer can log several lines at once. The "
+                "timer calls {function} in each period already."
+            ),
             "timed": msg(
                 "Each call of {function} comes to this line, which calls {function} again. The timer "
                 "calls {function} in each period already."
@@ -309,6 +326,7 @@ KINDS = (
             ),
             _callback,
         ),
+        deletes=("timed_if",),
         fixed_by=(_deleted,),
         examples=(
             example(

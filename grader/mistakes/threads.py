@@ -28,8 +28,28 @@ def _thread(suspect: Suspect) -> RecognisedMistake | None:
             loop = "while" if isinstance(thread.loop, ast.While) else "for"
             found = suspect.finding("thread_for_timer", thread.call, name=thread.target.name)
             words = {**found.words, "loop": loop, "line": thread.loop.lineno}
-            return replace(found, variant="daemon" if thread.daemon else "", words=words)
+            variant = "daemon" if thread.daemon or _may_end(thread.loop) else ""
+            return replace(found, variant=variant, words=words)
     return None
+
+
+def _thread_alone(suspect: Suspect) -> RecognisedMistake | None:
+    """The same in a node that has no timer."""
+    return _thread(suspect) if not suspect.source.timers else None
+
+
+def _may_end(loop: ast.While | ast.For) -> bool:
+    """Whether Ctrl+C can end a loop: its condition is not always true, as that of rclpy.ok()."""
+    return not isinstance(loop, ast.While) or not isinstance(loop.test, ast.Constant)
+
+
+def _lasts(suspect: Suspect) -> RecognisedMistake | None:
+    """The same where Ctrl+C did not end the program."""
+    found = _thread(suspect)
+    line = found.where.line if found is not None and found.where is not None else None
+    threads = [t for t in own_threads(suspect.source) if t.call.lineno == line]
+    ends = any(thread.daemon for thread in threads)
+    return found if found is None or ends else replace(found, variant="")
 
 
 def _goes_on(suspect: Suspect) -> RecognisedMistake | None:
@@ -51,14 +71,18 @@ def _asyncio(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         if full_name(module, call.func).startswith("asyncio."):
             written = f"{ast.unparse(call.func)}(…)"
             found = raised.finding("asyncio_used", at=statement, name=written)
-            looped = any(isinstance(n, ast.While | ast.For) for n in module.around(statement))
+            loops = [n for n in module.around(statement) if isinstance(n, ast.While | ast.For)]
+            looped = bool(loops)
             sleeps = full_name(module, call.func) == "asyncio.sleep"
             variant = ("loop" if looped else "") if sleeps else "other"
             words = {**found.words, "method": function.name}
             uses = _awaited(module, function.name)
-            if uses and not variant:
+            if uses and variant in ("", "loop"):
                 code = [s for s in function.body if not _is_docstring(s)]
-                variant = "only" if code == [statement] else "awaited"
+                alone = len(loops) == 1 and loops[0].body == [statement]
+                whole: ast.stmt = loops[0] if alone else statement
+                other = "loop_awaited" if variant else "awaited"
+                variant = "only" if code == [whole] else other
                 words["lines"] = ", ".join(map(str, uses))
             elsewhere = set(ast.walk(function)) - set(ast.walk(statement))
             if not variant and any(isinstance(n, ast.Await) for n in elsewhere):
@@ -114,8 +138,9 @@ KINDS = (
         },
         behind={
             "run.never_spins": _thread,
-            "run.ignores_interrupt": _thread,
+            "run.ignores_interrupt": _lasts,
             "run.by_hand": _thread,
+            "run.twice": _thread_alone,
             "run.wrong_period": _thread,
         },
         fixed_by=(node_threads.timer,),
@@ -191,6 +216,11 @@ KINDS = (
                 "Delete the loop around this line and this line, and write def {method} without "
                 "async. A timer calls a method again and again: self.create_timer({period}, "
                 "self.{callback})"
+            ),
+            "loop_awaited": msg(
+                "Delete the loop around this line and this line, and write def {method} without async. "
+                "Delete the word await before each call of {method} (lines: {lines}). A timer calls a "
+                "method again and again: self.create_timer({period}, self.{callback})"
             ),
             "awaited": msg(
                 "Delete this line, and write def {method} without async. Delete the word await before "

@@ -5,11 +5,12 @@ from __future__ import annotations
 import ast
 import re
 from dataclasses import replace
+from itertools import takewhile
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links, stop_in_branch
 from grader.mistakes.example import NODE, SILENT, example
-from grader.mistakes.fixes import lines, node_scope, node_timer
+from grader.mistakes.fixes import lines, node_callback, node_scope, node_timer
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.order import attribute_needed_early
@@ -83,7 +84,9 @@ def _subscribed(suspect: Suspect) -> RecognisedMistake | None:
             params = {"parameter": parameters[0], "method": method.name}
             found = suspect.finding("timer_missing", call, **params)
             words = {**found.words, "line": str(method.lineno), "written": new}
-            return replace(found, variant="subscription", words=words)
+            used = any(isinstance(n, ast.Name) and n.id == parameters[0] for n in ast.walk(method))
+            variant = "used" if used else "published" if source.calls_of("publish") else ""
+            return replace(found, variant=f"subscription_{variant}".rstrip("_"), words=words)
     return None
 
 
@@ -97,11 +100,29 @@ def _called_once(suspect: Suspect) -> RecognisedMistake | None:
     for call, _ in calls_in(init) if init is not None else ():
         method = source.methods.get(own_name(call.func))
         if method is not None and source.logs(method):
-            code = source.module_of(call).text.code(call)
-            new = f"self.create_timer({suspect.output.period!r}, self.{method.name})"
-            found = suspect.finding("timer_missing", call, name=code, written=new)
-            return replace(found, variant="by_hand")
+            return _by_hand_only(suspect, call, "self", f"self.{method.name}")
     return None
+
+
+def _by_hand_only(
+    suspect: Suspect, call: ast.Call, owner: str, callback: str
+) -> RecognisedMistake | None:
+    """Return that a call is all that runs the callback: how often, and what the timer gets."""
+    module = suspect.source.module_of(call)
+    code = module.text.code(call)
+    if "\n" in code:
+        return None
+    given = f"lambda: {code}" if call.args or call.keywords else callback
+    new = f"{owner}.create_timer({suspect.output.period!r}, {given})"
+    found = suspect.finding("timer_missing", call, name=code, written=new)
+    around = takewhile(lambda part: not isinstance(part, Function), module.around(call))
+    loops = [part for part in around if isinstance(part, ast.For | ast.While)]
+    if not loops:
+        return replace(found, variant="by_hand")
+    word = "for" if isinstance(loops[0], ast.For) else "while"
+    words = {**found.words, "loop": word, "line": str(loops[0].lineno)}
+    alone = len(loops[0].body) == 1 and not loops[0].orelse
+    return replace(found, variant="by_loop" if alone else "in_loop", words=words)
 
 
 def _function_called_once(suspect: Suspect) -> RecognisedMistake | None:
@@ -112,10 +133,7 @@ def _function_called_once(suspect: Suspect) -> RecognisedMistake | None:
     }
     for call, name in calls_in(suspect.function) if suspect.function is not None else ():
         if name in logging and not call.args and node:
-            code = source.module_of(call).text.code(call)
-            new = f"{node}.create_timer({suspect.output.period!r}, {name})"
-            found = suspect.finding("timer_missing", call, name=code, written=new)
-            return replace(found, variant="by_hand")
+            return _by_hand_only(suspect, call, node, name)
     return None
 
 
@@ -188,6 +206,7 @@ def _with_line(suspect: Suspect, call: ast.Call, name: str) -> RecognisedMistake
     if len(block) > 1:
         return replace(found, variant="destroyed" if destroyed else "line")
     alone = isinstance(around, ast.If) and around.body == block and not around.orelse
+    alone = alone and isinstance(around, ast.If) and len(block_of(module, around)) > 1
     if destroyed and not alone:
         return replace(found, variant="destroyed_alone")
     return replace(found, variant="if" if alone else "alone")
@@ -262,7 +281,7 @@ def _other_callback(suspect: Suspect) -> RecognisedMistake | None:
     if timer is None:
         return None
     logging = [m for m in source.methods.values() if source.logs(m) and m.name != "__init__"]
-    other = callback is None or callback.name != timer.method
+    other = callback is None or all(callback.name != t.method for t in source.timers)
     named = isinstance(timer.callback, ast.Name | ast.Attribute)
     if not (timer.method and named and other and logging):
         return None
@@ -295,6 +314,18 @@ def _by_hand(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+BY_LOOP = msg(
+    "The {loop} of line {line} calls the method while __init__ or {function} runs, and without the "
+    "pauses of a timer. Only a timer calls it again and again, once in each period."
+)
+SUBSCRIBED = msg(
+    "A subscription calls {method} only when a message comes on its topic, and no message came. A "
+    "timer calls it again and again."
+)
+WITHOUT_MESSAGE = msg(
+    "Write {written} instead of the call of create_subscription. A timer gives its "
+    "callback no message: delete {parameter} from the def in line {line}."
+)
 DESTROYED = msg("destroy_timer() removes a timer: it no longer calls its callback.")
 
 
@@ -332,16 +363,28 @@ KINDS = (
         msg("Write in __init__: self.create_timer({period}, self.{callback})"),
         whys={
             "by_hand": msg("{name} calls the method once. Only a timer calls it again and again."),
+            "by_loop": BY_LOOP,
+            "in_loop": BY_LOOP,
             "subscription": msg(
                 "A subscription calls {method} only when a message comes on its topic, and nothing "
                 "here publishes one. Only a timer calls it again and again."
             ),
+            "subscription_used": SUBSCRIBED,
+            "subscription_published": SUBSCRIBED,
         },
         fixes={
             "by_hand": msg("Write {written} instead of {name}."),
-            "subscription": msg(
+            "by_loop": msg("Write {written} instead of the {loop} of line {line} with its line."),
+            "in_loop": msg(
+                "Write {written} below the {loop} of line {line}, indented as far as the {loop}, and "
+                "delete {name} in the {loop}."
+            ),
+            "subscription": WITHOUT_MESSAGE,
+            "subscription_published": WITHOUT_MESSAGE,
+            "subscription_used": msg(
                 "Write {written} instead of the call of create_subscription. A timer gives its "
-                "callback no message: delete {parameter} from the def in line {line}."
+                "callback no message: delete {parameter} from the def in line {line}, and write "
+                "something else where {method} uses {parameter}."
             ),
             "no_init": msg(
                 "Write on a line of its own below the one that creates the node: "
@@ -354,7 +397,12 @@ KINDS = (
             ),
         },
         behind={"run.no_lines": _missing, "run.stops": _called_once},
-        fixed_by=(lines.written, node_timer.subscribed, node_timer.made),
+        fixed_by=(
+            node_callback.timer_for_loop,
+            lines.written,
+            node_timer.subscribed,
+            node_timer.made,
+        ),
         examples=(
             example(
                 "subscription_instead_of_the_timer",
@@ -424,7 +472,7 @@ KINDS = (
             **stop_in_branch.FIXES,
         },
         behind={"run.no_lines": _cancelled, "run.stops": _stopped},
-        fixed_by=(node_timer.cancelled, _without_cancel),
+        fixed_by=(node_timer.cancelled, _without_cancel, lines.passed),
         examples=(
             example(
                 "timer_cancelled",
@@ -486,7 +534,7 @@ KINDS = (
         msg("Delete this line."),
         fixes={"alone": msg("Write pass instead of this line.")},
         behind={"run.no_lines": _reset},
-        fixed_by=(lines.deleted,),
+        fixed_by=(lines.passed, lines.deleted),
         examples=(
             example(
                 "timer_reset_by_other_timer",

@@ -19,7 +19,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
-from grader.package.source.period import is_right, origin_of, seconds_of
+from grader.package.source.period import is_right, origin_of, seconds_of, timers_of_lines
 from grader.package.source.place import statement_at
 from grader.package.source.timer import Timer
 
@@ -236,7 +236,7 @@ def _without_chain(case: Case) -> Files | None:
 
 
 def _milliseconds(suspect: Suspect) -> RecognisedMistake | None:
-    timers = suspect.source.timers
+    timers = timers_of_lines(suspect.source)
     given = timers[0].period if timers else None
     value = node_timer.value_of(suspect.source, given) if given is not None else None
     origin = origin_of(suspect.source, given)
@@ -256,7 +256,7 @@ def _milliseconds(suspect: Suspect) -> RecognisedMistake | None:
 
 def _far_too_long(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a period in seconds that the source shows, and in which no line can come so soon."""
-    source, timers = suspect.source, suspect.source.timers
+    source, timers = suspect.source, timers_of_lines(suspect.source)
     given = timers[0].period if len(timers) == 1 else None
     if given is None:
         return None

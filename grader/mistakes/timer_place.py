@@ -9,7 +9,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, SILENT, STEP_LINE, example
-from grader.mistakes.fixes import node_count, timer_place
+from grader.mistakes.fixes import node_callback, node_count, timer_place
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
@@ -352,6 +352,7 @@ KINDS = (
         msg("The timer calls the callback: as long as there is no timer, nothing calls it."),
         msg("Move create_timer to __init__."),
         behind={"run.no_lines": _in_callback},
+        fixed_by=(node_callback.into_constructor,),
         examples=(
             example(
                 "timer_in_callback",
@@ -372,7 +373,7 @@ KINDS = (
     _node(
         "two_timers",
         "timer",
-        msg("More than one timer calls the callback"),
+        msg("More than one timer makes the lines"),
         msg("Each timer calls its callback on its own: two timers make two lines at a time."),
         msg("Keep only one create_timer."),
         whys={

@@ -73,7 +73,8 @@ def _reads(source: NodeSource, part: ast.expr, now: set[str]) -> bool:
 
 def _kept(source: NodeSource, callback: Function, test: ast.Compare, now: set[str]) -> str | None:
     """Return the attribute of a comparison that the callback sets to a time."""
-    names = {dotted(n) for n in ast.walk(test) if isinstance(n, ast.Attribute)}
+    logged = {dotted(n) for log in source.logs(callback) for n in ast.walk(log)}
+    names = {dotted(n) for n in ast.walk(test) if isinstance(n, ast.Attribute)} - logged
     for statement in ast.walk(callback):
         value = getattr(statement, "value", None)
         if not isinstance(statement, SETS | ast.AugAssign) or not isinstance(value, ast.expr):

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
 
 from grader.package.source.module import Function, Module, parse_module
-from grader.package.source.names import called_name, calls_in, dotted, last_part
+from grader.package.source.names import called_name, calls_in, dotted, last_part, own_name
 from grader.package.source.node_class import class_of_node, family_of, module_with_node
 from grader.package.source.own_imports import entry_function, own_imports
 from grader.package.source.python import PythonFault
@@ -175,8 +175,12 @@ class NodeSource:
 
     @cached_property
     def callback(self) -> Function | None:
-        """The function that the first timer calls, else the method that logs."""
-        for timer in self.timers:
+        """The function that the first timer calls, else the method that logs.
+
+        Of several timers, the first one whose callback logs or prints comes first.
+        """
+        first = [t for t in self.timers if self._tells(self.methods.get(t.method), [])]
+        for timer in [*first, *self.timers]:
             if timer.method in self.methods:
                 return self.methods[timer.method]
             if timer.is_variable:
@@ -187,6 +191,14 @@ class NodeSource:
                     return named[0]
         logging = [m for n, m in self.methods.items() if n != "__init__" and self.logs(m)]
         return logging[0] if logging else None
+
+    def _tells(self, method: Function | None, seen: list[Function]) -> bool:
+        """Whether a method logs or prints, also in the methods that it calls."""
+        if method is None or method in seen:
+            return False
+        inner = [self.methods.get(own_name(call.func)) for call, _ in calls_in(method)]
+        tells = bool(self.logs(method) or self.prints(method))
+        return tells or any(self._tells(each, [*seen, method]) for each in inner)
 
     @cached_property
     def loggers(self) -> dict[str, ast.Assign | ast.AnnAssign]:

@@ -19,7 +19,7 @@ REACHED = (ast.Eq, ast.GtE, ast.Gt, ast.NotEq, ast.LtE, ast.Lt)
 def _falsy(module: Module, source: NodeSource, goal: Goal) -> Found:
     """Yield conditions that ask for None, where any empty value and 0 count as no value."""
     del source, goal
-    text, switches = module.text, _switches(module)
+    text, flags = module.text, _flags(module)
     for node in module.nodes:
         if isinstance(node, ast.BoolOp) and isinstance(node.op, ast.Or) and len(node.values) == 2:
             first, other = (text.code(value) for value in node.values)
@@ -29,21 +29,30 @@ def _falsy(module: Module, source: NodeSource, goal: Goal) -> Found:
         elif isinstance(node, ast.If | ast.IfExp | ast.While):
             test = node.test
             asked = test.operand if isinstance(test, ast.UnaryOp) else test
-            if dotted(asked) and not isinstance(asked, ast.Call) and dotted(asked) not in switches:
+            if dotted(asked) and not isinstance(asked, ast.Call) and dotted(asked) not in flags:
                 named = text.code(asked)
                 new = f"{named} is None" if asked is not test else f"{named} is not None"
                 yield 2, of_piece(module, "falsy", test, new, named)
 
 
-def _switches(module: Module) -> set[str]:
-    """Return the names that get a truth value: they are asked for that, and not for None."""
-    sets = [n for n in module.nodes if isinstance(n, ast.Assign | ast.AnnAssign)]
-    return {
+def _flags(module: Module) -> set[str]:
+    """Return the names that are set to True or False: the condition of one asks for nothing else."""
+    found = {
         name
-        for n in sets
-        if isinstance(n.value, ast.Constant) and isinstance(n.value.value, bool)
+        for n in module.nodes
+        if isinstance(n, ast.Assign | ast.AnnAssign) and _is_bool(n.value)
         for name in targets_of(n)
     }
+    for n in module.nodes:
+        if isinstance(n, ast.arguments):
+            named = [*n.posonlyargs, *n.args]
+            pairs = [*zip(named[::-1], n.defaults[::-1]), *zip(n.kwonlyargs, n.kw_defaults)]
+            found |= {a.arg for a, value in pairs if _is_bool(value)}
+    return found
+
+
+def _is_bool(value: ast.expr | None) -> bool:
+    return isinstance(value, ast.Constant) and isinstance(value.value, bool)
 
 
 def _inexact(module: Module, source: NodeSource, goal: Goal) -> Found:
