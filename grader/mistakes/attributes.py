@@ -94,6 +94,8 @@ def _close_attribute(raised: Raised, name: str) -> str:
 def _close_method(raised: Raised, match: re.Match[str]) -> str:
     """Return the method that is meant: of the node, of rclpy or of the logger."""
     name = match["name"]
+    if name == "logger" and not _is_only_called(raised, name):
+        return ""  # (get_logger would lack its ())
     if _is_of_node(raised, match["type"]) and name in ELSEWHERE:
         return ELSEWHERE[name]
     if of_self(raised, match):
@@ -170,12 +172,28 @@ def _without_dot(raised: Raised, name: str) -> ast.stmt | None:
     return None
 
 
-def _node_of_init(owner: ast.ClassDef) -> str:
-    """Return the parameter of __init__ on which methods of a node are called; "" if none."""
+def _node_of_init(raised: Raised, owner: ast.ClassDef) -> str:
+    """Return the parameter of __init__ on which methods of a node are called; "" if none.
+
+    A parameter that gets the node where the object is made is one too.
+    """
     inits = [s for s in owner.body if isinstance(s, ast.FunctionDef) and s.name == "__init__"]
     given = {a.arg for init in inits for a in init.args.args[1:]}
     called = [dotted(n.value) for i in inits for n in ast.walk(i) if _is_node_method(n)]
-    return next((name for name in called if name in given), "")
+    known = next((name for name in called if name in given), "")
+    return known or _given_as_self(raised, owner, inits)
+
+
+def _given_as_self(raised: Raised, owner: ast.ClassDef, inits: list[ast.FunctionDef]) -> str:
+    """Return the parameter for which the only call of a class gives the node; "" if none."""
+    calls = [c for c, name in raised.source.calls if last_part(name) == owner.name]
+    if len(calls) != 1 or len(inits) != 1:
+        return ""
+    nodes = {"self", *raised.source.node_variables}
+    names = [a.arg for a in inits[0].args.args[1:]]
+    places = [names[at] for at, v in enumerate(calls[0].args[: len(names)]) if dotted(v) in nodes]
+    places += [k.arg for k in calls[0].keywords if k.arg in names and dotted(k.value) in nodes]
+    return places[0] if len(places) == 1 else ""
 
 
 def _is_node_method(part: ast.AST) -> TypeGuard[ast.Attribute]:
@@ -213,7 +231,7 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         helper = False
     if owner is not None and helper and name in NODE_METHODS:
         found = raised.finding("attribute_not_set", name=name)
-        words = {**found.words, "type": owner[0].name, "parameter": _node_of_init(owner[0])}
+        words = {**found.words, "type": owner[0].name, "parameter": _node_of_init(raised, owner[0])}
         return replace(
             found, variant="no_node_kept" if words["parameter"] else "no_node", words=words
         )
@@ -221,7 +239,8 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         params = {"name": f"self.{name}", "written": f"{held}.{name}"}
         found = raised.finding("attribute_not_set", params=params)
         return replace(found, variant="held", words={**found.words, "held": held})
-    elsewhere = _set_elsewhere(raised, name)
+    ways = (_deleted, _set_elsewhere, _set_in_base)
+    elsewhere = next(filter(None, (way(raised, name) for way in ways)), None)
     if elsewhere is not None:
         return elsewhere
     for timer in raised.source.timers:
@@ -354,7 +373,40 @@ def _set_elsewhere(raised: Raised, name: str) -> RecognisedMistake | None:
     return replace(found, variant="set_by_uncalled" if uncalled else "set_later", words=words)
 
 
-def _sets(module: Module, part: ast.AST, name: str) -> bool:
+def _deleted(raised: Raised, name: str) -> RecognisedMistake | None:
+    """A line deletes the attribute: what reads it afterwards finds none."""
+    for node in raised.source.own_nodes:
+        if isinstance(node, ast.Delete) and f"self.{name}" in map(dotted, node.targets):
+            found = raised.finding("attribute_not_set", name=name)
+            words = {**found.words, "line": str(node.lineno)}
+            return replace(found, words=words, variant="deleted")
+    return None
+
+
+def _set_in_base(raised: Raised, name: str) -> RecognisedMistake | None:
+    """The __init__ of an own base class sets the attribute, and the class does not call it."""
+    here = class_of(raised.module, function_at(raised.module, raised.line))
+    call = raised.source.super_init
+    if here is None or call is None or here[0] not in raised.source.family:
+        return None
+    for base in here[0].bases:
+        owners = [c for c in raised.source.family if c.name == last_part(dotted(base))]
+        for init in (s for c in owners for s in c.body if isinstance(s, Function)):
+            sets = [n for n in ast.walk(init) if _sets(raised.module, n, f"self.{name}")]
+            if init.name != "__init__" or not sets or dotted(call.func) == "super().__init__":
+                continue
+            if dotted(call.func) == f"{owners[0].name}.__init__":
+                continue
+            code, values = raised.module.text.code, call.args[1:]
+            given = ", ".join([*map(code, values), *map(code, call.keywords)])
+            params = {"name": code(call), "written": f"super().__init__({given})"}
+            found = raised.finding("attribute_not_set", at=call, params=params)
+            words = {"attribute": name, "type": owners[0].name, "line": str(sets[0].lineno)}  # type: ignore[attr-defined]
+            return replace(found, variant="base_skipped", words={**found.words, **words})
+    return None
+
+
+def _sets(module: Module, part: ast.AST, name: str) -> TypeGuard[ast.Attribute]:
     """Whether a part of the file gives a name a value that does not come from itself."""
     if not isinstance(part, ast.Attribute) or not isinstance(part.ctx, ast.Store):
         return False
@@ -722,7 +774,9 @@ KINDS = (
         links.PYTHON_CLASSES,
         close=msg("Write self.{close} instead of self.{name}."),
         fixes={
-            "annotated": msg("Write {written} instead of {name}."),
+            **dict.fromkeys(
+                ("annotated", "base_skipped"), msg("Write {written} instead of {name}.")
+            ),
             "private": msg(
                 "Write {written} instead of {name} in all lines of both classes: one underscore is enough."
             ),
@@ -738,6 +792,7 @@ KINDS = (
                 "Write {written} instead of {name}. Do the same wherever self. stands before another "
                 "method of the node."
             ),
+            "deleted": msg("Delete self.{name} from line {line}, or the whole line."),
             "dot": msg("A dot is missing. Write {written} instead of {name}."),
             "period": msg(
                 "Write the period in seconds instead of self.{name}: {written}. Or write self.{name} "
@@ -795,6 +850,14 @@ KINDS = (
             "private": msg(
                 "A name that begins with two underscores belongs to its class alone. The class {type} sets "
                 "{name}, and a class that inherits from it does not see that attribute."
+            ),
+            "deleted": msg(
+                "Line {line} deletes self.{name}: del takes away the attribute, and not only its value. "
+                "Then self.{name} does not exist until a line assigns to it again."
+            ),
+            "base_skipped": msg(
+                "Line {line}, in the __init__ of {type}, sets self.{attribute}. This line calls the __init__ of "
+                "another class, so that of {type} does not run."
             ),
             "no_node": NO_NODE,
             "no_node_kept": NO_NODE,

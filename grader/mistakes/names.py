@@ -313,7 +313,8 @@ def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         words = {"name": function, "written": f"self.{function}", "function": function}
         found = raised.finding("argument_missing", at=outside[0].call)
         return replace(found, variant="outside", words={**found.words, **words})
-    if (of_timer := _timer_without_object(raised, match)) is not None:
+    of_timer = _timer_without_object(raised, match) or _function_of_timer(raised, match)
+    if of_timer is not None:
         return of_timer
     if match["name"] == "self" and "." in match["function"]:
         return _through_object(raised, match["function"]) or replace(found, variant="class")
@@ -355,6 +356,30 @@ def _timer_without_object(raised: Raised, match: re.Match[str]) -> RecognisedMis
     found = raised.finding("argument_missing", at=timers[0], params={"name": code})
     words = {**found.words, "function": match["function"], "method": method}
     return replace(found, variant="of_timer", words=words)
+
+
+def _function_of_timer(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A timer calls a function of the file, which needs a value: a timer passes none."""
+    at = raised.module.functions.get(match["function"])
+    timers = [
+        t
+        for t in raised.source.timers
+        if t.callback is not None and dotted(t.callback) == match["function"]
+    ]
+    calls = [c for c, name in raised.source.calls if name == match["function"]]
+    if at is None or len(timers) != 1 or any(raised.line in lines_of(c) for c in calls):
+        return None
+    found = raised.finding("argument_missing", at=timers[0].call)
+    module = raised.source.module_of(timers[0].call)
+    node = node_here(raised.source, module, timers[0].call.lineno)
+    least = len(at.args.args) - len(at.args.defaults)
+    words = {**found.words, "name": match["name"], "function": match["function"]}
+    if least != 1 or not node:
+        return replace(found, variant="of_timer_values", words=words)
+    params = {"name": match["function"], "written": f"lambda: {match['function']}({node})"}
+    found = raised.finding("argument_missing", at=timers[0].call, params=params)
+    words = {**found.words, "parameter": match["name"], "function": match["function"], "node": node}
+    return replace(found, variant="of_timer_node", words=words)
 
 
 def _spin_without_node(raised: Raised, found: RecognisedMistake) -> RecognisedMistake:
@@ -801,6 +826,14 @@ KINDS = (
                 "its methods. Write {written} instead of {name} on this line."
             ),
             "class_object": msg("Write {written} instead of {name}."),
+            "of_timer_node": msg(
+                "If {parameter} is the node, write {written} instead of {name} in this line: then the timer "
+                "calls {function} with the node."
+            ),
+            "of_timer_values": msg(
+                "Give each parameter of {function} a default in its def. Or write lambda: {function}(…) "
+                "instead of {function} in this line, with a value for each parameter in its ()."
+            ),
             "of_timer": msg(
                 "Write self.{method} instead of {name}. If {name} can be several functions, write "
                 "functools.partial({name}, self), and import functools at the top of the file."
@@ -816,6 +849,13 @@ KINDS = (
         },
         whys={
             "class_object": ON_CLASS,
+            **dict.fromkeys(
+                ("of_timer_node", "of_timer_values"),
+                msg(
+                    "The timer that this line creates calls {function} without a value, and {function} has "
+                    "a parameter that needs one."
+                ),
+            ),
             "of_timer": msg(
                 "This line gives the timer {name}, and that is {function} as a function of the class: no "
                 "object belongs to it. Python passes self only if the method is read from an object, as in "
