@@ -239,7 +239,7 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         params = {"name": f"self.{name}", "written": f"{held}.{name}"}
         found = raised.finding("attribute_not_set", params=params)
         return replace(found, variant="held", words={**found.words, "held": held})
-    ways = (_deleted, _set_elsewhere, _set_in_base)
+    ways = (_deleted, _set_elsewhere, _set_in_base, _set_in_heir)
     elsewhere = next(filter(None, (way(raised, name) for way in ways)), None)
     if elsewhere is not None:
         return elsewhere
@@ -383,6 +383,25 @@ def _deleted(raised: Raised, name: str) -> RecognisedMistake | None:
     return None
 
 
+def _set_in_heir(raised: Raised, name: str) -> RecognisedMistake | None:
+    """The __init__ of a class that inherits from this one sets the attribute, but later."""
+    here = class_of(raised.module, function_at(raised.module, raised.line))
+    if here is None or here[0] not in raised.source.family:
+        return None
+    for heir in raised.source.family:
+        if here[0].name not in [last_part(dotted(base)) for base in heir.bases]:
+            continue
+        inits = [s for s in heir.body if isinstance(s, Function) and s.name == "__init__"]
+        sets = [n for i in inits for n in ast.walk(i) if _sets(raised.module, n, f"self.{name}")]
+        if not sets:
+            continue
+        rows = ", ".join(str(row) for row in sorted({getattr(part, "lineno", 0) for part in sets}))
+        found = raised.finding("attribute_not_set", params={"name": name, "lines": rows})
+        words = {**found.words, "type": heir.name}
+        return replace(found, words=words, variant="set_in_heir")
+    return None
+
+
 def _set_in_base(raised: Raised, name: str) -> RecognisedMistake | None:
     """The __init__ of an own base class sets the attribute, and the class does not call it."""
     here = class_of(raised.module, function_at(raised.module, raised.line))
@@ -401,12 +420,16 @@ def _set_in_base(raised: Raised, name: str) -> RecognisedMistake | None:
             given = ", ".join([*map(code, values), *map(code, call.keywords)])
             params = {"name": code(call), "written": f"super().__init__({given})"}
             found = raised.finding("attribute_not_set", at=call, params=params)
-            words = {"attribute": name, "type": owners[0].name, "line": str(sets[0].lineno)}  # type: ignore[attr-defined]
+            words = {
+                "attribute": name,
+                "type": owners[0].name,
+                "line": str(getattr(sets[0], "lineno", 0)),
+            }
             return replace(found, variant="base_skipped", words={**found.words, **words})
     return None
 
 
-def _sets(module: Module, part: ast.AST, name: str) -> TypeGuard[ast.Attribute]:
+def _sets(module: Module, part: ast.AST, name: str) -> bool:
     """Whether a part of the file gives a name a value that does not come from itself."""
     if not isinstance(part, ast.Attribute) or not isinstance(part.ctx, ast.Store):
         return False
@@ -807,6 +830,10 @@ KINDS = (
                 "in a branch or a loop that was not entered, or in a function that was not called. "
                 "Move it to where it always runs first, as a rule to the beginning of __init__."
             ),
+            "set_in_heir": msg(
+                "Give self.{name} its value before this line can run: above the call of super().__init__() "
+                "in {type}, or in the class that has this line."
+            ),
             "set_again": msg(
                 "Set self.{name} in __init__ too, above the line that creates the timer: "
                 "self.{name} = and the value that it has at the beginning."
@@ -850,6 +877,10 @@ KINDS = (
             "private": msg(
                 "A name that begins with two underscores belongs to its class alone. The class {type} sets "
                 "{name}, and a class that inherits from it does not see that attribute."
+            ),
+            "set_in_heir": msg(
+                "self.{name} does not exist until a line assigns to it. Line {lines} does so, in the "
+                "__init__ of {type}, but had not run for this object when Python came to this line."
             ),
             "deleted": msg(
                 "Line {line} deletes self.{name}: del takes away the attribute, and not only its value. "

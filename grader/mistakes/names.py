@@ -76,6 +76,8 @@ BLOCK_ENDS = (
 )
 """Words that end a block in MATLAB, shell, Basic, structured text and others."""
 
+OF_MODULE = ("init", "spin", "spin_once", "ok", "shutdown", "try_shutdown")
+"""Functions of rclpy's module, which a file calls through the module."""
 OF_ROS = ("spin", "spin_once", *NODE_METHODS)
 """Calls of ROS: an error that comes from inside of them is not about their own brackets."""
 
@@ -91,8 +93,10 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return joined
     if name in TYPES and (types := _as_type(raised, name)) is not None:
         return types
-    if (guard := _guard(raised, name) or _alias_of_rclpy(raised, name)) is not None:
-        return guard
+    ways_of_use = (_guard, _alias_of_rclpy, _name_of_node)
+    used = next(filter(None, (way(raised, name) for way in ways_of_use)), None)
+    if used is not None:
+        return used
     timers = [] if bindings(raised.module, name) else raised.source.timers
     if any(dotted(timer.period or timer.call) == name for timer in timers):
         return _period(raised, name)
@@ -121,6 +125,23 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return replace(found, variant="cut", words={**found.words, "written": whole[0]})
     found = raised.finding("name_unknown", name=name, close=close)
     return _instead(found) if close and nearest(name, [close], cutoff=MISSPELT) else found
+
+
+def _name_of_node(raised: Raised, name: str) -> RecognisedMistake | None:
+    """The node's name is a name that nothing defines, as of a parameter that is missing."""
+    call = raised.source.super_init
+    uses = [n for n in raised.module.nodes if isinstance(n, ast.Name) and n.id == name]
+    if (
+        call is None
+        or len(uses) != 1
+        or uses[0] not in call.args[:1]
+        or bindings(raised.module, name)
+    ):
+        return None
+    quote = raised.module.text.quote
+    written = f"{quote}{raised.assignment.node_name}{quote}"
+    found = raised.finding("name_unknown", name=name, written=written)
+    return replace(found, variant="node_name")
 
 
 def _alone(raised: Raised, name: str) -> RecognisedMistake:
@@ -167,11 +188,11 @@ def _of_module(raised: Raised, name: str) -> str | None:
 
 
 def _of_rclpy(module: Module, name: str) -> str | None:
-    """Return a function of rclpy with the name by which the file knows rclpy, if that is another."""
-    known = [bound for bound, full, _ in imports(module) if full == "rclpy" and bound != "rclpy"]
+    """Return a function of rclpy with the name by which the file knows rclpy."""
+    known = [bound for bound, full, _ in imports(module) if full == "rclpy"]
     uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
     called = any(isinstance(module.parents.get(use), ast.Call) for use in uses)
-    return f"{known[0]}.{name}" if known and called and name in ("init", "spin", "ok") else None
+    return f"{known[0]}.{name}" if known and called and name in OF_MODULE else None
 
 
 def _alias_of_rclpy(raised: Raised, name: str) -> RecognisedMistake | None:
@@ -280,7 +301,9 @@ def _known(raised: Raised, name: str) -> set[str]:
     if not uses:
         return {*module.names, *imported, *dir(builtins)}
     if any(_is_called(module.parents.get(use), use) for use in uses):
-        return {*made, *imported, *dir(builtins)}
+        modules = {n for n, line in IMPORTS.items() if line.startswith("import ")}
+        modules |= {b for b, full, s in imports(module) if isinstance(s, ast.Import) and b == full}
+        return {*made, *(imported - modules), *dir(builtins)}
     return {*(module.names - made), *imported} - {"Node"}
 
 
@@ -574,6 +597,9 @@ KINDS = (
             "notebook": msg(
                 "Delete this line, and every other line that calls {name}(): the node does not need "
                 "them."
+            ),
+            "node_name": msg(
+                "Write {written} instead of {name} on this line: it is the name that the node gets."
             ),
             "period": msg("Write the period in seconds instead of {name}: {written}"),
             "period_named": msg(

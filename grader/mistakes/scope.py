@@ -24,6 +24,8 @@ NODE_METHODS = (
     *("create_subscription", "create_service", "create_client", "declare_parameter"),
     *("get_parameter", "destroy_timer", "create_rate", "get_namespace"),
 )
+OF_PARAMETERS = ("name", "node_name", "NAME", "NODE_NAME")
+"""What programs call the value that is the node's name."""
 CALLBACK = '''\
     def timer_callback(self):
         """Say hello once; the timer calls this for as long as the node spins."""
@@ -58,6 +60,8 @@ def _quotes(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return replace(found, variant="written")
     if not places:
         return None
+    if name in OF_PARAMETERS:
+        return None  # (a parameter is missing, and not the quotes)
     found = raised.finding("quotes_missing", at=places[0], name=name)
     return replace(found, variant="guard") if name == "__main__" else found
 

@@ -269,3 +269,69 @@ def test_an_inner_function_of_a_method_knows_self() -> None:
     )
     assert kind == "node.self_missing/"
     assert fix == "Write self.get_logger instead of get_logger."
+
+
+def unknown(name: str, row: str) -> tuple[str, str, str]:
+    text = HEAD + START + f"        {row}  # here\n" + CALLBACK + MAIN
+    return texts(at_error(f"NameError: name '{name}' is not defined", text, "# here"))
+
+
+def test_a_message_that_is_not_imported_is_no_word_of_another_language() -> None:
+    for row in ("msg = String()", "self.create_publisher(String, 'a', 10)"):
+        kind, _, fix = unknown("String", row)
+        assert kind == "node.import_missing/"
+        assert fix.endswith("from std_msgs.msg import String")
+    assert unknown("String", "x = String(self.counter_)")[2] == "Write str instead of String."
+    assert unknown("Int32", "x = Int32()")[2].endswith("from std_msgs.msg import Int32")
+
+
+def test_a_module_is_not_what_is_called() -> None:
+    for name in ("Timer", "Time", "Random"):
+        kind, _, fix = unknown(name, f"x = {name}()")
+        assert kind == "node.name_unknown/"
+        assert name.lower() not in fix
+
+
+def test_a_function_of_rclpy_is_called_through_the_module() -> None:
+    assert unknown("init", "init()")[2] == "Write rclpy.init instead of init."
+    assert unknown("shutdown", "shutdown()")[2] == "Write rclpy.shutdown instead of shutdown."
+
+
+def test_a_parameter_that_is_missing_has_not_lost_its_quotes() -> None:
+    text = HEAD + START.replace("__init__('my_first_node')", "__init__(name)") + CALLBACK + MAIN
+    kind, _, fix = texts(at_error("NameError: name 'name' is not defined", text, "__init__(name)"))
+    assert kind == "node.name_unknown/node_name"
+    assert fix.startswith("Write 'my_first_node' instead of name")
+    text = text.replace("__init__(name)", "__init__(my_first_node)")
+    error = "NameError: name 'my_first_node' is not defined"
+    assert texts(at_error(error, text, "(my_first_node)"))[0] == "node.quotes_missing/"
+
+
+def test_an_attribute_that_the_heir_sets_later_is_set_somewhere() -> None:
+    base = (
+        "class Base(Node):\n    def __init__(self, name):\n        super().__init__(name)\n"
+        "        self.get_logger().debug(str(self.counter_))  # here\n\n\n"
+    )
+    text = HEAD + base + START.replace("(Node)", "(Base)") + CALLBACK + MAIN
+    error = "AttributeError: 'MyFirstNode' object has no attribute 'counter_'"
+    kind, why, _ = texts(at_error(error, text, "# here"))
+    assert kind == "node.attribute_not_set/set_in_heir"
+    assert f"Line {line_of(text, 'self.counter_ = 0')} does so" in why
+
+
+def test_a_library_that_is_not_installed_is_not_misspelt() -> None:
+    error = "ModuleNotFoundError: No module named 'numpy'"
+    text = HEAD.replace("rclpy\n", "rclpy\nimport numpy as np\n", 1) + START + CALLBACK
+    text = (text + MAIN).replace("str(self.counter_)", "str(np.abs(self.counter_))")
+    kind, why, fix = texts(at_error(error, text, "import numpy"))
+    assert kind == "node.import_misspelt/not_installed"
+    assert "not installed" in why
+    assert "spelling" not in fix
+
+
+def test_an_init_without_underscores_in_a_helper_that_gets_values() -> None:
+    helper = "class Counter:\n    def init(self, start):\n        self.n = start\n\n\n"
+    text = HEAD + helper + START.replace("= 0", "= Counter(0).n") + CALLBACK + MAIN
+    kind, _, fix = texts(at_error("TypeError: Counter() takes no arguments", text, "= Counter("))
+    assert kind == "node.class_takes_nothing/near"
+    assert fix.startswith("Rename init to __init__")
