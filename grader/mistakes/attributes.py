@@ -239,7 +239,7 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         params = {"name": f"self.{name}", "written": f"{held}.{name}"}
         found = raised.finding("attribute_not_set", params=params)
         return replace(found, variant="held", words={**found.words, "held": held})
-    ways = (_deleted, _set_elsewhere, _set_in_base, _set_in_heir)
+    ways = (_deleted, _set_elsewhere, _set_in_base, _set_in_heir, _without_self)
     elsewhere = next(filter(None, (way(raised, name) for way in ways)), None)
     if elsewhere is not None:
         return elsewhere
@@ -381,6 +381,33 @@ def _deleted(raised: Raised, name: str) -> RecognisedMistake | None:
             words = {**found.words, "line": str(node.lineno)}
             return replace(found, words=words, variant="deleted")
     return None
+
+
+def _without_self(raised: Raised, name: str) -> RecognisedMistake | None:
+    """A parameter or a variable of __init__, or a name of the file, has the name of the attribute."""
+    module, own = raised.module, f"self.{name}"
+    here = class_of(module, function_at(module, raised.line))
+    if here is None or here[0] not in raised.source.family:
+        return None
+    init = next((s for s in here[0].body if isinstance(s, Function) and s.name == "__init__"), None)
+    inside = list(ast.walk(init)) if init is not None else []
+    if init is not None and any(a.arg == name for a in (*init.args.args, *init.args.kwonlyargs)):
+        found = raised.finding("attribute_not_set", name=name, written=f"{own} = {name}")
+        return replace(found, variant="parameter")
+    sets = [n for n in inside if isinstance(n, ast.Assign) and list(targets_of(n)) == [name]]
+    read = any(
+        isinstance(n, ast.Name) and n.id == name and isinstance(n.ctx, ast.Load) for n in inside
+    )
+    if len(sets) == 1 and not read:
+        params = {"name": name, "written": own}
+        found = raised.finding("attribute_not_set", at=sets[0], params=params)
+        return replace(found, variant="local", words={**found.words, "line": str(raised.line)})
+    tops = [s for s in module.tree.body if isinstance(s, ast.Assign) and name in targets_of(s)]
+    stored = any(own in targets_of(n) for n in module.nodes)
+    if len(tops) != 1 or stored:
+        return None
+    found = raised.finding("attribute_not_set", params={"name": own, "written": name})
+    return replace(found, variant="of_file", words={**found.words, "line": str(tops[0].lineno)})
 
 
 def _set_in_heir(raised: Raised, name: str) -> RecognisedMistake | None:
@@ -830,6 +857,9 @@ KINDS = (
                 "in a branch or a loop that was not entered, or in a function that was not called. "
                 "Move it to where it always runs first, as a rule to the beginning of __init__."
             ),
+            "parameter": msg("Write in __init__, above the line that creates the timer: {written}"),
+            "local": msg("Write {written} instead of {name} on that line."),
+            "of_file": msg("Write {written} instead of {name}."),
             "set_in_heir": msg(
                 "Give self.{name} its value before this line can run: above the call of super().__init__() "
                 "in {type}, or in the class that has this line."
@@ -877,6 +907,17 @@ KINDS = (
             "private": msg(
                 "A name that begins with two underscores belongs to its class alone. The class {type} sets "
                 "{name}, and a class that inherits from it does not see that attribute."
+            ),
+            "parameter": msg(
+                "{name} is a parameter of __init__, which is known only inside of __init__. self.{name} does not "
+                "exist until a line assigns to it."
+            ),
+            "local": msg(
+                "Without self., {name} is a variable of __init__ alone. Line {line} reads {written}, which no line "
+                "sets."
+            ),
+            "of_file": msg(
+                "Line {line} sets {written} outside of the class. A name of the file is used without self."
             ),
             "set_in_heir": msg(
                 "self.{name} does not exist until a line assigns to it. Line {lines} does so, in the "
@@ -1079,6 +1120,10 @@ KINDS = (
         links.RCLPY,
         close=msg("Write {close} instead of {name}."),
         whys={
+            "written": msg(
+                "What stands before the dot has nothing of that name. Here it is meant in another way than "
+                "{name}."
+            ),
             "function": OF_FILE,
             "function_more": OF_FILE,
             "parameter": msg(

@@ -335,3 +335,49 @@ def test_an_init_without_underscores_in_a_helper_that_gets_values() -> None:
     kind, _, fix = texts(at_error("TypeError: Counter() takes no arguments", text, "= Counter("))
     assert kind == "node.class_takes_nothing/near"
     assert fix.startswith("Rename init to __init__")
+
+
+def not_set(name: str, text: str, part: str = "") -> tuple[str, str, str]:
+    error = f"AttributeError: 'MyFirstNode' object has no attribute '{name}'"
+    return texts(at_error(error, text, part or f"self.{name}"))
+
+
+def test_a_parameter_a_variable_and_a_constant_are_no_attributes() -> None:
+    start = START.replace("(self)", "(self, period=1.0)").replace(
+        "1.0, self.t", "self.period, self.t"
+    )
+    kind, why, fix = not_set("period", HEAD + start + CALLBACK + MAIN)
+    assert kind == "node.attribute_not_set/parameter"
+    assert why.startswith("period is a parameter of __init__")
+    assert fix.endswith("self.period = period")
+    start = START.replace("self.create_timer", "timer = self.create_timer")
+    text = HEAD + start + CALLBACK + "        self.timer.reset()\n" + MAIN
+    kind, _, fix = not_set("timer", text, "self.timer.reset")
+    assert kind == "node.attribute_not_set/local"
+    assert fix == "Write self.timer instead of timer on that line."
+    text = HEAD + "PERIOD = 1.0\n\n\n" + START.replace("1.0, self.t", "self.PERIOD, self.t")
+    kind, why, fix = not_set("PERIOD", text + CALLBACK + MAIN)
+    assert kind == "node.attribute_not_set/of_file"
+    assert why.startswith(f"Line {line_of(text, 'PERIOD = ')} sets PERIOD outside")
+    assert fix == "Write PERIOD instead of self.PERIOD."
+
+
+def test_a_global_that_is_counted_through_self_gets_a_first_value() -> None:
+    text = (
+        HEAD + "total = 0\n\n\n" + START + CALLBACK + "        self.total = self.total + 1\n" + MAIN
+    )
+    assert not_set("total", text)[0] == "node.attribute_not_set/"
+
+
+def test_a_class_that_is_pasted_twice_without_a_change_is_not_the_cause() -> None:
+    text = HEAD + (START + CALLBACK.replace("time: ", "time ") + "\n\n") * 2 + MAIN
+    found = behind_symptom(
+        "run.wrong_text", Suspect(node_in(text), ASSIGNMENT, text="Hello time 0")
+    )
+    assert found is None or found.kind != "node.class_twice"
+    text = text.replace("self.counter_ = 0", "self.counter_ = 1", 1)
+    found = behind_symptom(
+        "run.wrong_text", Suspect(node_in(text), ASSIGNMENT, text="Hello time 0")
+    )
+    assert found is not None
+    assert found.kind == "node.class_twice"
