@@ -217,7 +217,8 @@ def _never_runs(suspect: Suspect) -> RecognisedMistake | None:
     makers = [m.name for m in source.own_methods if _calls_super(m)]
     near = _near_init(methods, cutoff=0.7)
     near = near or (makers[0] if len(makers) == 1 and "__init__" not in methods else "")
-    called = [last_part(name) for _, name in source.calls if "super" not in name]
+    others = ("super", "rclpy.")
+    called = [last_part(name) for _, name in source.calls if not name.startswith(others)]
     if own is None or not near or near in called:
         return None
     if not any(last_part(name) == "create_timer" for _, name in calls_in(methods[near])):

@@ -381,3 +381,11 @@ def test_a_class_that_is_pasted_twice_without_a_change_is_not_the_cause() -> Non
     )
     assert found is not None
     assert found.kind == "node.class_twice"
+
+
+def test_rclpy_init_is_no_call_of_an_init_without_underscores() -> None:
+    text = HEAD + START.replace("__init__(self)", "init(self)") + CALLBACK
+    text += MAIN.replace("MyFirstNode()", "MyFirstNode('my_first_node')")
+    found = behind_symptom("run.no_lines", Suspect(node_in(text), ASSIGNMENT))
+    assert found is not None
+    assert (found.kind, found.variant) == ("node.init_underscores", "silent")
