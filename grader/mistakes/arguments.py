@@ -10,6 +10,7 @@ from grader.base.i18n.message import msg
 from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.constructor import lines_of
+from grader.mistakes.ends import ends
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import lines, node_arguments, node_log
 from grader.mistakes.kind import Family
@@ -229,6 +230,8 @@ def _many_given(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
     if any(t.called and raised.line == t.call.lineno for t in raised.source.timers):
         return None  # (the callback is called where it is passed)
     found = raised.finding("arguments_many", name=name)
+    if raised.inside and (of_ros := _called_by_ros(raised, match["function"])) is not None:
+        return of_ros
     call = raised.source.super_init
     own = match["function"] == "Node.__init__" and call is not None
     if own and call is not None and call.args and dotted(call.args[0]) == "self":
@@ -237,7 +240,41 @@ def _many_given(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
         return replace(found, variant="super")
     if name == "__exit__":
         return _exit(raised, found)
-    return _only_self(raised, match["function"]) or found
+    return _only_self(raised, match["function"]) or _of_own(raised, match["function"]) or found
+
+
+def _of_own(raised: Raised, function: str) -> RecognisedMistake | None:
+    """The function is a method of the student's, whose def has fewer parameters than values come."""
+    owner, _, method = function.rpartition(".")
+    taken = [m for m in _defs(raised.source, owner, method) if not m.decorator_list]
+    if len(taken) != 1 or taken[0].args.vararg is not None or method == "__init__":
+        return None
+    names = [a.arg for a in (*taken[0].args.posonlyargs, *taken[0].args.args)][1:]
+    calls = [c for c, name in raised.source.calls if last_part(name) == method]
+    if not names or taken[0].args.kwonlyargs or not any(raised.line in lines_of(c) for c in calls):
+        return None
+    found = raised.finding("arguments_many", name=method)
+    words = {**found.words, "line": str(taken[0].lineno), "names": ", ".join(names)}
+    return replace(found, words=words, variant="own")
+
+
+def _defs(source: NodeSource, owner: str, method: str) -> list[Function]:
+    """Return the defs of a method of a class."""
+    classes = [c for module in source.modules for c in module.classes if c.name == owner]
+    return [m for c in classes for m in c.body if isinstance(m, Function) and m.name == method]
+
+
+def _called_by_ros(raised: Raised, function: str) -> RecognisedMistake | None:
+    """The method is the callback of a subscription, and has no parameter for the message."""
+    owner, _, method = function.rpartition(".")
+    for end in ends(raised.source):
+        taken = _defs(raised.source, owner, method)
+        if end.kind != "create_subscription" or end.method != method or len(taken) != 1:
+            continue
+        if [a.arg for a in taken[0].args.args] == ["self"]:
+            found = raised.finding("arguments_many", at=taken[0], name=method)
+            return replace(found, variant="message")
+    return None
 
 
 def _exit(raised: Raised, found: RecognisedMistake) -> RecognisedMistake:
@@ -282,12 +319,7 @@ def _without_self(raised: Raised, taken: Function) -> RecognisedMistake | None:
 def _only_self(raised: Raised, function: str) -> RecognisedMistake | None:
     """The function is a method of the student's that takes only self."""
     owner, _, method = function.rpartition(".")
-    taken = [
-        m
-        for found in (c for module in raised.source.modules for c in module.classes)
-        for m in found.body
-        if found.name == owner and isinstance(m, Function) and m.name == method
-    ]
+    taken = _defs(raised.source, owner, method)
     if len(taken) == 1 and taken[0].args.args and taken[0].args.args[0].arg not in ("self", "this"):
         return _without_self(raised, taken[0])
     if len(taken) != 1 or len(taken[0].args.args) != 1 or taken[0].args.vararg is not None:
@@ -588,6 +620,14 @@ KINDS = (
                 "with calls __exit__ at its end, with three values: the class of the exception, the "
                 "exception, and its traceback. Python passes self on its own."
             ),
+            "message": msg(
+                "A subscription calls its callback with one value after self: the message. The def of {name} "
+                "has no parameter for it."
+            ),
+            "own": msg(
+                "The def of {name} (line {line}) has these parameters besides self: {names}. This call gives "
+                "it more values."
+            ),
             "no_self": msg(
                 "The def of {method} has no self. Python passes the object as the first argument, so "
                 "{parameter} gets the object, and the value of the call has no place."
@@ -595,6 +635,11 @@ KINDS = (
         },
         fixes={
             "exit": msg("Write: def __exit__(self, kind, value, trace):"),
+            "message": msg("Write: def {name}(self, msg):"),
+            "own": msg(
+                "Give {name} one value for each of its parameters. Several texts become one with + between "
+                "them. Or add a parameter to def {name}, if it needs one more value."
+            ),
             "no_self": msg("Write self before {parameter} in this line: {head}"),
             "super": msg("Write super().__init__('{node_name}')."),
             "only_self": msg("Write {written} instead of {name}."),

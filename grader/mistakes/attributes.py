@@ -94,6 +94,8 @@ def _close_attribute(raised: Raised, name: str) -> str:
 def _close_method(raised: Raised, match: re.Match[str]) -> str:
     """Return the method that is meant: of the node, of rclpy or of the logger."""
     name = match["name"]
+    if name == "logger" and not _is_only_called(raised, name):
+        return ""  # (get_logger would lack its ())
     if _is_of_node(raised, match["type"]) and name in ELSEWHERE:
         return ELSEWHERE[name]
     if of_self(raised, match):
@@ -170,12 +172,28 @@ def _without_dot(raised: Raised, name: str) -> ast.stmt | None:
     return None
 
 
-def _node_of_init(owner: ast.ClassDef) -> str:
-    """Return the parameter of __init__ on which methods of a node are called; "" if none."""
+def _node_of_init(raised: Raised, owner: ast.ClassDef) -> str:
+    """Return the parameter of __init__ on which methods of a node are called; "" if none.
+
+    A parameter that gets the node where the object is made is one too.
+    """
     inits = [s for s in owner.body if isinstance(s, ast.FunctionDef) and s.name == "__init__"]
     given = {a.arg for init in inits for a in init.args.args[1:]}
     called = [dotted(n.value) for i in inits for n in ast.walk(i) if _is_node_method(n)]
-    return next((name for name in called if name in given), "")
+    known = next((name for name in called if name in given), "")
+    return known or _given_as_self(raised, owner, inits)
+
+
+def _given_as_self(raised: Raised, owner: ast.ClassDef, inits: list[ast.FunctionDef]) -> str:
+    """Return the parameter for which the only call of a class gives the node; "" if none."""
+    calls = [c for c, name in raised.source.calls if last_part(name) == owner.name]
+    if len(calls) != 1 or len(inits) != 1:
+        return ""
+    nodes = {"self", *raised.source.node_variables}
+    names = [a.arg for a in inits[0].args.args[1:]]
+    places = [names[at] for at, v in enumerate(calls[0].args[: len(names)]) if dotted(v) in nodes]
+    places += [k.arg for k in calls[0].keywords if k.arg in names and dotted(k.value) in nodes]
+    return places[0] if len(places) == 1 else ""
 
 
 def _is_node_method(part: ast.AST) -> TypeGuard[ast.Attribute]:
@@ -213,7 +231,7 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         helper = False
     if owner is not None and helper and name in NODE_METHODS:
         found = raised.finding("attribute_not_set", name=name)
-        words = {**found.words, "type": owner[0].name, "parameter": _node_of_init(owner[0])}
+        words = {**found.words, "type": owner[0].name, "parameter": _node_of_init(raised, owner[0])}
         return replace(
             found, variant="no_node_kept" if words["parameter"] else "no_node", words=words
         )
@@ -221,7 +239,8 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         params = {"name": f"self.{name}", "written": f"{held}.{name}"}
         found = raised.finding("attribute_not_set", params=params)
         return replace(found, variant="held", words={**found.words, "held": held})
-    elsewhere = _set_elsewhere(raised, name)
+    ways = (_deleted, _set_elsewhere, _set_in_base, _set_in_heir, _without_self)
+    elsewhere = next(filter(None, (way(raised, name) for way in ways)), None)
     if elsewhere is not None:
         return elsewhere
     for timer in raised.source.timers:
@@ -352,6 +371,89 @@ def _set_elsewhere(raised: Raised, name: str) -> RecognisedMistake | None:
     plain = len(method.args.args) == 1 and not method.decorator_list
     uncalled = method.name not in named and plain and here[0] is raised.source.node_class
     return replace(found, variant="set_by_uncalled" if uncalled else "set_later", words=words)
+
+
+def _deleted(raised: Raised, name: str) -> RecognisedMistake | None:
+    """A line deletes the attribute: what reads it afterwards finds none."""
+    for node in raised.source.own_nodes:
+        if isinstance(node, ast.Delete) and f"self.{name}" in map(dotted, node.targets):
+            found = raised.finding("attribute_not_set", name=name)
+            words = {**found.words, "line": str(node.lineno)}
+            return replace(found, words=words, variant="deleted")
+    return None
+
+
+def _without_self(raised: Raised, name: str) -> RecognisedMistake | None:
+    """A parameter or a variable of __init__, or a name of the file, has the name of the attribute."""
+    module, own = raised.module, f"self.{name}"
+    here = class_of(module, function_at(module, raised.line))
+    if here is None or here[0] not in raised.source.family:
+        return None
+    init = next((s for s in here[0].body if isinstance(s, Function) and s.name == "__init__"), None)
+    inside = list(ast.walk(init)) if init is not None else []
+    if init is not None and any(a.arg == name for a in (*init.args.args, *init.args.kwonlyargs)):
+        found = raised.finding("attribute_not_set", name=name, written=f"{own} = {name}")
+        return replace(found, variant="parameter")
+    sets = [n for n in inside if isinstance(n, ast.Assign) and list(targets_of(n)) == [name]]
+    read = any(
+        isinstance(n, ast.Name) and n.id == name and isinstance(n.ctx, ast.Load) for n in inside
+    )
+    if len(sets) == 1 and not read:
+        params = {"name": name, "written": own}
+        found = raised.finding("attribute_not_set", at=sets[0], params=params)
+        return replace(found, variant="local", words={**found.words, "line": str(raised.line)})
+    tops = [s for s in module.tree.body if isinstance(s, ast.Assign) and name in targets_of(s)]
+    stored = any(own in targets_of(n) for n in module.nodes)
+    if len(tops) != 1 or stored:
+        return None
+    found = raised.finding("attribute_not_set", params={"name": own, "written": name})
+    return replace(found, variant="of_file", words={**found.words, "line": str(tops[0].lineno)})
+
+
+def _set_in_heir(raised: Raised, name: str) -> RecognisedMistake | None:
+    """The __init__ of a class that inherits from this one sets the attribute, but later."""
+    here = class_of(raised.module, function_at(raised.module, raised.line))
+    if here is None or here[0] not in raised.source.family:
+        return None
+    for heir in raised.source.family:
+        if here[0].name not in [last_part(dotted(base)) for base in heir.bases]:
+            continue
+        inits = [s for s in heir.body if isinstance(s, Function) and s.name == "__init__"]
+        sets = [n for i in inits for n in ast.walk(i) if _sets(raised.module, n, f"self.{name}")]
+        if not sets:
+            continue
+        rows = ", ".join(str(row) for row in sorted({getattr(part, "lineno", 0) for part in sets}))
+        found = raised.finding("attribute_not_set", params={"name": name, "lines": rows})
+        words = {**found.words, "type": heir.name}
+        return replace(found, words=words, variant="set_in_heir")
+    return None
+
+
+def _set_in_base(raised: Raised, name: str) -> RecognisedMistake | None:
+    """The __init__ of an own base class sets the attribute, and the class does not call it."""
+    here = class_of(raised.module, function_at(raised.module, raised.line))
+    call = raised.source.super_init
+    if here is None or call is None or here[0] not in raised.source.family:
+        return None
+    for base in here[0].bases:
+        owners = [c for c in raised.source.family if c.name == last_part(dotted(base))]
+        for init in (s for c in owners for s in c.body if isinstance(s, Function)):
+            sets = [n for n in ast.walk(init) if _sets(raised.module, n, f"self.{name}")]
+            if init.name != "__init__" or not sets or dotted(call.func) == "super().__init__":
+                continue
+            if dotted(call.func) == f"{owners[0].name}.__init__":
+                continue
+            code, values = raised.module.text.code, call.args[1:]
+            given = ", ".join([*map(code, values), *map(code, call.keywords)])
+            params = {"name": code(call), "written": f"super().__init__({given})"}
+            found = raised.finding("attribute_not_set", at=call, params=params)
+            words = {
+                "attribute": name,
+                "type": owners[0].name,
+                "line": str(getattr(sets[0], "lineno", 0)),
+            }
+            return replace(found, variant="base_skipped", words={**found.words, **words})
+    return None
 
 
 def _sets(module: Module, part: ast.AST, name: str) -> bool:
@@ -722,7 +824,9 @@ KINDS = (
         links.PYTHON_CLASSES,
         close=msg("Write self.{close} instead of self.{name}."),
         fixes={
-            "annotated": msg("Write {written} instead of {name}."),
+            **dict.fromkeys(
+                ("annotated", "base_skipped"), msg("Write {written} instead of {name}.")
+            ),
             "private": msg(
                 "Write {written} instead of {name} in all lines of both classes: one underscore is enough."
             ),
@@ -738,6 +842,7 @@ KINDS = (
                 "Write {written} instead of {name}. Do the same wherever self. stands before another "
                 "method of the node."
             ),
+            "deleted": msg("Delete self.{name} from line {line}, or the whole line."),
             "dot": msg("A dot is missing. Write {written} instead of {name}."),
             "period": msg(
                 "Write the period in seconds instead of self.{name}: {written}. Or write self.{name} "
@@ -751,6 +856,13 @@ KINDS = (
                 "See why Python did not run line {lines} before this line: it may be further down, "
                 "in a branch or a loop that was not entered, or in a function that was not called. "
                 "Move it to where it always runs first, as a rule to the beginning of __init__."
+            ),
+            "parameter": msg("Write in __init__, above the line that creates the timer: {written}"),
+            "local": msg("Write {written} instead of {name} on that line."),
+            "of_file": msg("Write {written} instead of {name}."),
+            "set_in_heir": msg(
+                "Give self.{name} its value before this line can run: above the call of super().__init__() "
+                "in {type}, or in the class that has this line."
             ),
             "set_again": msg(
                 "Set self.{name} in __init__ too, above the line that creates the timer: "
@@ -795,6 +907,29 @@ KINDS = (
             "private": msg(
                 "A name that begins with two underscores belongs to its class alone. The class {type} sets "
                 "{name}, and a class that inherits from it does not see that attribute."
+            ),
+            "parameter": msg(
+                "{name} is a parameter of __init__, which is known only inside of __init__. self.{name} does not "
+                "exist until a line assigns to it."
+            ),
+            "local": msg(
+                "Without self., {name} is a variable of __init__ alone. Line {line} reads {written}, which no line "
+                "sets."
+            ),
+            "of_file": msg(
+                "Line {line} sets {written} outside of the class. A name of the file is used without self."
+            ),
+            "set_in_heir": msg(
+                "self.{name} does not exist until a line assigns to it. Line {lines} does so, in the "
+                "__init__ of {type}, but had not run for this object when Python came to this line."
+            ),
+            "deleted": msg(
+                "Line {line} deletes self.{name}: del takes away the attribute, and not only its value. "
+                "Then self.{name} does not exist until a line assigns to it again."
+            ),
+            "base_skipped": msg(
+                "Line {line}, in the __init__ of {type}, sets self.{attribute}. This line calls the __init__ of "
+                "another class, so that of {type} does not run."
             ),
             "no_node": NO_NODE,
             "no_node_kept": NO_NODE,
@@ -985,6 +1120,10 @@ KINDS = (
         links.RCLPY,
         close=msg("Write {close} instead of {name}."),
         whys={
+            "written": msg(
+                "What stands before the dot has nothing of that name. Here it is meant in another way than "
+                "{name}."
+            ),
             "function": OF_FILE,
             "function_more": OF_FILE,
             "parameter": msg(

@@ -49,7 +49,8 @@ def _takes_none(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
         return None
     params = {"name": made.name, "line": str(made.lineno)}
     meant = {name: m for name, m in methods.items() if len(m.args.args) > 1}
-    near = nearest("__init__", meant, cutoff=0.7)
+    plain = next((name for name in meant if name.strip("_") == "init"), "")
+    near = plain or nearest("__init__", meant, cutoff=0.7)
     if near:
         found = raised.finding("class_takes_nothing", at=meant[near], method=near, params=params)
         return replace(found, variant="near")

@@ -51,6 +51,14 @@ def _variable(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return None
     if name not in {"node", *source.node_variables, *spun_names(source)}:
         return None
+    own = {c.name for c in source.family}
+    made = {
+        last_part(dotted(n.value.func))
+        for n in source.all_nodes
+        if isinstance(n, ast.Assign) and isinstance(n.value, ast.Call) and name in targets_of(n)
+    }
+    if made and made <= source.known_classes - own:
+        return None  # (the object of another class)
     return raised.finding("variable_for_self", name=name)
 
 
@@ -228,9 +236,17 @@ def _text_replaced(suspect: Suspect) -> RecognisedMistake | None:
         if place is None or place.line is None:
             continue
         inside = found[-1].lineno <= place.line <= (found[-1].end_lineno or found[-1].lineno)
+        if _logged_in(found[-1]) == _logged_in(found[-2]):
+            continue  # (the text is wrong in both)
         if inside and place.file == source.module_of(found[-1]).path and source.logs(found[-2]):
             return _second(suspect, found)
     return None
+
+
+def _logged_in(method: ast.FunctionDef) -> list[str]:
+    """Return the values that a method gives to the logger, as code."""
+    calls = [call for call, name in calls_in(method) if last_part(name) in LOG_METHODS]
+    return [ast.unparse(part) for call in calls for part in call.args]
 
 
 def _log_replaced(suspect: Suspect) -> RecognisedMistake | None:
@@ -281,6 +297,8 @@ def _class_replaced(suspect: Suspect) -> RecognisedMistake | None:
         tops = [s for s in module.tree.body if isinstance(s, ast.ClassDef)]
         for own in suspect.source.family:
             same = [s for s in tops if s.name == own.name]
+            if len(same) > 1 and ast.dump(same[-1]) == ast.dump(same[-2]):
+                continue  # (the mistake is in both)
             if len(same) > 1 and own in same:
                 line = same[-2].lineno
                 return suspect.finding("class_twice", same[-1], name=own.name, line=line)

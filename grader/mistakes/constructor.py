@@ -33,9 +33,10 @@ from grader.package.edit.text import Splice
 from grader.package.edit.tree import Replace, Write
 from grader.package.source.counter import targets_of
 from grader.package.source.imported import full_name
+from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
-from grader.package.source.place import function_at, statement_at
+from grader.package.source.place import block_of, function_at, statement_at
 
 NODES = ("rclpy.node.Node", "rclpy.Node")
 PRIVATE = r"AttributeError: '(?P<type>\w{1,120})' object has no attribute '(?P<name>_\w{1,120})'"
@@ -91,7 +92,7 @@ def _is_class(raised: Raised, name: str) -> bool:
     return name in raised.source.known_classes or last_part(name) in raised.source.class_names
 
 
-def _not_a_node(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+def _not_a_node(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """The class, or the own class that it inherits from, does not inherit from Node."""
     del match
     around = function_at(raised.module, raised.line)
@@ -100,7 +101,38 @@ def _not_a_node(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         found = raised.source.node_class
     if found is None:
         return raised.finding("not_a_node", name=CLASS, written=f"class {CLASS}(Node):")
-    return _without_node(raised, node_life.root_of(raised.module, found))
+    root = node_life.root_of(raised.module, found)
+    return None if _is_beside_a_node(raised, root) else _without_node(raised, root)
+
+
+def _is_beside_a_node(raised: Raised, found: ast.ClassDef) -> bool:
+    """Whether a class is a helper beside the node's class, which inherits from Node already."""
+    node, source = raised.source.node_class, raised.source
+    if node is None or found is node:
+        return False
+    root = node_life.root_of(source.module, node)
+    is_node = any(
+        full_name(source.module, base) in NODES or dotted(base) == "Node" for base in root.bases
+    )
+    return is_node and found is not root
+
+
+def _value_for_object(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A helper class without a base passes a value to super().__init__()."""
+    del match
+    around = function_at(raised.module, raised.line)
+    owner = raised.module.parents.get(around) if around is not None else None
+    plain = isinstance(owner, ast.ClassDef) and all(dotted(b) == "object" for b in owner.bases)
+    if not isinstance(owner, ast.ClassDef) or not plain or not _is_beside_a_node(raised, owner):
+        return None
+    calls = [c for c, name in calls_in(around) if name == "super().__init__"] if around else []
+    calls = [c for c in calls if raised.line in lines_of(c) and (c.args or c.keywords)]
+    if len(calls) != 1:
+        return None
+    code = raised.module.text.code(calls[0])
+    params = {"name": code, "written": "super().__init__()"}
+    found = raised.finding("value_for_object", at=calls[0], params=params)
+    return replace(found, words={**found.words, "type": owner.name})
 
 
 def _init_of_other(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -162,7 +194,20 @@ def _underscores(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
         return None
     found = raised.finding("init_underscores", at=methods[near], name=near)
     called = [name for _, name in calls_in(methods[near])]
-    return replace(found, variant="super") if f"super().{near}" in called else found
+    if f"super().{near}" in called:
+        return replace(found, variant="super")
+    if near.strip("_") == "init" or nearest("__init__", [near], cutoff=0.7):
+        return found
+    return _init_of_other_name(raised, methods[near])
+
+
+def _init_of_other_name(raised: Raised, method: Function) -> RecognisedMistake:
+    """Another method than __init__ calls the __init__ of Node, and lines may call this method."""
+    calls = [c for c, name in raised.source.calls if last_part(name) == method.name]
+    rows = ", ".join(str(row) for row in sorted({call.lineno for call in calls}))
+    params = {"name": method.name, **({"lines": rows} if calls else {})}
+    found = raised.finding("init_other_name", at=method, params=params)
+    return replace(found, variant="" if calls else "uncalled")
 
 
 def _never_runs(suspect: Suspect) -> RecognisedMistake | None:
@@ -172,7 +217,8 @@ def _never_runs(suspect: Suspect) -> RecognisedMistake | None:
     makers = [m.name for m in source.own_methods if _calls_super(m)]
     near = _near_init(methods, cutoff=0.7)
     near = near or (makers[0] if len(makers) == 1 and "__init__" not in methods else "")
-    called = [last_part(name) for _, name in source.calls if "super" not in name]
+    others = ("super", "rclpy.")
+    called = [last_part(name) for _, name in source.calls if not name.startswith(others)]
     if own is None or not near or near in called:
         return None
     if not any(last_part(name) == "create_timer" for _, name in calls_in(methods[near])):
@@ -199,6 +245,29 @@ def _with_init(case: Case) -> Files | None:
     if len(method.args.args) == 1:
         splices += [text.swap(call, f"{text.code(call.func)}()") for call in made]
     return case.changed(module, *splices)
+
+
+def _renamed_to_init(case: Case) -> Files | None:
+    """Rename the method to __init__, and delete the only line that calls it."""
+    node, name = case.node, str(case.finding.params.get("name", ""))
+    method = node.method(name) if node is not None and name else None
+    if node is None or method is None:
+        return None
+    module = node.module_of(method)
+    head = def_renamed(module, method, "__init__")
+    calls = [c for c, called in node.calls if last_part(called) == name]
+    if head is None or len(calls) > 1 or not all(map(module.has, calls)):
+        return None
+    rows = []
+    for call in calls:
+        statement = module.parents.get(call)
+        if not isinstance(statement, ast.Expr) or call.args or call.keywords:
+            return None
+        own = lines.own_lines(module, statement)
+        if own is None or len(block_of(module, statement)) < 2:
+            return None
+        rows += [module.text.without(row) for row in own]
+    return case.changed(module, head, *rows)
 
 
 def _misspelt_init(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -245,12 +314,82 @@ def _calls_super(method: ast.AST) -> bool:
     return any(name == "super().__init__" for _, name in calls_in(method))
 
 
-def _without_name(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+def _plain_made(raised: Raised) -> ast.Call | None:
+    """Return the call of Node itself on the line of the error; None if there is none."""
+    statement = statement_at(raised.module, raised.line)
+    for call, name in calls_in(statement) if statement is not None else ():
+        if full_name(raised.module, call.func) in NODES and not name.endswith("__init__"):
+            return call
+    return None
+
+
+def _without_name_of_plain(raised: Raised, call: ast.Call) -> RecognisedMistake | None:
+    """Node() is called by itself: the class of the student is meant, or the name is missing."""
+    source, code = raised.source, raised.module.text.code
+    init = source.methods.get("__init__")
+    own = source.node_class is not None and init is not None and not source.makes_node()
+    if own and len(init.args.args) - len(init.args.defaults) > 1 if init is not None else False:
+        own = False
+    if call.args or call.keywords or "\n" in code(call):
+        return replace(raised.finding("super_without_name"), variant="plain_named")
+    name = f"{raised.module.text.quote}{raised.assignment.node_name}{raised.module.text.quote}"
+    written = f"{code(call.func)}({name})"
+    if own and source.node_class is not None:
+        written = f"{source.node_class.name}()"
+    params = {"name": code(call), "written": written}
+    found = raised.finding("super_without_name", at=call, params=params)
+    made = source.node_class.name if own and source.node_class is not None else ""
+    return replace(
+        found, words={**found.words, "made": made}, variant="plain_class" if own else "plain"
+    )
+
+
+def _without_name_in_other(raised: Raised) -> RecognisedMistake | None:
+    """The name is missing in the __init__ of a base class, or the class has no __init__ at all."""
+    source, module = raised.source, raised.module
+    around = function_at(module, raised.line)
+    statement = statement_at(module, raised.line)
+    calls = [
+        c
+        for c, name in (calls_in(statement) if statement is not None else ())
+        if name == "super().__init__" and not c.args and not c.keywords
+    ]
+    if len(calls) == 1 and around is not None and around.name == "__init__":
+        passed = around.args.args[1:2]
+        if not passed or len(around.args.args) > 2:
+            return replace(raised.finding("super_without_name", at=calls[0]), variant="here_open")
+        params = {
+            "name": module.text.code(calls[0]),
+            "written": f"super().__init__({passed[0].arg})",
+        }
+        found = raised.finding("super_without_name", at=calls[0], params=params)
+        return replace(
+            found, variant="here_parameter", words={**found.words, "parameter": passed[0].arg}
+        )
+    own = source.node_class
+    made = [
+        c for c, _ in (calls_in(statement) if statement else ()) if source.is_node_class(c.func)
+    ]
+    if own is None or not made or any("__init__" in _names_of(c) for c in source.family):
+        return None
+    found = raised.finding("super_without_name", at=own)
+    return replace(found, variant="no_init", words={**found.words, "type": own.name})
+
+
+def _names_of(owner: ast.ClassDef) -> set[str]:
+    """Return the names of the methods of a class."""
+    return {s.name for s in owner.body if isinstance(s, ast.FunctionDef | ast.AsyncFunctionDef)}
+
+
+def _without_name(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """Return that no name is passed; through the class, the first argument is self."""
     del match
     found, call = raised.finding("super_without_name"), raised.source.super_init
+    plain = _plain_made(raised)
+    if plain is not None:
+        return _without_name_of_plain(raised, plain)
     if call is None or raised.line not in lines_of(call):
-        return found
+        return _without_name_in_other(raised) or found
     if not call.args:
         return replace(found, variant="here")
     if not dotted(call.func).endswith("Node.__init__"):
@@ -311,7 +450,25 @@ def _super_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
         return None
     init = raised.source.methods.get("__init__")
     inside = init is not None and raised.line in range(init.lineno, (init.end_lineno or 0) + 1)
+    elsewhere = _super_elsewhere(raised)
+    if elsewhere is not None:
+        method, call = elsewhere
+        found = raised.finding("super_late", at=call)
+        words = {**found.words, "method": method.name, "name": raised.module.text.code(call)}
+        return replace(found, words=words, variant="method")
     return raised.finding("super_missing", at=None if inside else init)
+
+
+def _super_elsewhere(raised: Raised) -> tuple[Function, ast.Call] | None:
+    """Return the method besides __init__ that calls the __init__ of Node, and this call."""
+    for owner in raised.source.family:
+        for method in owner.body:
+            if not isinstance(method, Function) or method.name == "__init__":
+                continue
+            for call, name in calls_in(method):
+                if name == "super().__init__" or name.endswith("Node.__init__"):
+                    return method, call
+    return None
 
 
 def _super_late(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -529,6 +686,38 @@ KINDS = (
         ),
     ),
     _node(
+        "init_other_name",
+        "class",
+        msg("The class has no __init__: another method sets up the node"),
+        msg(
+            "Python calls only __init__ when an object is created. The class has none, so Python calls that "
+            "of Node, and Node gets no name. {name} would give it one, and has not run yet."
+        ),
+        msg(
+            "Write __init__ instead of {name} in this line, with two underscores on both sides. Delete the "
+            "call of {name} (lines: {lines}): Python calls __init__ by itself."
+        ),
+        fixes={
+            "uncalled": msg(
+                "Write __init__ instead of {name} in this line, with two underscores on both sides."
+            )
+        },
+        fixed_by=(_renamed_to_init,),
+    ),
+    _node(
+        "value_for_object",
+        "class",
+        msg("A class without a base class passes a value to super().__init__()"),
+        msg(
+            "The class {type} inherits from no other class. super() is Python's plain object there, and "
+            "its __init__ takes no value."
+        ),
+        msg("Write {written} instead of {name}, or delete this line."),
+        links.PYTHON_CLASSES,
+        raised={r"object\.__init__\(\) takes exactly one argument": _value_for_object},
+        fixed_by=(lines.written,),
+    ),
+    _node(
         "init_underscores",
         "class",
         msg("The class has no __init__, but a method that looks like it"),
@@ -741,6 +930,16 @@ KINDS = (
             "line": msg(
                 "Move this line to the first line of __init__: line {line} already uses the node, "
                 "which super().__init__('{node_name}') sets up."
+            ),
+            "method": msg(
+                "Write super().__init__('{node_name}') as the first line of __init__, and delete {name} "
+                "in {method}."
+            ),
+        },
+        whys={
+            "method": msg(
+                "Node.__init__ sets up what timers, the logger and publishers need. Your class calls it "
+                "only in {method}, and had not done so when the node was used."
             )
         },
         raised={PRIVATE: _super_late},
@@ -768,8 +967,31 @@ KINDS = (
         msg("A node needs a name: ros2 node list and the log show it."),
         SUPER,
         seen=r"TypeError: Node\.__init__\(\) missing 1 required positional argument: 'node_name'",
-        whys={"on_class": ON_CLASS, "on_class_only": ON_CLASS},
+        whys={
+            "on_class": ON_CLASS,
+            "on_class_only": ON_CLASS,
+            "no_init": msg(
+                "The class {type} has no __init__, so Python calls that of Node, which needs the node's "
+                "name."
+            ),
+            "plain_class": msg(
+                "{name} creates a node without the timer and the callback of your class, and gives it no "
+                "name. Python runs the code of a class only for its objects."
+            ),
+        },
         fixes={
+            "no_init": msg(
+                "Give {type} a def __init__(self): with super().__init__('{node_name}') as its first line. "
+                "What the node needs at its start belongs below that line."
+            ),
+            **dict.fromkeys(
+                ("plain", "plain_class", "here_parameter"),
+                msg("Write {written} instead of {name}."),
+            ),
+            "plain_named": msg("Pass the name as the first value in this line: '{node_name}'"),
+            "here_open": msg(
+                "Pass the name in this line: write it into the () of super().__init__()."
+            ),
             **dict.fromkeys(
                 ("on_class_only", "self_alone"), msg("Write {written} instead of {name}.")
             ),

@@ -32,7 +32,8 @@ def _again(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return None
     if name not in OF_EACH and len(calls) < 2:
         return None
-    first = min(calls, key=lambda c: c.lineno)
+    others = [c for c in calls if c is not here[0]]
+    first = min(others or here, key=lambda c: c.lineno)
     params = {"name": name, "line": str(first.lineno)}
     alone = isinstance(module.parents.get(here[0]), ast.Expr)
     written = f"self.get_parameter('{name}')"

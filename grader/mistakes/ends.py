@@ -17,7 +17,6 @@ from grader.mistakes.callback import never_ends_in
 from grader.mistakes.kind import Family
 from grader.mistakes.order import attribute_needed_early
 from grader.mistakes.recognised import OWN_ATTRIBUTE, Raised, RecognisedMistake, Suspect
-from grader.package.source.counter import starts_of
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
@@ -264,8 +263,7 @@ def _replaced(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     for node in raised.source.own_nodes:
         if isinstance(node, ast.Attribute) and node.attr == part:
             whole = dotted(node.value)
-            number = whole in starts_of(raised.source) and not raised.interfaces
-            if whole in targets and not number:
+            if whole in targets and _is_number_for_part(raised, targets[whole]):
                 return raised.finding("field_replaced", at=targets[whole], name=f"{whole}.{part}")
     for whole, node in targets.items():
         value = node.value
@@ -273,6 +271,15 @@ def _replaced(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         if is_number and part in ("x", "y", "z", "w") and "." in whole:
             return raised.finding("field_replaced", at=node, name=f"{whole}.{part}")
     return None
+
+
+def _is_number_for_part(raised: Raised, set_by: ast.Assign) -> bool:
+    """Whether a line can set a part of a message, and gives it a number or another plain value."""
+    whole, value = set_by.targets[0], set_by.value
+    known = bool(raised.interfaces) and isinstance(whole, ast.Attribute)
+    text = isinstance(value, ast.Constant) and isinstance(value.value, str)
+    own = isinstance(whole, ast.Attribute) and dotted(whole.value) == "self"
+    return known and not own and not text and not isinstance(value, ast.JoinedStr)
 
 
 def _field_type(raised: Raised, match: re.Match[str]) -> RecognisedMistake:

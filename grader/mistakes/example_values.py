@@ -381,6 +381,8 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.waits_at_end": {"name": "input()", "loop": "while", "line": "31-32"},
     "node.timer_cancelled": {"name": "self.timer.cancel()", "method": "check"},
     "node.timer_reset": {"name": "self.timer.reset()", "method": "check"},
+    "node.init_other_name": {"name": "setup", "lines": "23"},
+    "node.value_for_object": {"type": "Counter"},
     "node.spun_twice": {"line": "28", "lines": "25, 26"},
     "node.needs_ros": {"name": "node.create_rate()", "line": "31-32"},
     "node.sleeps_beside_spin": {"wanted": "rclpy.spin(node)", "loop": "while", "line": "24-26"},

@@ -34,6 +34,12 @@ OTHER_PACKAGES = (
     *("action_msgs", "std_srvs", "cv_bridge", "cv2", "tf_transformations", "nav2_msgs"),
 )
 """Packages that exist, but may not be installed: their names are not misspelt."""
+LIBRARIES = (
+    *("numpy", "pandas", "scipy", "matplotlib", "requests", "serial", "PIL", "pygame", "torch"),
+    *("tensorflow", "sklearn", "colorama", "termcolor", "loguru", "schedule", "pynput", "rich"),
+    *("transforms3d", "keyboard", "smbus", "RPi", "pydantic", "tqdm"),
+)
+"""Libraries for Python that are no part of it."""
 RCLPY = ("init", "spin", "spin_once", "shutdown", "try_shutdown", "ok", "create_node", "logging")
 IMPORTS = {
     "Node": "from rclpy.node import Node",
@@ -83,6 +89,8 @@ HOMES = {
     **{"Rate": "rclpy.timer", "Future": "rclpy.task", "LoggingSeverity": "rclpy.logging"},
 }
 """The modules of rclpy in which its names are."""
+OF_SEVERAL = ("Timer", "Time", "Rate", "Future")
+"""Names that Python's modules or messages have too, or that a node does not need."""
 NAMES_OF_ROS = (
     *("create_timer", "create_node", "create_publisher", "create_subscription", "create_service"),
     *("create_client", "create_rate", "destroy_node", "destroy_timer", "get_logger", "get_clock"),
@@ -148,11 +156,13 @@ def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return part
     unused = node_names.unused_import(raised.module, raised.line)
     close = nearest(name, (*MODULES, *sys.stdlib_module_names), cutoff=0.75)
-    if head in OTHER_PACKAGES:
+    if head in (*OTHER_PACKAGES, *LIBRARIES):
         close = ""
     if head in OTHER_CLIENTS:
         close = "" if unused and raised.source.uses_ros else f"rclpy{dot}{tail}"
     found = raised.finding("import_misspelt", name=name, close=close)
+    if head in (*OTHER_PACKAGES, *LIBRARIES) and not unused:
+        return replace(found, variant="not_installed")
     return replace(found, variant="unused") if unused and not close else found
 
 
@@ -290,6 +300,15 @@ def _of_the_lesson(raised: Raised, name: str) -> str:
     return ""
 
 
+def _of_ros(name: str) -> str:
+    """Return the import of a common message, or of a class of rclpy; "" if several can be meant."""
+    homes = [module for module, names in INTERFACES.items() if name in names]
+    if len(homes) == 1 and name != "Empty":
+        return f"from {homes[0]} import {name}"
+    home = HOMES.get(name, "") if name not in OF_SEVERAL else ""
+    return f"from {home} import {name}" if home else ""
+
+
 def _for_checkers(raised: Raised, name: str) -> RecognisedMistake | None:
     """Look for the import of a name below `if TYPE_CHECKING:`."""
     for block in (s for s in raised.module.tree.body if isinstance(s, ast.If)):
@@ -306,7 +325,7 @@ def _for_checkers(raised: Raised, name: str) -> RecognisedMistake | None:
 
 def _not_imported(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name = match["name"]
-    statement = IMPORTS.get(name) or _of_the_lesson(raised, name)
+    statement = IMPORTS.get(name) or _of_the_lesson(raised, name) or _of_ros(name)
     imports = [n for n in raised.module.nodes if isinstance(n, ast.ImportFrom)]
     of_it = [n for n in imports if n.module == name]
     if (checked := _for_checkers(raised, name)) is not None:
@@ -643,7 +662,7 @@ KINDS = (
     _node(
         "import_misspelt",
         "start",
-        msg("An import names a module that does not exist"),
+        msg("An import names a module that Python does not find"),
         msg(
             "Python looks for a module with exactly that name, and ends the program if there is "
             "none."
@@ -663,10 +682,20 @@ KINDS = (
             ),
             "used": msg("Write {close} instead of {name}, here and in other lines: {lines}."),
             "unused": msg("Delete this line: {name} is not installed here, and no line uses it."),
+            "not_installed": msg(
+                "Write the node without {name}: the exercise does not need it. Delete this line, and replace "
+                "what uses {name} in other lines."
+            ),
             "class": msg(
                 "Write: {written}. After a plain import, only modules can be named; a class comes "
                 "after from … import."
             ),
+        },
+        whys={
+            "not_installed": msg(
+                "{name} is a package of its own, and it is not installed where this node was run. Python ends "
+                "the program at an import of a module that it does not find."
+            )
         },
         seen=r"ModuleNotFoundError: No module named '(?P<name>(?!rclpy')\w{1,120})'",
         raised={r"No module named '(?P<name>[\w.]{1,200})'": _no_module},

@@ -19,7 +19,7 @@ from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function, Module
-from grader.package.source.names import dotted, own_name
+from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import read_module
 from grader.package.source.place import function_at
 from grader.package.source.scopes import (
@@ -118,7 +118,8 @@ def _local(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     other_case = {n for n in visible_names(module, raised.line, name) if n.lower() == name.lower()}
     if other_case and here is None:
         return None  # (class A(node): the base Node is meant)
-    if class_of(module, here) is not None and name in {"node", *raised.source.node_variables}:
+    of_node = class_of(module, here) is not None and name in {"node", *raised.source.node_variables}
+    if of_node and not _is_of_other_class(raised, here, name):
         return None  # (there, self is the node)
     owners = {bound.scope for bound in found}
     owner = found[0].scope
@@ -146,6 +147,18 @@ def _local(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     words = {**mistake.words, "head": passed[0], "others": passed[1]} if passed else mistake.words
     called = here.name if isinstance(here, Function) else ""
     return replace(mistake, variant="pass" if passed else "", words={**words, "called": called})
+
+
+def _is_of_other_class(raised: Raised, here: Scope | None, name: str) -> bool:
+    """Whether a variable has an object of another class of the files than that of this method."""
+    own = class_of(raised.module, here)
+    family = {c.name for c in raised.source.family} | ({own[0].name} if own is not None else set())
+    made = {
+        last_part(dotted(n.value.func))
+        for n in raised.source.all_nodes
+        if isinstance(n, ast.Assign) and isinstance(n.value, ast.Call) and name in targets_of(n)
+    }
+    return bool(made) and made <= raised.source.known_classes - family
 
 
 def _is_of_timer(raised: Raised, owner: Function, here: Function, found: list[Bound]) -> bool:

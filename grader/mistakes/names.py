@@ -76,6 +76,8 @@ BLOCK_ENDS = (
 )
 """Words that end a block in MATLAB, shell, Basic, structured text and others."""
 
+OF_MODULE = ("init", "spin", "spin_once", "ok", "shutdown", "try_shutdown")
+"""Functions of rclpy's module, which a file calls through the module."""
 OF_ROS = ("spin", "spin_once", *NODE_METHODS)
 """Calls of ROS: an error that comes from inside of them is not about their own brackets."""
 
@@ -91,8 +93,10 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return joined
     if name in TYPES and (types := _as_type(raised, name)) is not None:
         return types
-    if (guard := _guard(raised, name) or _alias_of_rclpy(raised, name)) is not None:
-        return guard
+    ways_of_use = (_guard, _alias_of_rclpy, _name_of_node)
+    used = next(filter(None, (way(raised, name) for way in ways_of_use)), None)
+    if used is not None:
+        return used
     timers = [] if bindings(raised.module, name) else raised.source.timers
     if any(dotted(timer.period or timer.call) == name for timer in timers):
         return _period(raised, name)
@@ -121,6 +125,23 @@ def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return replace(found, variant="cut", words={**found.words, "written": whole[0]})
     found = raised.finding("name_unknown", name=name, close=close)
     return _instead(found) if close and nearest(name, [close], cutoff=MISSPELT) else found
+
+
+def _name_of_node(raised: Raised, name: str) -> RecognisedMistake | None:
+    """The node's name is a name that nothing defines, as of a parameter that is missing."""
+    call = raised.source.super_init
+    uses = [n for n in raised.module.nodes if isinstance(n, ast.Name) and n.id == name]
+    if (
+        call is None
+        or len(uses) != 1
+        or uses[0] not in call.args[:1]
+        or bindings(raised.module, name)
+    ):
+        return None
+    quote = raised.module.text.quote
+    written = f"{quote}{raised.assignment.node_name}{quote}"
+    found = raised.finding("name_unknown", name=name, written=written)
+    return replace(found, variant="node_name")
 
 
 def _alone(raised: Raised, name: str) -> RecognisedMistake:
@@ -167,11 +188,11 @@ def _of_module(raised: Raised, name: str) -> str | None:
 
 
 def _of_rclpy(module: Module, name: str) -> str | None:
-    """Return a function of rclpy with the name by which the file knows rclpy, if that is another."""
-    known = [bound for bound, full, _ in imports(module) if full == "rclpy" and bound != "rclpy"]
+    """Return a function of rclpy with the name by which the file knows rclpy."""
+    known = [bound for bound, full, _ in imports(module) if full == "rclpy"]
     uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
     called = any(isinstance(module.parents.get(use), ast.Call) for use in uses)
-    return f"{known[0]}.{name}" if known and called and name in ("init", "spin", "ok") else None
+    return f"{known[0]}.{name}" if known and called and name in OF_MODULE else None
 
 
 def _alias_of_rclpy(raised: Raised, name: str) -> RecognisedMistake | None:
@@ -280,7 +301,9 @@ def _known(raised: Raised, name: str) -> set[str]:
     if not uses:
         return {*module.names, *imported, *dir(builtins)}
     if any(_is_called(module.parents.get(use), use) for use in uses):
-        return {*made, *imported, *dir(builtins)}
+        modules = {n for n, line in IMPORTS.items() if line.startswith("import ")}
+        modules |= {b for b, full, s in imports(module) if isinstance(s, ast.Import) and b == full}
+        return {*made, *(imported - modules), *dir(builtins)}
     return {*(module.names - made), *imported} - {"Node"}
 
 
@@ -313,7 +336,8 @@ def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         words = {"name": function, "written": f"self.{function}", "function": function}
         found = raised.finding("argument_missing", at=outside[0].call)
         return replace(found, variant="outside", words={**found.words, **words})
-    if (of_timer := _timer_without_object(raised, match)) is not None:
+    of_timer = _timer_without_object(raised, match) or _function_of_timer(raised, match)
+    if of_timer is not None:
         return of_timer
     if match["name"] == "self" and "." in match["function"]:
         return _through_object(raised, match["function"]) or replace(found, variant="class")
@@ -355,6 +379,30 @@ def _timer_without_object(raised: Raised, match: re.Match[str]) -> RecognisedMis
     found = raised.finding("argument_missing", at=timers[0], params={"name": code})
     words = {**found.words, "function": match["function"], "method": method}
     return replace(found, variant="of_timer", words=words)
+
+
+def _function_of_timer(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A timer calls a function of the file, which needs a value: a timer passes none."""
+    at = raised.module.functions.get(match["function"])
+    timers = [
+        t
+        for t in raised.source.timers
+        if t.callback is not None and dotted(t.callback) == match["function"]
+    ]
+    calls = [c for c, name in raised.source.calls if name == match["function"]]
+    if at is None or len(timers) != 1 or any(raised.line in lines_of(c) for c in calls):
+        return None
+    found = raised.finding("argument_missing", at=timers[0].call)
+    module = raised.source.module_of(timers[0].call)
+    node = node_here(raised.source, module, timers[0].call.lineno)
+    least = len(at.args.args) - len(at.args.defaults)
+    words = {**found.words, "name": match["name"], "function": match["function"]}
+    if least != 1 or not node:
+        return replace(found, variant="of_timer_values", words=words)
+    params = {"name": match["function"], "written": f"lambda: {match['function']}({node})"}
+    found = raised.finding("argument_missing", at=timers[0].call, params=params)
+    words = {**found.words, "parameter": match["name"], "function": match["function"], "node": node}
+    return replace(found, variant="of_timer_node", words=words)
 
 
 def _spin_without_node(raised: Raised, found: RecognisedMistake) -> RecognisedMistake:
@@ -549,6 +597,9 @@ KINDS = (
             "notebook": msg(
                 "Delete this line, and every other line that calls {name}(): the node does not need "
                 "them."
+            ),
+            "node_name": msg(
+                "Write {written} instead of {name} on this line: it is the name that the node gets."
             ),
             "period": msg("Write the period in seconds instead of {name}: {written}"),
             "period_named": msg(
@@ -801,6 +852,14 @@ KINDS = (
                 "its methods. Write {written} instead of {name} on this line."
             ),
             "class_object": msg("Write {written} instead of {name}."),
+            "of_timer_node": msg(
+                "If {parameter} is the node, write {written} instead of {name} in this line: then the timer "
+                "calls {function} with the node."
+            ),
+            "of_timer_values": msg(
+                "Give each parameter of {function} a default in its def. Or write lambda: {function}(…) "
+                "instead of {function} in this line, with a value for each parameter in its ()."
+            ),
             "of_timer": msg(
                 "Write self.{method} instead of {name}. If {name} can be several functions, write "
                 "functools.partial({name}, self), and import functools at the top of the file."
@@ -816,6 +875,13 @@ KINDS = (
         },
         whys={
             "class_object": ON_CLASS,
+            **dict.fromkeys(
+                ("of_timer_node", "of_timer_values"),
+                msg(
+                    "The timer that this line creates calls {function} without a value, and {function} has "
+                    "a parameter that needs one."
+                ),
+            ),
             "of_timer": msg(
                 "This line gives the timer {name}, and that is {function} as a function of the class: no "
                 "object belongs to it. Python passes self only if the method is read from an object, as in "

@@ -59,6 +59,8 @@ SHOWN = "|".join((*WORDS, *PRINTS))
 
 def _word(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name = match["name"]
+    if name == "String" and _is_message(raised, name):
+        return None
     if name in FUNCTIONS and re.search(rf"\b{name}\s*\(", raised.module.line(raised.line)):
         return raised.finding("other_language", name=name, close=FUNCTIONS[name])
     if name in WORDS:
@@ -69,6 +71,17 @@ def _word(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return None
     found = replace(raised.finding("other_language", name=name), variant="print")
     return _printed(raised, name) or found
+
+
+def _is_message(raised: Raised, name: str) -> bool:
+    """Whether a name is used as the class of a message: without a value, or not called at all."""
+    module = raised.module
+    uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
+    around = [(module.parents.get(use), use) for use in uses]
+    return any(
+        not isinstance(call, ast.Call) or call.func is not use or not call.args
+        for call, use in around
+    )
 
 
 def _printed(raised: Raised, name: str) -> RecognisedMistake | None:

@@ -318,7 +318,8 @@ KINDS = (
         ),
         msg(
             "Keep one def {name}: in this line, give the parameters that the call leaves out a default "
-            "(name=value). Then delete the def in line {line} with its block."
+            "(name=value). Move what you still need from the block of the def in line {line} into it, and "
+            "delete that def."
         ),
         fixes={
             "defaults": msg(

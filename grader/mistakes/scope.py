@@ -24,6 +24,8 @@ NODE_METHODS = (
     *("create_subscription", "create_service", "create_client", "declare_parameter"),
     *("get_parameter", "destroy_timer", "create_rate", "get_namespace"),
 )
+OF_PARAMETERS = ("name", "node_name", "NAME", "NODE_NAME")
+"""What programs call the value that is the node's name."""
 CALLBACK = '''\
     def timer_callback(self):
         """Say hello once; the timer calls this for as long as the node spins."""
@@ -58,6 +60,8 @@ def _quotes(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return replace(found, variant="written")
     if not places:
         return None
+    if name in OF_PARAMETERS:
+        return None  # (a parameter is missing, and not the quotes)
     found = raised.finding("quotes_missing", at=places[0], name=name)
     return replace(found, variant="guard") if name == "__main__" else found
 
@@ -222,7 +226,12 @@ def _callback_outside(raised: Raised, match: re.Match[str]) -> RecognisedMistake
         return None
     if at.args.args and at.args.args[0].arg != "self" and _is_called(raised, name):
         return None  # (a function for which self is too much)
-    return raised.finding("callback_outside", at=at, name=name)
+    found, first = raised.finding("callback_outside", at=at, name=name), at.args.args[:1]
+    if first and first[0].arg != "self":
+        used = any(isinstance(n, ast.Name) and n.id == first[0].arg for n in ast.walk(at))
+        words = {**found.words, "parameter": first[0].arg}
+        return replace(found, words=words, variant="parameter" if used else "")
+    return found
 
 
 def _is_called(raised: Raised, name: str) -> bool:
@@ -242,6 +251,13 @@ def _self_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     if function is not None and _is_method(raised, function):
         own = function in [s for c in source.family for s in c.body] or source.node_class is None
         return raised.finding("self_missing", name=name) if own and has_self(function) else None
+    if function is not None and "self" in visible_names(raised.module, raised.line, name):
+        around = [f for f in raised.module.around(function) if isinstance(f, Function)]
+        if (
+            any(f in s.body for f in around for s in source.family)
+            and name not in source.attributes
+        ):
+            return raised.finding("self_missing", name=name)
     variables = sorted(source.node_variables)
     if function is None or len(variables) != 1 or name in source.attributes:
         return None
@@ -499,6 +515,12 @@ KINDS = (
             "Put def {name}(self): and its lines at the end of the class, indented by 4 more spaces "
             "than now."
         ),
+        fixes={
+            "parameter": msg(
+                "Put def {name} and its lines at the end of the class, indented by 4 more spaces than now. "
+                "If {parameter} is the node, write self instead of {parameter} in all of these lines."
+            )
+        },
         raised={OWN_ATTRIBUTE: _callback_outside},
         fixed_by=(node_scope.into_class,),
         examples=(

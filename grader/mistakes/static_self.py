@@ -40,7 +40,15 @@ def _self_in_static(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
     words = {**mistake.words, "method": method.name, "type": owner[0].name}
     if uses:
         words["lines"] = ", ".join(map(str, sorted({n.lineno for n in uses})))
+    if any(not _knows_self(raised.module, use, owner[0]) for use in uses):
+        return replace(mistake, words=words, variant="class_outside")
     return replace(mistake, words=words, variant="class" if uses else "")
+
+
+def _knows_self(module: Module, use: ast.Attribute, owner: ast.ClassDef) -> bool:
+    """Whether a part of the file is in a method of the class that has self."""
+    found = class_of(module, function_at(module, use.lineno))
+    return found is not None and found[0] is owner and has_self(found[1])
 
 
 def _without_parameter(raised: Raised, method: Function) -> RecognisedMistake | None:
@@ -84,8 +92,7 @@ def _with_self(case: Case) -> Files | None:
     if module is None or method is None or owner is None or _is_class_method(method):
         return None
     text, uses = module.text, _through_class(module, owner[0], method)
-    places = [class_of(module, function_at(module, use.lineno)) for use in uses]
-    if any(p is None or p[0] is not owner[0] or not has_self(p[1]) for p in places):
+    if not all(_knows_self(module, use, owner[0]) for use in uses):
         return None
     start = text.text.find(f"def {method.name}(", text.start_of(method.lineno))
     if start < 0 or module.line(case.finding.line) != "@staticmethod":
@@ -122,6 +129,11 @@ KINDS = (
             "called": msg(
                 "Write: {written} Then call it with the node and a dot before its name: self.… in a "
                 "method of the class."
+            ),
+            "class_outside": msg(
+                "Delete the line @{name}, and write def {method}({written}): Then write the object "
+                "instead of {type} before .{method} (lines: {lines}): self in the methods of the class, and "
+                "elsewhere the variable that has the object."
             ),
             "class": msg(
                 "Delete the line @{name}, and write def {method}({written}): Then write "
