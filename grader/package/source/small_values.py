@@ -85,7 +85,6 @@ def _numbers(module: Module, source: NodeSource, goal: Goal) -> Found:
                 yield 4, of_piece(module, "value", node, str(number))
         elif isinstance(value, int | float):
             near: list[float] = [value + 1, value - 1] if isinstance(value, int) else []
-            near += [round(value * 10, 9), round(value / 10, 9)]
             wanted = dict.fromkeys([goal.start, goal.step, goal.period, *near])
             for number in (n for n in wanted if n != value and n >= 0):
                 cost = _cost(value, number, goal)
@@ -297,6 +296,8 @@ def _called(module: Module, source: NodeSource, goal: Goal) -> Found:
             if isinstance(node.ctx, ast.Load) and isinstance(around, uses | inner) and not function:
                 yield 2, of_piece(module, "called", node, f"{module.text.code(node)}()")
         elif isinstance(node, ast.Call) and isinstance(around, ast.Call | ast.keyword):
+            if node.args and dotted(node.func) in BUILTINS:
+                continue  # (its result is meant)
             yield 3, of_piece(module, "not_called", node, module.text.code(node.func))
         elif isinstance(node, ast.Dict | ast.List | ast.Tuple):
             yield from _none_called(module, node)
