@@ -307,7 +307,14 @@ def _is_plain_sum(suspect: Suspect, node: ast.AugAssign) -> bool:
 
 
 _added_elsewhere = worked_out("adds_twice", "doubled", variant="line")
-_step_worked_out = worked_out("other_step", "step", variant="written")
+_any_step = worked_out("other_step", "step", variant="written")
+
+
+def _step_worked_out(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for another step; x = x adds nothing, and what was meant to add is in another line."""
+    found = _any_step(suspect)
+    target, _, value = str(found.params.get("name", "")).partition(" = ") if found else ("", "", "")
+    return None if value and target == value else found
 
 
 def _other_step(suspect: Suspect) -> RecognisedMistake | None:

@@ -187,7 +187,12 @@ def _of_class(suspect: Suspect) -> RecognisedMistake | None:
             owner, name = ast.unparse(node.target.value), node.target.attr
             if owner in classes and name == last_part(logged[1]):
                 written = ast.unparse(node.target)
-                return suspect.finding("counter_of_class", node, name=logged[1], value=written)
+                found = suspect.finding("counter_of_class", node, name=logged[1], value=written)
+                around = suspect.source.function_around(node)
+                if owner == "cls" and around is not None:
+                    words = {**found.words, "method": around.name}
+                    return replace(found, words=words, variant="of_method")
+                return found
     return None
 
 
@@ -243,6 +248,9 @@ def _used_up(suspect: Suspect) -> RecognisedMistake | None:
     call = _next(suspect.source)
     if call is not None and len(call.args) > 1:
         return None  # (with a second value, next() raises no StopIteration)
+    given = call.args[0] if call is not None and call.args else None
+    if isinstance(given, ast.Call) and dotted(given.func) == "iter":
+        return None  # (it begins anew each time)
     return suspect.finding("iterator_ended", call) if call is not None else None
 
 
@@ -351,6 +359,9 @@ def _frozen(suspect: Suspect) -> RecognisedMistake | None:
     logged = {dotted(n) for text in _logged(source, callback) for n in ast.walk(text)}
     for name in sorted(given & logged - _set_in(callback)):
         at = source.timers[0].call if source.timers else None
+        timer = source.timers[0].callback if source.timers else None
+        if isinstance(timer, ast.Lambda) and not timer.args.defaults:
+            continue  # (it works out the arguments in each call)
         return _lambda_default(suspect, at) or suspect.finding("argument_frozen", at, name=name)
     return None
 
@@ -644,6 +655,12 @@ KINDS = (
         msg("The class's variable is increased, and the node's own is logged"),
         msg("{value} and {name} are two variables as soon as {name} is set on the node."),
         msg("Write {name} += {step} instead."),
+        fixes={
+            "of_method": msg(
+                "Delete the line @classmethod above def {method}, and write self instead of cls in the def "
+                "and in its lines: then {method} changes the node's own variable."
+            )
+        },
         behind={"run.constant_counter": _of_class},
         examples=(
             example(

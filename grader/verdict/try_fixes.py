@@ -49,7 +49,8 @@ VAGUE = {
 """What was seen that has many causes: its text alone helps little."""
 CAUSED_ELSEWHERE = ("node.text_not_a_number",)
 """The mistakes of a line whose cause is a value from another one: a change of the line hides it."""
-REWRITTEN = ("node.measures_time", "node.period_tiny")
+MEASURED = "node.measures_time"
+REWRITTEN = (MEASURED, "node.period_tiny", "node.log_if", "node.return_early")
 """The mistakes whose fix writes the program in another way: a certain change of it comes first."""
 SLIGHT = 2
 """The highest cost of a change of a mistake's own line that a certain change elsewhere does not replace."""
@@ -69,7 +70,8 @@ def with_tried_fix(result: CheckResult, evidence: Evidence, translate: Translato
         sure = [
             one
             for one in _found_changes(evidence)
-            if one.is_certain or (one.cost <= SLIGHT and _fits(one, found, root))
+            if one.is_certain
+            or (root.id == MEASURED and one.cost <= SLIGHT and _fits(one, found, root))
         ]
         return _with_first(sure, result, evidence, translate, replaces=True) or found
     if found.patch:

@@ -443,3 +443,16 @@ def test_only_a_line_like_that_of_the_count_gets_its_text() -> None:
     ]
     close = NODE.replace('"Hello time: " +', '"hello Time " +')
     assert [one for one in changes(close) if "info(f'Hello time: {self.counter_}')" in one.text]
+
+
+def test_a_timer_is_left_out_after_what_its_callback_does() -> None:
+    text = NODE.replace(
+        "        self.create_timer(1.0, self.timer_callback)\n",
+        "        self.create_timer(1.0, self.timer_callback)\n        self.create_timer(5.0, self.report)\n",
+    )
+    text = text.replace(
+        "        self.counter_ += 1\n",
+        "        self.counter_ += 1\n\n    def report(self):\n        print(self.counter_)\n        self.counter_ = 0\n",
+    )
+    costs = {one.change.name: one.cost for one in changes(text) if one.change.sort == "deleted"}
+    assert costs["self.counter_ = 0"] < costs["self.create_timer(5.0, self.report)"]

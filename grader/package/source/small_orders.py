@@ -20,6 +20,9 @@ HEADED = ast.If | ast.While | ast.For | ast.With
 HEADS: dict[type[ast.stmt], str] = {ast.If: "condition", ast.With: "with"}
 
 
+ENDS = ("shutdown", "try_shutdown", "destroy_node")
+
+
 def _blocks(module: Module, source: NodeSource, goal: Goal) -> Found:
     """Yield the lines of a block without its head, and lines moved out of a block."""
     del source, goal
@@ -113,14 +116,17 @@ def _waits_above(statement: ast.stmt, below: ast.stmt) -> bool:
     return _spins(statement) and not _ends(below) and not needed & _stored(below)
 
 
+def calls_under(statement: ast.stmt) -> list[ast.Call]:
+    """Return the calls in a statement, those in its blocks too."""
+    return [n for n in ast.walk(statement) if isinstance(n, ast.Call)]
+
+
 def _spins(statement: ast.stmt) -> bool:
-    calls = (n for n in ast.walk(statement) if isinstance(n, ast.Call))
-    return any(called_name(call) in SPINS for call in calls)
+    return any(called_name(call) in SPINS for call in calls_under(statement))
 
 
 def _ends(statement: ast.stmt) -> bool:
-    calls = (n for n in ast.walk(statement) if isinstance(n, ast.Call))
-    return any(called_name(c) in ("shutdown", "try_shutdown", "destroy_node") for c in calls)
+    return any(called_name(call) in ENDS for call in calls_under(statement))
 
 
 def _added(module: Module, source: NodeSource, goal: Goal) -> Found:
@@ -161,15 +167,20 @@ def _stored(node: ast.AST) -> set[str]:
 
 
 def _removed(module: Module, source: NodeSource, goal: Goal) -> Found:
-    """Yield the file without a statement, a decorator, `async`, or a second definition."""
+    """Yield the file without a statement, a decorator, `async`, or a second definition.
+
+    A timer may be right where its callback is not, so that it costs more to leave it out.
+    """
     del source, goal
     text = module.text
     for node in module.nodes:
         if isinstance(node, SIMPLE) and not is_text(node) and owns_lines(module, node):
+            makes = any(called_name(c).startswith("create_") for c in calls_under(node))
             if len(block_of(module, node)) > 1:
-                yield 3 if isinstance(node, ast.Assert) else 5, _without(module, node)
+                cost = 3 if isinstance(node, ast.Assert) else 5 + makes
+                yield cost, _without(module, node)
             else:
-                yield 5, of_piece(module, "emptied", node, "pass")
+                yield 5 + makes, of_piece(module, "emptied", node, "pass")
         elif isinstance(node, Function | ast.ClassDef):
             kinds = Function | ast.ClassDef
             names = [n.name for n in block_of(module, node) if isinstance(n, kinds)]

@@ -206,7 +206,8 @@ def _operators(module: Module, source: NodeSource, goal: Goal) -> Found:
                 kept = f"{text.code(sum_of)} = {text.code(node.value)}"
                 yield 1, of_piece(module, "value", node, kept)
             new = f"{text.code(node.targets[0])} += {text.code(node.value)}"
-            if module.parents.get(node) is not module.tree:
+            nothing = isinstance(node.value, ast.Constant) and not node.value.value
+            if module.parents.get(node) is not module.tree and not nothing:
                 yield 3, of_piece(module, "value", node, new)
 
 
