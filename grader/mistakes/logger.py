@@ -8,7 +8,16 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links, print_elsewhere
-from grader.mistakes.example import DEAD, LOG, LOG_LINE, NODE, PARTIAL_IMPORTED, SILENT, example
+from grader.mistakes.example import (
+    DEAD,
+    LOG,
+    LOG_LINE,
+    NODE,
+    PARTIAL_IMPORTED,
+    SILENT,
+    STEP_LINE,
+    example,
+)
 from grader.mistakes.fixes import lines, node_count, node_log, node_words, node_worked_out
 from grader.mistakes.kind import Family
 from grader.mistakes.own_topic import logs_what_it_hears
@@ -793,6 +802,15 @@ KINDS = (
             node_worked_out.change("logged"),
         ),
         examples=(
+            example(
+                "logs_again_after_a_sleep",
+                Replace(NODE, "import rclpy\n", "import time\n\nimport rclpy\n"),
+                Replace(
+                    NODE, STEP_LINE, f"{STEP_LINE}        time.sleep(0.5)\n{LOG_LINE}{STEP_LINE}"
+                ),
+                fails="run.output",
+                blocks=("run.period",),
+            ),
             example(
                 "logs_and_counts_twice",
                 Replace(

@@ -377,8 +377,10 @@ def _timer_without_object(raised: Raised, match: re.Match[str]) -> RecognisedMis
     if code == f"self.{method}":
         return None
     found = raised.finding("argument_missing", at=timers[0], params={"name": code})
-    words = {**found.words, "function": match["function"], "method": method}
-    return replace(found, variant="of_timer", words=words)
+    owner = match["function"].rpartition(".")[0]
+    words = {**found.words, "function": match["function"], "method": method, "type": owner}
+    own = {each.name for each in raised.source.family}
+    return replace(found, variant="of_timer" if owner in own else "of_timer_other", words=words)
 
 
 def _function_of_timer(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -864,6 +866,10 @@ KINDS = (
                 "Write self.{method} instead of {name}. If {name} can be several functions, write "
                 "functools.partial({name}, self), and import functools at the top of the file."
             ),
+            "of_timer_other": msg(
+                "Create an object of {type} and keep it under a name: write {type}(…), with what its __init__ "
+                "needs in the (). Then give the timer the method of that object."
+            ),
             "spin": msg("Write rclpy.spin({node}): spin needs the node that was created."),
             "spin_unnamed": msg(
                 "Give the node that line {line} creates a name: write {written} there. Write "
@@ -881,6 +887,10 @@ KINDS = (
                     "The timer that this line creates calls {function} without a value, and {function} has "
                     "a parameter that needs one."
                 ),
+            ),
+            "of_timer_other": msg(
+                "This line gives the timer {name}, and that is {function} as a function of the class {type}: "
+                "no object belongs to it, so Python has nothing to pass as self."
             ),
             "of_timer": msg(
                 "This line gives the timer {name}, and that is {function} as a function of the class: no "

@@ -318,7 +318,12 @@ class VirtualClock:
         watch.events = before + watch.events
 
     def _unmask(self, watch: Watch, on_event: Callable[[Event], None]) -> None:
-        """Stop the clock for a while: lines that still come follow the wall clock."""
+        """Stop the clock for a while: lines that still come follow the wall clock.
+
+        Before that, a callback that sleeps gets time to return: its lines are of the last instant.
+        """
+        if not self._unasked and not self._over():
+            watch.events += self._step(self._at, wait=True)
         left = self._deadline - time.monotonic()
         still = self._observer.watch_still(min(left, STILL * self._output.period))
         watch.events += still

@@ -456,3 +456,20 @@ def test_a_timer_is_left_out_after_what_its_callback_does() -> None:
     )
     costs = {one.change.name: one.cost for one in changes(text) if one.change.sort == "deleted"}
     assert costs["self.counter_ = 0"] < costs["self.create_timer(5.0, self.report)"]
+
+
+def test_no_change_makes_a_line_that_does_nothing() -> None:
+    texts = [one.text for one in changes(NODE.replace("+= 1", "= self.counter_ + 1"))]
+    assert texts
+    assert not [one for one in texts if "self.counter_ = self.counter_\n" in one]
+    assert not [one for one in texts if "self.counter_ + 0" in one]
+
+
+def test_a_name_that_is_none_first_may_be_asked_the_other_way_round() -> None:
+    text = NODE.replace(
+        "        self.create_timer",
+        "        self.made = None\n        if self.made:\n            self.create_timer",
+    )
+    assert [one for one in changes(text) if "if self.made is None:" in one.text]
+    anew = [one for one in changes(text) if one.change.sort.startswith("once")]
+    assert not [one for one in anew if "create_timer" in one.change.written]

@@ -6,7 +6,7 @@ Which of them help is not known here: a caller runs the node with each.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from grader.package.source import small_lifetimes, small_orders, small_truths, small_values
@@ -81,9 +81,19 @@ def _read(nodes: Iterable[ast.AST]) -> set[str]:
     return {last_part(dotted(n)) for n in names if isinstance(n.ctx, ast.Load)}
 
 
-def _compares_the_same(nodes: Iterable[ast.AST]) -> bool:
-    """Return whether something is compared with itself, which nobody means."""
-    pairs = ((n.left, n.comparators[0]) for n in nodes if isinstance(n, ast.Compare))
+def _does_nothing(nodes: Sequence[ast.AST]) -> bool:
+    """Return whether something is compared with itself, gets its own value, or 0 is added to it."""
+    pairs: list[tuple[ast.expr, ast.expr]] = []
+    for node in nodes:
+        if isinstance(node, ast.Compare):
+            pairs.append((node.left, node.comparators[0]))
+        elif isinstance(node, ast.BoolOp):
+            pairs.append((node.values[0], node.values[1]))
+        elif isinstance(node, ast.Assign):
+            pairs.append((node.targets[0], node.value))
+    sums = (n for n in nodes if isinstance(n, ast.BinOp) and isinstance(n.op, ast.Add | ast.Sub))
+    if any(isinstance(n.right, ast.Constant) and n.right.value == 0 for n in sums):
+        return True
     return any(dotted(left) == dotted(right) != "" for left, right in pairs)
 
 
@@ -104,7 +114,7 @@ def small_changes(source: NodeSource, goal: Goal) -> list[SmallChange]:
                 if text and text not in seen and change.at.lineno not in script:
                     seen.add(text)
                     nodes = [*ast.walk(ast.parse(text))] if change.sort in OF_PIECES else []
-                    if _compares_the_same(nodes) and not _compares_the_same(module.nodes):
+                    if _does_nothing(nodes) and not _does_nothing(module.nodes):
                         continue
                     more = UNUSED if nodes and read - _read(nodes) else 0
                     found.append(SmallChange(module, change, text, cost + more))

@@ -46,6 +46,8 @@ def _made_in(function: Function) -> Iterator[ast.Call]:
             continue
         if name in BUILTINS and name not in LAZY:
             continue
+        if called_name(call).startswith("create_"):
+            continue  # (it has to be made when it is asked for, or not at all)
         if not {n.id for n in ast.walk(call) if isinstance(n, ast.Name)} & own:
             yield call
 

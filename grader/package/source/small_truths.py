@@ -33,6 +33,8 @@ def _falsy(module: Module, source: NodeSource, goal: Goal) -> Found:
                 named = text.code(asked)
                 new = f"{named} is None" if asked is not test else f"{named} is not None"
                 yield 2, of_piece(module, "falsy", test, new, named)
+                other = f"{named} is not None" if asked is not test else f"{named} is None"
+                yield 3, of_piece(module, "value", test, other)
 
 
 def _flags(module: Module) -> set[str]:
