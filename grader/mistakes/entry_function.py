@@ -18,6 +18,7 @@ from grader.package.edit.tree import Copy, Replace, Write
 from grader.package.source.guard import guarded_code
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.node import NodeSource
 from grader.package.source.sleeps import SLEEPS
 from grader.report.model import Where
 
@@ -129,9 +130,30 @@ def _main_takes_none(raised: Raised, match: re.Match[str]) -> RecognisedMistake 
 def _main_empty(suspect: Suspect) -> RecognisedMistake | None:
     source = suspect.source
     made = source.makes_node() or any(n.endswith("create_node") for _, n in source.calls)
-    if source.node_class is None or made:
+    if source.node_class is None or made or _hands_class_on(source):
         return None
     return suspect.finding("main_empty", suspect.place_of_function, name=source.node_class.name)
+
+
+def _hands_class_on(source: NodeSource) -> bool:
+    """Whether something may make the node without the class's name: cls(), or what gets the class."""
+    for node in source.all_nodes:
+        if not isinstance(node, ast.Name | ast.Attribute) or not isinstance(node.ctx, ast.Load):
+            continue
+        around = source.module_of(node).parents.get(node)
+        if isinstance(node, ast.Name) and node.id == "cls":
+            if isinstance(around, ast.Call) and around.func is node:
+                return True
+        elif source.is_node_class(node):
+            of_super = isinstance(around, ast.Call) and dotted(around.func) in (
+                "super",
+                "isinstance",
+            )
+            if not of_super and not isinstance(
+                around, ast.ClassDef | ast.arg | Function | ast.AnnAssign
+            ):
+                return True
+    return False
 
 
 def _waits_first(suspect: Suspect) -> RecognisedMistake | None:

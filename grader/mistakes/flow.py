@@ -250,6 +250,11 @@ def _ends(suspect: Suspect) -> RecognisedMistake | None:
     parts = [] if callback is None else [callback, *inner]
     for call, name in (found for part in parts for found in calls_in(part)):
         if name in ENDS or last_part(name) == "destroy_node":
+            if any(
+                isinstance(n, ast.ExceptHandler)
+                for n in suspect.source.module_of(call).around(call)
+            ):
+                continue  # (an error is the cause: node.error_hidden)
             found = suspect.finding("ends_in_callback", call, name=f"{name}()")
             return _with_its_block(suspect, call, found)
     return None

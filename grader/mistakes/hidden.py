@@ -53,7 +53,7 @@ def _functions(source: NodeSource) -> Iterator[Function]:
             yield named[0]
 
 
-def _hides(handler: ast.ExceptHandler) -> bool:
+def hides(handler: ast.ExceptHandler) -> bool:
     """Whether a handler neither raises nor shows the exception that it catches."""
     caught = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
     if handler.type is not None and all(last_part(dotted(c)) in node_try.ENDS for c in caught if c):
@@ -66,8 +66,9 @@ def _hides(handler: ast.ExceptHandler) -> bool:
         for part in ast.walk(call)
     }
     for node in (part for statement in handler.body for part in ast.walk(statement)):
-        if node in silent:
-            continue  # (such a line is not shown)
+        if node in silent or (isinstance(node, ast.Attribute) and dotted(node) == "sys.exit"):
+            silent |= set(ast.walk(node))
+            continue  # (such a line is not shown, and an end shows nothing)
         if isinstance(node, ast.Raise):
             return False
         if isinstance(node, ast.Name) and node.id in (handler.name, "traceback", "sys"):
@@ -80,7 +81,7 @@ def _swallows(suspect: Suspect) -> RecognisedMistake | None:
         for node in ast.walk(function):
             if not isinstance(node, ast.Try) or _all_harmless(node.body):
                 continue
-            for handler in filter(_hides, node.handlers):
+            for handler in filter(hides, node.handlers):
                 found = suspect.finding("error_hidden", suspect.place_at(handler))
                 error = hidden_error(suspect.source, suspect.assignment, node)
                 if error is not None:

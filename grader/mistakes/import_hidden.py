@@ -13,7 +13,7 @@ import sys
 import threading
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 from grader.base.i18n.message import msg
@@ -127,7 +127,10 @@ def _of_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
             continue
         if any((alias.asname or alias.name) == node.module for alias in node.names):
             params = {"name": node.module, "line": str(node.lineno), "attribute": match["name"]}
-            return raised.finding("function_of_module", params=params)
+            found = raised.finding("function_of_module", params=params)
+            plain = [a for n in raised.module.nodes if isinstance(n, ast.Import) for a in n.names]
+            whole = any((a.asname or a.name) == node.module for a in plain)
+            return replace(found, variant="both") if whole else found
     return None
 
 
@@ -146,6 +149,19 @@ KINDS = (
             "called, and leave {name}.{attribute} as it is."
         ),
         links.PYTHON_MODULES,
+        whys={
+            "both": msg(
+                "Line {line} imports the function {name} that is in the module {name}. From there on, the "
+                "name {name} means the function. {attribute} is in the module."
+            )
+        },
+        fixes={
+            "both": msg(
+                "Take the function {name} out of the import in line {line}; if it imports nothing else, "
+                "delete the line. Then write {name}.{name} wherever the function {name} is called, and "
+                "leave {name}.{attribute} as it is."
+            )
+        },
         raised={OF_FUNCTION: _of_module},
         examples=(
             example(

@@ -31,7 +31,7 @@ from grader.package.source.lost_flag import lost_flag
 from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, last_part
 from grader.package.source.node import read_module
-from grader.package.source.place import statement_at
+from grader.package.source.place import function_at, statement_at
 from grader.package.source.scopes import bindings, has_self, scope_of
 
 SPINS = ("spin", "spin_once", "spin_until_future_complete", "add_node")
@@ -239,8 +239,22 @@ def _under_guard(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
         found = [s for s in inside if name in targets_of(s)]
         if len(found) == 1 and len(bindings(module, name)) == 1:
             params = {"name": name, "line": str(found[0].lineno)}
-            return raised.finding("set_under_guard", at=found[0], params=params)
+            mistake = raised.finding("set_under_guard", at=found[0], params=params)
+            main = raised.source.main
+            if main is None or not _needs_program(module, inside, found[0]):
+                return mistake
+            here = function_at(module, raised.line) is main
+            return replace(mistake, variant="in_main" if here else "passed")
     return None
+
+
+def _needs_program(module: Module, block: list[ast.stmt], statement: ast.stmt) -> bool:
+    """Whether a statement of the guard needs ROS, what the file defines, or a name of its block."""
+    own = {name for s in block for name in targets_of(s)}
+    own |= {n.name for n in module.tree.body if isinstance(n, Function | ast.ClassDef)}
+    value = getattr(statement, "value", None)
+    parts = list(ast.walk(value)) if isinstance(value, ast.expr) else []
+    return any(isinstance(n, ast.Name) and n.id in own | {"rclpy"} for n in parts)
 
 
 _node = Family("node", links.PYTHON_ERRORS)
@@ -365,6 +379,15 @@ KINDS = (
         msg(
             "Move line {line} to the top of the file, below the imports, with no spaces before it."
         ),
+        fixes={
+            "in_main": msg(
+                "Move line {line}, and the lines of that block that it needs, to the beginning of {function}."
+            ),
+            "passed": msg(
+                "Move line {line}, and the lines of that block that it needs, to the beginning of "
+                "{function}. Give {name} as an argument to each function that uses it."
+            ),
+        },
         raised={NAME_ERROR: _under_guard},
         examples=(
             example(

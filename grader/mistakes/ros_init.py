@@ -15,8 +15,10 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace, Write
 from grader.package.source.counter import targets_of
+from grader.package.source.imported import full_name
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.place import block_of
 
 NOT_INITIALIZED = r"NotInitializedException"
 NOT_READY = r"Context must be initialized"  # of rclpy on kilted
@@ -67,7 +69,8 @@ def _inits(raised: Raised) -> list[ast.Call]:
     return [
         call
         for call, name in raised.source.calls
-        if last_part(name) == "init" and (name == "rclpy.init" or "init" not in own)
+        if (last_part(name) == "init" and (name == "rclpy.init" or "init" not in own))
+        or full_name(raised.source.module_of(call), call.func) == "rclpy.init"
     ]
 
 
@@ -146,10 +149,17 @@ def _init_late(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
     if _ran_before(raised, main):
         return raised.finding("ros_not_running")
     moved = (main or inits) if len(main or inits) == 1 else []
+    if moved and last_part(dotted(moved[0].func)) != "init":
+        code = source.module_of(moved[0]).text.code(moved[0])
+        return raised.finding("init_late", at=moved[0], written=code)
     if not moved or dotted(moved[0].func) != "rclpy.init":
         return raised.finding("init_late", written=node_init.new_call(source))
     written = node_init.moved_call(source, moved[0])
-    return raised.finding("init_late", at=moved[0], written=written)
+    mistake = raised.finding("init_late", at=moved[0], written=written)
+    module = source.module_of(moved[0])
+    statement = module.parents.get(moved[0])
+    alone = isinstance(statement, ast.Expr) and block_of(module, statement) == [statement]
+    return replace(mistake, variant="alone" if alone else "")
 
 
 def _own_context(inits: list[ast.Call]) -> tuple[ast.Call, str] | None:
@@ -181,9 +191,14 @@ def _calls_above(main: Function, init: ast.Call) -> bool:
 def _init_twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     del match
     inits = [call for call, name in raised.source.calls if name == "rclpy.init"]
-    if len(inits) == 1:
-        return replace(raised.finding("init_twice"), variant="imported")
     main = raised.source.main
+    if len(inits) == 1:
+        around = raised.source.function_around(inits[0])
+        if around is None or around is main or raised.line != inits[0].lineno:
+            return replace(raised.finding("init_twice"), variant="imported")
+        written = node_init.new_call(raised.source)
+        found = raised.finding("init_twice", at=inits[0], name=around.name, written=written)
+        return replace(found, variant="each_call")
     others = [call for call in inits if raised.source.function_around(call) is not main]
     surplus = others if 0 < len(others) < len(inits) else inits[1:]
     return raised.finding("init_twice", at=surplus[0] if surplus else None)
@@ -373,7 +388,11 @@ KINDS = (
             )
         },
         fixes={
-            "context": msg("Write {written} instead of {name}. A program needs no other context.")
+            "alone": msg(
+                "Write {written} as the first line of {function}, and write pass instead of this line: it is "
+                "the only one of its block."
+            ),
+            "context": msg("Write {written} instead of {name}. A program needs no other context."),
         },
         raised={NOT_INITIALIZED: _init_late},
         fixed_by=(lines.written, node_life.rclpy_init),
@@ -456,9 +475,20 @@ KINDS = (
         seen=r"RuntimeError: Context\.init\(\) must only be called once",
         fixes={
             "imported": msg(
-                "This file has one such call. Either this line runs twice: in a loop, or because a line "
-                "outside of functions calls {function} too. Or another file calls rclpy.init() when it is "
-                "imported: look in {package}/__init__.py, which should be empty. Let only one call run."
+                "This file has one such call. Either this line runs twice: in a loop, or because {function} "
+                "is called twice, also by a line outside of functions. Or another file calls rclpy.init() "
+                "when it is imported: look in {package}/__init__.py, which should be empty. Let only one "
+                "call run."
+            ),
+            "each_call": msg(
+                "Delete this line, and write {written} as the first line of {function}: that runs once."
+            ),
+        },
+        whys={
+            "each_call": msg(
+                "rclpy.init() connects the program to ROS; calling it again is an error. This line is in "
+                "{name}, so it runs each time the program calls {name}: more than once here, or after "
+                "another call of rclpy.init()."
             )
         },
         raised={r"Context\.init\(\) must only be called once": _init_twice},

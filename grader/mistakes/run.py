@@ -108,10 +108,13 @@ KINDS = (
         "no_node",
         "start",
         msg("No node appears"),
-        msg("A node exists as soon as its class (a Node) is instantiated, after rclpy.init()."),
         msg(
-            "Make sure that {function} creates the node, and that nothing before it waits "
-            "(input(), a loop)."
+            "A node exists as soon as its class (a Node) is instantiated, after rclpy.init(), and until "
+            "destroy_node() is called or ROS is shut down."
+        ),
+        msg(
+            "Make sure that {function} creates the node, that nothing before it waits (input(), a loop), "
+            "and that nothing destroys the node or shuts ROS down before it is spun."
         ),
         links.NODES,
     ),

@@ -192,8 +192,8 @@ def _made_each_round(suspect: Suspect) -> RecognisedMistake | None:
             spun = {
                 dotted(call.args[0])
                 for call, name in calls_in(loop)
-                if last_part(name) in SPINS and call.args
-            }
+                if last_part(name) in SPINS and last_part(name) != "spin" and call.args
+            }  # (spin does not return before Ctrl+C: the loop has no second round)
             names = spun & set(targets_of(made))
             if names and _made(made.value) in source.class_names:
                 code = source.module_of(made).text.code(made)

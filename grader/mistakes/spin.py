@@ -10,6 +10,7 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links, stop_in_branch
 from grader.mistakes.example import NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_executor, node_life, node_order
+from grader.mistakes.hidden import hides
 from grader.mistakes.kind import Family
 from grader.mistakes.placeholders import placeholder_values
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
@@ -17,16 +18,24 @@ from grader.mistakes.stop_in_branch import in_branch
 from grader.package.edit.tree import Edit, Replace, Write
 from grader.package.source.counter import targets_of
 from grader.package.source.endless import Loop, idle_loop
+from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.place import statement_at
-from grader.package.source.spinning_loop import condition_of, loop_around, only_called, other_work
+from grader.package.source.spinning_loop import (
+    condition_of,
+    loop_around,
+    only_called,
+    other_work,
+    until_ros_ends,
+)
 from grader.package.source.until_ctrl_c import parts_until_ctrl_c
 from grader.report.model import Where
 
 TWICE = "generator already executing|Executor is already spinning"
 ENDED = ("loop", "condition")  # variants of a loop that ended before Ctrl+C
 SPUN = ("spin", "rclpy.spin", "rclpy.spin_once")
+ERRORS = ("Error", "Exception")
 EXITS = ("exit", "quit", "sys.exit", "os._exit")
 SPIN = msg("rclpy.spin(node) waits and calls the callbacks when they are due, until Ctrl+C.")
 
@@ -42,7 +51,7 @@ def _once_only(suspect: Suspect) -> RecognisedMistake | None:
 
 def _never_again(suspect: Suspect) -> RecognisedMistake | None:
     """The program goes on, so that a loop around spin_once has not ended."""
-    found = _once_only(suspect)
+    found = None if _spins(suspect) else _first_once(suspect)
     if found is None or found.variant not in ENDED:
         return found
     return replace(found, variant="goes_on")
@@ -64,6 +73,27 @@ def _by_loop(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _once(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for spin_once, in a loop that may end before Ctrl+C or in none."""
+    found = _first_once(suspect)
+    if found is None or found.where is None or found.variant not in ("loop", "condition"):
+        return found
+    module = suspect.source.module_at(found.where.file)
+    at = [n for n in module.nodes if isinstance(n, ast.Call) and n.lineno == found.where.line]
+    loops = [loop for call in at if (loop := loop_around(suspect.source, call)) is not None]
+    by_ros = bool(loops) and until_ros_ends(loops[0])
+    return None if by_ros and _ends_elsewhere(suspect.source) else found
+
+
+def _ends_elsewhere(source: NodeSource) -> bool:
+    """Whether something that runs before Ctrl+C shuts ROS down or ends the program."""
+    early = parts_until_ctrl_c(source)
+    return any(
+        call in early and (name in EXITS or last_part(name) in node_order.CLEANUP)
+        for call, name in source.calls
+    )
+
+
+def _first_once(suspect: Suspect) -> RecognisedMistake | None:
     for call, name in suspect.source.calls:
         if last_part(name) == "spin_once":
             found = suspect.finding("spin_once", call)
@@ -157,9 +187,27 @@ def _spun_twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
     if len(threads) != 1 or len(spins) != 1:
         return None
     rows = ", ".join(map(str, _uses_of(source, threads[0])))
+    spun, other = _given(threads[0]), dotted(spins[0].args[0]) if spins[0].args else ""
+    if spun and other and spun != other:
+        return _two_at_once(raised, threads[0], spins[0], (spun, other), rows)
     params = {"line": str(spins[0].lineno), "lines": rows}
     found = raised.finding("spun_twice", at=threads[0], params=params)
     return replace(found, variant="used" if rows else "")
+
+
+def _given(thread: ast.Call) -> str:
+    """Return the name of the only thing that a thread passes to the function that it runs."""
+    given = next((word.value for word in thread.keywords if word.arg == "args"), None)
+    alone = isinstance(given, ast.Tuple | ast.List) and len(given.elts) == 1
+    return dotted(given.elts[0]) if alone and isinstance(given, ast.Tuple | ast.List) else ""
+
+
+def _two_at_once(
+    raised: Raised, thread: ast.Call, spin: ast.Call, nodes: tuple[str, str], rows: str
+) -> RecognisedMistake:
+    params = {"name": nodes[0], "written": nodes[1], "line": str(spin.lineno)}
+    found = raised.finding("two_spun_at_once", at=thread, params=params)
+    return replace(found, words={**found.words, "lines": rows}, variant="used" if rows else "")
 
 
 def _spinning_function(suspect: Suspect) -> RecognisedMistake | None:
@@ -236,6 +284,8 @@ def _under_guard(suspect: Suspect) -> RecognisedMistake | None:
 def _missing(suspect: Suspect) -> RecognisedMistake | None:
     if _spins(suspect):
         return _under_guard(suspect)
+    if suspect.source.calls_of("spin_once"):
+        return None
     for call, name in suspect.source.calls:
         before, _, method = name.rpartition(".")
         if method == "add_node" and before in executors(suspect):
@@ -263,15 +313,34 @@ def _sleep_loop(suspect: Suspect) -> RecognisedMistake | None:
     in_method = _sleeps_in_method(suspect)
     if in_method is not None:
         return in_method
-    for node in suspect.source.all_nodes:
-        if node is not idle and isinstance(node, ast.While | ast.For):
-            for call, name in calls_in(node):
-                if last_part(name) in PAUSES:
-                    found = suspect.finding("sleep_loop", call)
-                    return _spins_and_sleeps(suspect, node, found) or _with_class(
-                        suspect, node, found
-                    )
+    for loop, call in _loops_that_sleep(suspect.source):
+        if loop is not idle:
+            found = suspect.finding("sleep_loop", call)
+            return _spins_and_sleeps(suspect, loop, found) or _with_class(suspect, loop, found)
     return None
+
+
+def _loops_that_sleep(source: NodeSource) -> list[tuple[Loop, ast.Call]]:
+    """Return the loops that sleep, with the call: those first that do something else too.
+
+    Beside a timer, one that only waits or shows a countdown does not do the timer's work.
+    """
+    found = [
+        (loop, call)
+        for loop in source.all_nodes
+        if isinstance(loop, ast.While | ast.For)
+        for call in [c for c, name in calls_in(loop) if last_part(name) in PAUSES][:1]
+    ]
+    works = [each for each in found if _works(source, each[0])]
+    return works or ([] if source.timers else found)
+
+
+def _works(source: NodeSource, loop: Loop) -> bool:
+    """Whether a loop logs, calls a function of the student's, or prints until Ctrl+C."""
+    names = {last_part(name) for _, name in calls_in(loop)}
+    own = {node.name for node in source.all_nodes if isinstance(node, Function)}
+    prints = isinstance(loop, ast.While) and "print" in names
+    return bool(names & (own | {"spin_once", "publish"}) or source.logs(loop) or prints)
 
 
 def _sleeps_in_method(suspect: Suspect) -> RecognisedMistake | None:
@@ -307,10 +376,18 @@ def _with_class(
             return replace(found, variant="threaded", words={**found.words, "lines": lines})
         if not spins or around is None or around is suspect.function:
             return found
-        return replace(found, variant="beside", words={**found.words, "name": around.name})
+        variant = "beside" if _in_thread(suspect.source, around) else "above"
+        return replace(found, variant=variant, words={**found.words, "name": around.name})
     word = "while" if isinstance(loop, ast.While) else "for"
     words = {**found.words, "loop": word, "wanted": f"rclpy.spin({found.words['node']})"}
     return replace(found, variant="function", words=words)
+
+
+def _in_thread(source: NodeSource, function: Function) -> bool:
+    """Whether a function may run in a thread for which the program does not wait."""
+    names = {last_part(name) for _, name in source.calls}
+    started = names & {"Thread", "Timer", "submit", "start_new_thread", "run_in_executor"}
+    return (bool(started) or (function.name == "run" and "start" in names)) and "join" not in names
 
 
 def _spins_and_sleeps(
@@ -387,7 +464,8 @@ def _idle(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _exits(suspect: Suspect) -> RecognisedMistake | None:
-    early = parts_until_ctrl_c(suspect.source)
+    """Look for what ends the program: a line of its own, or one in the except for an error."""
+    early, after_error = parts_until_ctrl_c(suspect.source), None
     for node in suspect.source.all_nodes:
         if not isinstance(node, ast.Raise | ast.Call) or node not in early:
             continue
@@ -397,15 +475,33 @@ def _exits(suspect: Suspect) -> RecognisedMistake | None:
             continue  # sys.exit(main())
         if raised.startswith(("SystemExit", "KeyboardInterrupt")) or called in EXITS:
             module = suspect.source.module_of(node)
+            found = suspect.finding("exits", node, name=called or raised)
+            handlers = [n for n in module.around(node) if isinstance(n, ast.ExceptHandler)]
+            if handlers:
+                if not hides(handlers[0]):  # (or else: node.error_hidden)
+                    after_error = after_error or _after_error(suspect, found, handlers[0])
+                continue
             statement = statement_at(module, node.lineno)
             around = module.parents.get(statement) if statement is not None else None
             alone = isinstance(around, ast.If) and around.body == [statement] and not around.orelse
-            found = suspect.finding("exits", node, name=called or raised)
             branch = in_branch(suspect.source, module, statement)
             if branch is not None:
                 return replace(found, variant=branch[0], words={**found.words, **branch[1]})
             return replace(found, variant="if" if alone else "")
-    return None
+    return after_error
+
+
+def _after_error(
+    suspect: Suspect, found: RecognisedMistake, handler: ast.ExceptHandler
+) -> RecognisedMistake | None:
+    """Return an end in an except: a line of its try raised an error, which is the cause."""
+    caught = dotted(handler.type) if handler.type is not None else "Exception"
+    around = suspect.source.module_of(handler).parents.get(handler)
+    inside = suspect.source.function_around(handler) is not None
+    if not isinstance(around, ast.Try) or not inside or not caught.endswith(ERRORS):
+        return None
+    words = {**found.words, "line": str(around.lineno)}
+    return replace(found, variant="in_except", words=words)
 
 
 IMPORT = Replace(NODE, "import rclpy\nfrom", "import threading\nimport time\nimport rclpy\nfrom")
@@ -524,11 +620,14 @@ KINDS = (
                 "rclpy.spin({node}) in {function} instead of the loop, and delete the thread that "
                 "spins the node now (lines: {lines})."
             ),
-            "beside": msg(
-                "Put what the loop in {name} does into a method, and call it with a timer that "
-                "__init__ creates: self.create_timer({period}, self.{callback}). Then delete the "
-                "loop, and what starts {name} if nothing else is left in it. {function} spins the "
-                "node already."
+            **dict.fromkeys(
+                ("above", "beside"),
+                msg(
+                    "Put what the loop in {name} does into a method, and call it with a timer that "
+                    "__init__ creates: self.create_timer({period}, self.{callback}). Then delete the "
+                    "loop, and what starts {name} if nothing else is left in it. {function} spins the "
+                    "node already."
+                ),
             ),
         },
         behind={"run.never_spins": _sleep_loop},
@@ -710,7 +809,9 @@ KINDS = (
         "spin_once",
         "spin",
         msg("spin_once is called instead of spin"),
-        msg("rclpy.spin_once handles one callback and returns; then {function} ends."),
+        msg(
+            "rclpy.spin_once handles one callback and returns: it does not wait for more callbacks."
+        ),
         msg("Write rclpy.spin({node})."),
         links.EXECUTORS,
         whys={
@@ -726,7 +827,9 @@ KINDS = (
             "no_timer": IN_EACH_ROUND,
             "lines": IN_EACH_ROUND,
             "function": IN_EACH_ROUND,
-            "executor": msg("{name} handles one callback and returns; then {function} ends."),
+            "executor": msg(
+                "{name} handles one callback and returns: it does not wait for more callbacks."
+            ),
             "goes_on": msg(
                 "spin_once handles one callback and returns. The other lines of the loop around it "
                 "run in each round, not when a timer is due."
@@ -915,13 +1018,51 @@ KINDS = (
         deletes=("",),
     ),
     _node(
+        "two_spun_at_once",
+        "spin",
+        msg("Two nodes are spun with rclpy.spin at the same time"),
+        msg(
+            "The thread that this line creates spins {name}, and line {line} spins {written}. rclpy.spin "
+            "uses the same executor for all nodes of a program, and only one thread at a time can spin an "
+            "executor: the other one stops with an error."
+        ),
+        msg(
+            "Delete this line, and give both nodes to one executor: write from rclpy.executors import "
+            "SingleThreadedExecutor at the top of the file, and four lines instead of line {line}: executor "
+            "= SingleThreadedExecutor(), executor.add_node({name}), executor.add_node({written}) and "
+            "executor.spin()."
+        ),
+        links.EXECUTORS,
+        fixes={
+            "used": msg(
+                "Delete this line and the other lines of the thread (lines: {lines}), and give both nodes to "
+                "one executor: write from rclpy.executors import SingleThreadedExecutor at the top of the "
+                "file, and four lines instead of line {line}: executor = SingleThreadedExecutor(), "
+                "executor.add_node({name}), executor.add_node({written}) and executor.spin()."
+            )
+        },
+    ),
+    _node(
         "exits",
         "spin",
         msg("The node ends itself"),
         msg("{name} ends the program; a node runs until Ctrl+C."),
         msg("Delete this line."),
         links.EXECUTORS,
-        fixes={"if": msg("Delete this line and the if above it."), **stop_in_branch.FIXES},
+        whys={
+            "in_except": msg(
+                "A line of the try in line {line} raises an error. This line is in the except for it: {name} "
+                "ends the program, and Python shows no traceback of the error."
+            )
+        },
+        fixes={
+            "if": msg("Delete this line and the if above it."),
+            "in_except": msg(
+                "Write raise instead of this line, and run the node again: the traceback then names the "
+                "error and the line that raises it. Correct that line."
+            ),
+            **stop_in_branch.FIXES,
+        },
         behind={"run.ended_early": _exits},
         fixed_by=(stop_in_branch.without_stop,),
         deletes=("",),

@@ -16,7 +16,7 @@ from grader.package.source.module import Module
 from grader.package.source.names import called_name, dotted, last_part
 from grader.package.source.node import NodeSource
 
-SUBMITS = ("submit", "apply_async", "run_in_executor", "to_thread", "create_task")
+SUBMITS = ("submit", "apply_async", "run_in_executor")
 
 
 def _spins(source: NodeSource) -> tuple[ast.Call, str] | None:
@@ -30,7 +30,8 @@ def _spins(source: NodeSource) -> tuple[ast.Call, str] | None:
 
 def _given(source: NodeSource, call: ast.Call) -> str:
     at = next((n for n, arg in enumerate(call.args) if last_part(dotted(arg)) == "spin"), -1)
-    if last_part(called_name(call)) not in SUBMITS or at < 0:
+    awaited = isinstance(source.module_of(call).parents.get(call), ast.Await)
+    if last_part(called_name(call)) not in SUBMITS or at < 0 or awaited:
         return ""
     text = source.module_of(call).text
     arguments = [text.code(argument) for argument in call.args[at + 1 :]]

@@ -82,6 +82,8 @@ def without_stop(case: Case) -> Files | None:
     statement = statement_at(module, case.finding.line) if module is not None else None
     if module is None or node is None or statement is None:
         return None
+    if any(isinstance(part, ast.ExceptHandler) for part in module.around(statement)):
+        return None  # (an error is the cause, and without the stop nothing would show it)
     found = branch_of(node, module, statement)
     if found is None:
         return lines.deleted(case)

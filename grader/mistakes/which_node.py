@@ -38,6 +38,7 @@ from grader.package.source.counter import targets_of
 from grader.package.source.guard import called_on_import
 from grader.package.source.module import Function, code_of
 from grader.package.source.names import called_name, calls_in, dotted, last_part
+from grader.package.source.node import NodeSource
 from grader.package.source.second_node import second_node
 from grader.report.model import Where
 
@@ -66,13 +67,23 @@ def _made_in_callback(suspect: Suspect) -> RecognisedMistake | None:
 
 def _other_nodes_timer(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a timer of a second node, which the class makes and nothing spins."""
-    made = _nodes_made(suspect)
+    made = {name for name in _nodes_made(suspect) if not _is_passed(suspect.source, name)}
     spun = {dotted(a) for call in suspect.source.calls_of(*SPINS, "add_node") for a in call.args}
     for call in suspect.source.calls_of("create_timer"):
         owner = dotted(call.func.value) if isinstance(call.func, ast.Attribute) else ""
         if owner in made and owner not in spun:
             return suspect.finding("timer_of_other_node", call, name=owner)
     return None
+
+
+def _is_passed(source: NodeSource, name: str) -> bool:
+    """Whether an attribute of self is given to something, so that it may be spun: node.helper."""
+    for node in source.all_nodes:
+        if isinstance(node, ast.Attribute) and node.attr == last_part(name):
+            around = source.module_of(node).parents.get(node)
+            if isinstance(node.ctx, ast.Load) and not isinstance(around, ast.Attribute):
+                return True
+    return False
 
 
 def _other_nodes_logger(suspect: Suspect) -> RecognisedMistake | None:
@@ -112,7 +123,8 @@ def _executor_without_node(suspect: Suspect) -> RecognisedMistake | None:
     }
     for call, name in suspect.source.calls:
         before, _, method = name.rpartition(".")
-        if method in SPINS and before in executors(suspect) - given:
+        passed = node_executor.is_passed(suspect.source, before)
+        if method in SPINS and before in executors(suspect) - given and not passed:
             return _never_added(suspect, call, before)
     return None
 
@@ -150,6 +162,8 @@ def _spins_in_init(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a spin in __init__; what is below it runs only after Ctrl+C."""
     init = suspect.source.methods.get("__init__")
     for call in suspect.source.calls_of("spin", within=init) if init is not None else ():
+        if not _stops_at(suspect.source, init, call):
+            continue
         found = suspect.finding("spin_in_init", call, name=ast.unparse(call))
         source, main = suspect.source, suspect.function
         spun = main is not None and source.calls_of("spin", within=main)
@@ -160,6 +174,14 @@ def _spins_in_init(suspect: Suspect) -> RecognisedMistake | None:
         words = {**found.words, "variable": variable or "node", "made": name}
         return replace(found, words=words, variant="kept" if variable else "alone")
     return None
+
+
+def _stops_at(source: NodeSource, init: Function | None, call: ast.Call) -> bool:
+    """Whether __init__ runs a call itself, not a function in it, and has more lines below it."""
+    around = source.module_of(call).around(call)
+    inner = next((part for part in around if isinstance(part, Function | ast.Lambda)), None)
+    end = call.end_lineno or call.lineno
+    return inner is init and any(getattr(n, "lineno", 0) > end for n in ast.walk(init or call))
 
 
 NODE_LOST = msg(
@@ -252,6 +274,8 @@ def _method_not_called(suspect: Suspect) -> RecognisedMistake | None:
         return None
     if source.methods.get(function.name) is not function:
         return None
+    if any(timer.function is not function for timer in timers):
+        return None  # (the node has a timer without this method)
     if function.decorator_list:
         return _property_not_read(suspect, function, timers[0].call)
     if function.name.startswith("on_") and _lifecycle_import(suspect) is not None:
@@ -490,8 +514,8 @@ OWN_EXECUTOR = (
     ),
 )
 OWN_SPINS = msg(
-    "The thread runs {name} (line {line}), which spins. {function} does not wait for it: it comes to its "
-    "last line at once, and then the program ends."
+    "The thread runs {name} (line {line}), which spins. {function} does not wait for it: it goes on to its "
+    "last line, and then the program ends."
 )
 ACTIVE = (
     "        if self.active:\n"
@@ -634,8 +658,8 @@ KINDS = (
             "own": OWN_SPINS,
             "own_method": OWN_SPINS,
             "cleaned_up": msg(
-                "A thread runs beside {function}, which does not wait for it: {function} comes to "
-                "{called} at once, and the node ends."
+                "A thread runs beside {function}, which does not wait for it: {function} goes on to "
+                "{called}, and the node ends."
             ),
         },
         fixes={

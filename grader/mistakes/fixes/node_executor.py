@@ -36,6 +36,12 @@ def executors_of(source: NodeSource) -> set[str]:
     }
 
 
+def is_passed(source: NodeSource, name: str) -> bool:
+    """Return whether an executor is an argument of a call, which may add nodes to it."""
+    given = (a for call, _ in source.calls for a in (*call.args, *(k.value for k in call.keywords)))
+    return any(dotted(argument) == name for argument in given)
+
+
 def called(statement: ast.stmt) -> str:
     """Return the name of the function that a statement only calls."""
     value = statement.value if isinstance(statement, ast.Expr) else None

@@ -109,10 +109,20 @@ def early_cleanup(source: NodeSource) -> tuple[ast.Expr, ast.stmt] | None:
     for statement in body if spins else []:
         if statement is spins[0]:
             return None
-        if isinstance(statement, ast.Expr) and _calls(statement, CLEANUP):
+        other = _destroys_other_node(source, statement)
+        if isinstance(statement, ast.Expr) and _calls(statement, CLEANUP) and not other:
             between = body[body.index(statement) : body.index(spins[0])]
             return None if any(_calls(s, ("init",)) for s in between) else (statement, spins[0])
     return None
+
+
+def _destroys_other_node(source: NodeSource, statement: ast.stmt) -> bool:
+    """Whether a statement destroys only a node that no executor and no call of spin gets."""
+    names = [name for _, name in calls_in(statement) if last_part(name) in CLEANUP]
+    owners = {name.rpartition(".")[0] for name in names if last_part(name) == "destroy_node"}
+    spun = {dotted(a) for call in source.calls_of(*SPINS, "add_node") for a in call.args}
+    known = spun | source.node_variables | {"self", "super()", ""}
+    return bool(owners) and len(owners) == len(names) and not owners & known
 
 
 def cleanup_by_call(source: NodeSource) -> tuple[ast.Expr, Function, str] | None:

@@ -40,6 +40,16 @@ def only_called(work: list[ast.stmt]) -> ast.Call | None:
     return value if dotted(value.func) and "()" not in dotted(value.func) else None
 
 
+def until_ros_ends(loop: Loop) -> bool:
+    """Return whether only the end of ROS, or an error, ends a loop: while rclpy.ok() without break."""
+    if not isinstance(loop, ast.While) or loop.orelse:
+        return False
+    left = any(isinstance(n, ast.Break | ast.Return | ast.Raise) for n in ast.walk(loop))
+    always = isinstance(loop.test, ast.Constant) and bool(loop.test.value)
+    asks = isinstance(loop.test, ast.Call) and dotted(loop.test.func) in ("rclpy.ok", "ok")
+    return (always or asks) and not left
+
+
 def condition_of(source: NodeSource, loop: Loop) -> str:
     """Return the condition on which alone a loop goes on; "" if it can end for another reason."""
     leaves = any(isinstance(n, ast.Break | ast.Return | ast.Raise) for n in ast.walk(loop))

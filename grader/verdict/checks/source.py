@@ -91,7 +91,10 @@ def node_file(evidence: Evidence) -> Passed:
     advice = hints(parsed.tree, evidence.assignment.function)
     inner = evidence.assignment.folder
     if evidence.submission.file(f"{inner}/__init__.py") is None:
-        no_init = _no_init(inner, misnamed_init(names_in(evidence, inner)))
+        setup = evidence.submission.file("setup.py")
+        finds = setup is None or b"find_packages" in setup.data
+        close = misnamed_init(names_in(evidence, inner))
+        no_init = _no_init(inner, close) if finds else _init_not_needed(inner)
         advice.insert(0, no_init)
     other = _other_version(evidence, path)
     if other:
@@ -136,6 +139,15 @@ def _no_init(inner: str, close: str) -> str:
     return say(
         "There is no {inner}/__init__.py: without it find_packages() finds nothing to "
         "install, and the node cannot be imported. Make it: an empty file is enough.",
+        inner=inner,
+    )
+
+
+def _init_not_needed(inner: str) -> str:
+    """Return the advice on a missing __init__.py where setup.py does not look for it."""
+    return say(
+        "There is no {inner}/__init__.py. Here setup.py names the folder without find_packages(), which "
+        "would not find it. Make the file all the same: an empty one is enough.",
         inner=inner,
     )
 
