@@ -163,6 +163,8 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
         return None
     if (late := _logs_after_spin(suspect, callback)) is not None:
         return late
+    if _logs_the_count_elsewhere(suspect, callback):
+        return None  # (a value that the callback calls may be that function)
     found = suspect.finding("log_missing", callback)
     if callback in source.methods.values():
         return found
@@ -199,6 +201,26 @@ def _logs_after_spin(suspect: Suspect, callback: Function) -> RecognisedMistake 
         }
         return replace(found, words=words, variant="after_spin")
     return None
+
+
+def _severity_changed(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    del match
+    return raised.finding("severity_changed", line=str(raised.line)) if raised.line else None
+
+
+def _logs_the_count_elsewhere(suspect: Suspect, callback: Function) -> bool:
+    """Whether a function that is given to something as a value logs the line of the count."""
+    source = suspect.source
+    head = suspect.output.text.split("{n}")[0].strip().lower()
+    for module in source.known_modules:
+        values = {dotted(n) for n in module.nodes if isinstance(n, ast.Name | ast.Attribute)}
+        values -= {dotted(c.func) for c in module.nodes if isinstance(c, ast.Call)}
+        for function in (n for n in module.nodes if isinstance(n, Function) and n is not callback):
+            parts = [n for call in source.logs(function) for n in ast.walk(call)]
+            texts = [str(n.value).lower() for n in parts if isinstance(n, ast.Constant)]
+            if any(head in t for t in texts) and function.name in map(last_part, values):
+                return True
+    return False
 
 
 def _logs_further(source: NodeSource, part: ast.AST) -> bool:
@@ -773,6 +795,35 @@ KINDS = (
                 fails="run.output",
                 blocks=SILENT,
                 note="below the default level: neither on the terminal nor on /rosout",
+            ),
+        ),
+    ),
+    _node(
+        "severity_changed",
+        "logger",
+        msg("One line of code logs with several levels"),
+        msg(
+            "rclpy keeps the level of each line of code that calls the logger, and refuses another level from "
+            "the same line. Line {line} logs with different levels: in a loop, or in a function that gets the "
+            "level."
+        ),
+        msg(
+            "Write a call of its own for each level, such as .info(…) under one branch of an if and .warn(…) "
+            "under the other. Or log with info(…) alone: the exercise needs no other level."
+        ),
+        links.LOGGING,
+        raised={r"^ValueError: Logger severity cannot be changed between calls": _severity_changed},
+        examples=(
+            example(
+                "severity_changed",
+                Replace(
+                    NODE,
+                    LOG_LINE,
+                    "        for level in ('info', 'warn'):\n"
+                    "            getattr(self.get_logger(), level)('Hello time: ' + str(self.counter_))\n",
+                ),
+                fails="run.output",
+                blocks=("run.interrupt",),
             ),
         ),
     ),

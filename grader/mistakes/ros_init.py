@@ -134,6 +134,21 @@ def _init_in_guard(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
     return raised.finding("init_in_guard", at=found, written=written, line=str(found.lineno))
 
 
+def _init_as_default(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Look for a node that is made as the default value of a parameter, which Python does on import."""
+    del match
+    source = raised.source
+    for module in source.known_modules:
+        for function in (n for n in module.nodes if isinstance(n, Function)):
+            given = [*function.args.defaults, *filter(None, function.args.kw_defaults)]
+            for value in given:
+                if isinstance(value, ast.Call) and dotted(value.func) in source.class_names:
+                    code = module.text.code(value)
+                    found = raised.finding("node_as_default", at=value, name=code)
+                    return replace(found, words={**found.words, "method": function.name})
+    return None
+
+
 def _init_late(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     del match
     inits = _inits(raised)
@@ -370,6 +385,29 @@ KINDS = (
                     "if __name__ == '__main__':\n",
                     "if __name__ == '__main__':\n    rclpy.init()\n",
                 ),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "node_as_default",
+        "start",
+        msg("A node is the default value of a parameter"),
+        msg(
+            "Python works out a default value when it reads the def: here at the import of the file, before "
+            "{method} is called. {name} makes the node then, and rclpy.init() has not run."
+        ),
+        msg(
+            "Delete the parameter of {method} that has {name} as its default, and write a line there instead, "
+            "below rclpy.init(): the name of the parameter, = and {name}."
+        ),
+        links.RCLPY,
+        raised={NOT_INITIALIZED: _init_as_default},
+        examples=(
+            example(
+                "node_as_default_of_main",
+                Replace(NODE, "def main(args=None):", "def main(args=None, node=MyFirstNode()):"),
+                Replace(NODE, "    node = MyFirstNode()\n", ""),
                 fails="run.starts",
             ),
         ),

@@ -22,19 +22,21 @@ LOOPS = ast.ListComp | ast.SetComp | ast.DictComp | ast.GeneratorExp | ast.For
 def _once(module: Module, source: NodeSource, goal: Goal) -> Found:
     """Yield what a function makes in each call, made once above it or in __init__."""
     del goal
-    for function in (n for n in module.nodes if isinstance(n, Function)):
+    functions = [n for n in module.nodes if isinstance(n, Function)]
+    plain = {f.name for f in functions if not any(isinstance(n, ast.Yield) for n in ast.walk(f))}
+    for function in functions:
         if function is source.main or function.name == "__init__":
             continue
         if not owns_lines(module, function):
             continue
-        for call in _made_in(function):
+        for call in _made_in(function, plain):
             change = _made_once(module, function, call)
             if change is not None:
                 yield 3, change
 
 
-def _made_in(function: Function) -> Iterator[ast.Call]:
-    """Yield the calls in a function that need none of its own names."""
+def _made_in(function: Function, plain: set[str]) -> Iterator[ast.Call]:
+    """Yield the calls in a function that need none of its own names, and are of no `plain` function."""
     own = parameters_of(function) - {"self"}
     own |= {
         n.id for n in ast.walk(function) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
@@ -46,8 +48,8 @@ def _made_in(function: Function) -> Iterator[ast.Call]:
             continue
         if name in BUILTINS and name not in LAZY:
             continue
-        if called_name(call).startswith("create_"):
-            continue  # (it has to be made when it is asked for, or not at all)
+        if called_name(call) in plain or called_name(call).startswith("create_"):
+            continue  # (it may return the same object each time, or has to be called where it is)
         if not {n.id for n in ast.walk(call) if isinstance(n, ast.Name)} & own:
             yield call
 
