@@ -363,7 +363,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "made": "node",
         "call": "MyNode()",
     },
-    "node.node_as_default": {"name": "MyFirstNode()", "method": "main"},
+    "node.node_as_default": {"name": "Counting()", "method": "run"},
     "node.init_late": {"written": "rclpy.init(args=args)"},
     "node.init_in_guard": {"written": "rclpy.init()", "line": "30"},
     "node.period_duration": {"name": "Duration(seconds=1.0)", "written": "1.0"},
