@@ -1,4 +1,8 @@
-"""A node with an action: it turns by up to 3 at once, rejects what is below 0, else goes on."""
+"""A node with an action: it turns by up to 3 in half a second, rejects what is below 0, else goes on.
+
+It repeats its feedback: a server can have a goal before it knows the client's subscription for the
+feedback, and what it publishes until then is lost.
+"""
 
 import time
 from contextlib import suppress
@@ -18,7 +22,9 @@ def judge(goal):  # type: ignore[no-untyped-def]
 
 
 def execute(handle):  # type: ignore[no-untyped-def]
-    handle.publish_feedback(RotateAbsolute.Feedback(remaining=0.5))
+    for _ in range(10):
+        handle.publish_feedback(RotateAbsolute.Feedback(remaining=0.5))
+        time.sleep(0.05)
     while handle.request.theta > 3 and not handle.is_cancel_requested:
         time.sleep(0.05)
     if handle.is_cancel_requested:
