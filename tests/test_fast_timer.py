@@ -10,7 +10,7 @@ import pytest
 
 from grader.base.unheard import unheard
 from grader.package.intake.model import SourceFile
-from grader.package.source.fastest_timer import fastest_timer
+from grader.package.source.fastest_timer import fastest_timer, knows_all_periods
 from grader.run import session
 from grader.run.clock import GRID, VirtualClock
 from grader.run.observer import SECOND, Observer, Watch
@@ -41,13 +41,21 @@ class EveryNth(Node):
         return Answer(barrier=True, logs=logs)
 
 
-def driven(period: float, every: int, grid: float, *, fine: bool = True) -> Watch:
+def driven(
+    period: float, every: int, grid: float, *, fine: bool = True, fine_ticks: int = 0
+) -> Watch:
     console = SlowConsole()
     observer = Observer(Terminal(console, most=1_000_000), EveryNth(console, period, every), OUTPUT)
     watch = Watch()
-    VirtualClock(observer, OUTPUT, deadline=time.monotonic() + 30, fine=fine, grid=grid).drive(
-        watch, lambda event: None
+    clock = VirtualClock(
+        observer,
+        OUTPUT,
+        deadline=time.monotonic() + 30,
+        fine=fine,
+        grid=grid,
+        fine_ticks=fine_ticks,
     )
+    clock.drive(watch, lambda event: None)
     return watch
 
 
@@ -57,6 +65,13 @@ def test_a_right_node_with_a_fast_timer_is_on_time(period: float, every: int) ->
     assert not watch.missing
     assert not watch.early
     assert len(watch.dues) == OUTPUT.ticks
+
+
+def test_a_jump_of_the_clock_makes_a_wrong_node_look_right() -> None:
+    """At 0.2 s: calls 2, 4, …; but with one jump to each line, call 2 comes at 1 s."""
+    assert not driven(0.1, 2, GRID, fine=False).early
+    assert driven(0.1, 2, GRID, fine=False, fine_ticks=2).early
+    assert driven(0.1, 2, GRID).period == pytest.approx(0.2)
 
 
 def test_larger_steps_than_the_timer_has_lose_ticks() -> None:
@@ -83,6 +98,10 @@ def test_the_period_of_a_wrong_node_is_measured(period: float, every: int) -> No
         ("self.create_timer(0, self.tick)", None),
         ("self.create_timer(period(), self.tick)", None),
         ("self.create_timer()", None),
+        ("self.create_rate(10)", 0.1),
+        ("self.create_rate(frequency=4.0, clock=None)", 0.25),
+        ("self.create_rate(0)", None),
+        ("self.create_rate()", None),
         ("print(", None),
     ],
 )
@@ -100,11 +119,25 @@ def test_a_period_can_be_in_another_module() -> None:
 
 
 @pytest.mark.parametrize(
+    ("text", "known"),
+    [
+        ("self.create_timer(1.0, self.tick)", True),
+        ("self.create_timer(PERIOD, self.tick)", False),
+        ("self.create_timer(1.0, self.tick)\nself.create_timer(PERIOD, self.tick)", False),
+        ("every(1.0, self.tick)", False),
+    ],
+)
+def test_it_is_known_whether_the_source_says_all_periods(text: str, known: bool) -> None:
+    assert knows_all_periods([SourceFile(NODE, "file", data=text.encode())]) is known
+
+
+@pytest.mark.parametrize(
     ("fastest", "fine", "grid"),
     [
         (None, False, GRID),
         (1.0, False, GRID),
-        (0.05, False, GRID),
+        (0.999, True, GRID),
+        (0.05, True, GRID),
         (0.01, True, 100),
         (0.0001, True, FASTEST * OUTPUT.period),
     ],
@@ -124,7 +157,7 @@ def test_a_session_goes_in_steps_of_the_fastest_timer(
 
     opened = runs()
     monkeypatch.setattr(session, "observe", observed)
-    opened._grid = opened._grid_of(fastest)
+    opened._fastest = fastest
     opened.run(unheard)
     assert [found for found, _ in asked] == [fine]
     assert asked[0][1] == pytest.approx(grid)

@@ -129,6 +129,7 @@ def observe(
     until: float = math.inf,
     fine: bool = False,
     grid: float = GRID,
+    fine_ticks: int = 0,
     real_time: bool = False,
     more_ticks: int = 0,
     stay_seconds: float = 0,
@@ -136,9 +137,11 @@ def observe(
 ) -> Run:
     """Run the node, drive its clock (in `fine` steps or coarse), press Ctrl+C, return the result.
 
-    A period has `grid` fine steps. With `real_time` ROS time is as fast as the wall clock. With `plain` the command has no arguments
-    of ours, so that the node follows the wall clock. The clock shows `more_ticks` beyond those that the assignment announces; the last of them comes
-    `stay_seconds` of wall time after the node at the earliest.
+    A period has `grid` fine steps; the last `fine_ticks` come in fine steps in any case. With
+    `real_time` ROS time is as fast as the wall clock. With `plain` the command has no arguments of
+    ours, so that the node follows the wall clock. The clock shows `more_ticks` beyond those that the
+    assignment announces; the last of them comes `stay_seconds` of wall time after the node at the
+    earliest.
 
     The run ends at `until` (by time.monotonic()) at the latest. Raises ProbeError if our own side
     failed. It is the run's `resource` instead if the probe exceeded a limit, because the node
@@ -166,6 +169,7 @@ def observe(
                 deadline=deadline,
                 fine=fine,
                 grid=grid,
+                fine_ticks=fine_ticks,
                 real_time=real_time,
                 more_ticks=more_ticks,
                 stay_until=time.monotonic() + stay_seconds if stay_seconds else 0,

@@ -15,7 +15,7 @@ from grader.course.assignment import Assignment
 from grader.course.scenario import RunPlan
 from grader.package.source.command_line import reads_command_line
 from grader.package.source.ends_after import counts_to, ends_after
-from grader.package.source.fastest_timer import fastest_timer
+from grader.package.source.fastest_timer import fastest_timer, knows_all_periods
 from grader.package.source.real_time import reads_real_time
 from grader.package.source.remarks import Remark, remarks_on
 from grader.package.source.ros_time import waits_for_ros_time
@@ -44,6 +44,7 @@ PATIENCE = 3.0  # times the wall time that the first line took, for those of a p
 PLAIN_SECONDS = 5.0  # of wall time on top of that
 RUNS = 3  # attempts at a run if our own side fails
 FASTEST = 1000  # steps of the clock in a second of ROS time
+FINE_TICKS = 2  # last lines before which the clock goes in fine steps, if a period is not known
 AGREE = 0.1  # of the period: two runs on the wall clock that differ by more are inconsistent
 
 
@@ -71,7 +72,8 @@ class Session:
         self._reads_real_time = False
         self._reads_command_line = False
         self._waits_for_ros_time = False
-        self._grid: float = GRID
+        self._fastest: float | None = None  # period of a timer
+        self._fine_ticks = 0
         self._unforeseen = Unforeseen(more_ticks=0, stay_seconds=0, draw=1)
         self._built = b""  # the workspace after the build, for a plain run or another scenario
         self._planned = False  # whether a run of a scenario was made
@@ -101,7 +103,8 @@ class Session:
         self._reads_real_time = reads_real_time(submission.files)
         self._reads_command_line = reads_command_line(submission.files)
         self._waits_for_ros_time = waits_for_ros_time(submission.files)
-        self._grid = self._grid_of(fastest_timer(submission.files))
+        self._fastest = fastest_timer(submission.files)
+        self._fine_ticks = 0 if knows_all_periods(submission.files) else FINE_TICKS
         could_end = any(remark.kind in ("ends", "hides") for remark in self._remarks)
         self._unforeseen = unforeseen(
             submission.sha256,
@@ -126,7 +129,9 @@ class Session:
         """Run the node and return the result; repeat the run if our own side failed.
 
         `named` is the assignment with the names that the built package has, if they differ.
-        The clock goes in fine steps from the beginning if the node has a timer that is faster.
+        The clock goes in fine steps from the beginning if the node has a timer that is faster than
+        the lines: a jump of the clock leaves out calls of it, and may make wrong lines look right.
+        If the period of a timer is not known, it goes so before the last lines.
         A run that would cost points for its timing is repeated too, with the clock in fine steps,
         because load or a jump of the clock must not look like the node's fault; with a clock as fast
         as the wall clock, if the package reads that. A package that reads its command line gets a run
@@ -139,7 +144,7 @@ class Session:
         begin = time.monotonic()
         named = named or self.assignment
         try:
-            run = self._run(on_event, named, fine=self._grid > GRID)
+            run = self._run(on_event, named, fine=self._has_faster_timer)
             if run.doubts_ros2:
                 prove_again(self.sandbox)
             return self._compared(run, named)
@@ -202,6 +207,7 @@ class Session:
             named,
             fine=fine,
             grid=self._grid,
+            fine_ticks=self._fine_ticks,
             real_time=real_time,
             plain=plain,
             more_ticks=self._unforeseen.more_ticks,
@@ -236,15 +242,21 @@ class Session:
         prove_again(self.sandbox)
         raise Unobserved(f"the probe failed in all {tries} runs, the last time: {failure}")
 
-    def _grid_of(self, fastest: float | None) -> float:
-        """Return the fine steps of a period, in which no timer of the node loses a tick.
+    @property
+    def _has_faster_timer(self) -> bool:
+        """Whether a timer of the node is faster than the lines."""
+        return self._fastest is not None and self._fastest < self.assignment.output.period
+
+    @property
+    def _grid(self) -> float:
+        """The fine steps of a period, in which no timer of the node loses a tick.
 
         A timer fires once in a step, however long that is; the fastest steps are of 1 ms.
         """
         period = self.assignment.output.period
-        if fastest is None or fastest >= period / GRID:
+        if self._fastest is None or self._fastest >= period / GRID:
             return GRID
-        return min(period / fastest, period * FASTEST)
+        return min(period / self._fastest, period * FASTEST)
 
     def _stands_still(self, run: Run) -> bool:
         """Whether a node never answered, still runs, and has at most one line of a count.

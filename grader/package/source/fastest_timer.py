@@ -1,4 +1,4 @@
-"""The shortest period of a node's timers, as far as its source says it."""
+"""The periods of a node's timers, as far as its source says them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from grader.package.source.node_modules import node_modules
 from grader.package.source.timer import timer_of
 
 MOST_STEPS = 12  # names and operators inside each other
-TIMERS = ("create_timer", "create_rate")
 OPERATORS: Mapping[type[ast.operator], Callable[[float, float], float]] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
@@ -24,7 +23,19 @@ OPERATORS: Mapping[type[ast.operator], Callable[[float, float], float]] = {
 
 
 def fastest_timer(files: Sequence[SourceFile]) -> float | None:
-    """Return the shortest period (s, above 0) of a timer; None if no period is known.
+    """Return the shortest period (s, above 0) of a timer; None if no period is known."""
+    known = (seconds for seconds in _periods(files) if seconds is not None and seconds > 0)
+    return min(known, default=None)
+
+
+def knows_all_periods(files: Sequence[SourceFile]) -> bool:
+    """Whether the source has a timer, and says the period of each of its timers."""
+    periods = _periods(files)
+    return bool(periods) and None not in periods
+
+
+def _periods(files: Sequence[SourceFile]) -> list[float | None]:
+    """Return the period (s) of each timer; None if it is not known.
 
     A name stands for its value if the package sets it once. Files that cannot be read count as none.
     """
@@ -36,9 +47,20 @@ def fastest_timer(files: Sequence[SourceFile]) -> float | None:
                 for name in targets_of(node):
                     values.setdefault(last_part(name), []).append(node.value)
     calls = [n for m in modules for n in m.nodes if isinstance(n, ast.Call)]
-    periods = [timer_of(c, None).period for c in calls if called_name(c) in TIMERS]
-    known = [_number(period, values, MOST_STEPS) for period in periods if period is not None]
-    return min((seconds for seconds in known if seconds is not None and seconds > 0), default=None)
+    timers = [timer_of(call, None).period for call in calls if called_name(call) == "create_timer"]
+    rates = [_frequency_of(call) for call in calls if called_name(call) == "create_rate"]
+
+    def number(value: ast.expr | None) -> float | None:
+        return None if value is None else _number(value, values, MOST_STEPS)
+
+    hertz = [number(rate) for rate in rates]
+    return [number(period) for period in timers] + [1 / rate if rate else None for rate in hertz]
+
+
+def _frequency_of(call: ast.Call) -> ast.expr | None:
+    """Return the frequency (Hz) that create_rate gets."""
+    given = [keyword.value for keyword in call.keywords if keyword.arg == "frequency"]
+    return next(iter([*call.args, *given]), None)
 
 
 def _number(value: ast.expr, values: Mapping[str, list[ast.expr]], steps: int) -> float | None:
