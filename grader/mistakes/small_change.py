@@ -38,6 +38,15 @@ KINDS = (
                 "One second is 1000 milliseconds, 1000000 microseconds or 1000000000 nanoseconds. The grader "
                 "ran the node with {written} instead of {name} in this line, and then this check passes."
             ),
+            "bits": msg(
+                "~, & and | work on the bits of a number: ~True is -2, which counts as true, and & comes before "
+                "==. In a condition, not, and, or are meant. The grader ran the node with {written} instead of "
+                "{name} in this line, and then this check passes."
+            ),
+            "power": msg(
+                "^ compares the bits of two numbers: 10 ^ 3 is 9. A power is written with **. The grader ran "
+                "the node with {written} instead of {name} in this line, and then this check passes."
+            ),
             "condition": msg(
                 "The lines below {name} run only when its condition is true. The grader ran the node "
                 "with these lines each time, and then this check passes."

@@ -24,13 +24,15 @@ OWN_REASON = (
         "inexact",
         "unit",
         "field",
+        "bits",
+        "power",
     ),
 )
 """The sorts of changes that only their own reason explains."""
 CERTAIN = (
     *("called", "not_called", "argument", "kept", "asked_for"),
     *("yields", "returned", "falsy", "inexact", "unkept", "gives_itself"),
-    *("given_back", "unit", "field", "before_spin"),
+    *("given_back", "unit", "field", "before_spin", "bits", "power"),
 )
 """The sorts of changes that hardly help by chance: a rule of Python is their reason."""
 MOVED = ("moved", "moved_down", "before_spin")

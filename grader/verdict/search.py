@@ -131,7 +131,8 @@ class _Search:
     def _without_skipped_blocks(self, found: Sequence[_Tried]) -> list[_Tried]:
         """Return the changes without those after which a block that ran does not run any more.
 
-        They hide what the block does, and it is the block that has the mistake or is too much.
+        They hide what the block does, and it is the block that has the mistake or is too much. A
+        change whose watched run was too slow is kept: it counted in a run that was not watched.
         """
         blocks = [block_of(one.last) if one.last is not None else None for one in found]
         asked = [(one, block) for one, block in zip(found, blocks) if block is not None]
@@ -143,6 +144,7 @@ class _Search:
             for (one, _), old, new in zip(asked, before, after)
             if old is not None
             and new is not None
+            and new.ended != "killed"
             and (any(old.values) or old.ended == "killed")
             and not any(new.values)
         ]

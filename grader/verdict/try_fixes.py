@@ -66,17 +66,28 @@ def with_tried_fix(result: CheckResult, evidence: Evidence, translate: Translato
     root = _root(found)
     if found.consequence_of or not found.id.startswith(RUNS):
         return found
-    if found.patch and root is not None and root.id in REWRITTEN:
+    rewritten = root is not None and root.id in REWRITTEN
+    if found.patch and (rewritten or _needs_more(found, result)):
         sure = [
             one
             for one in _found_changes(evidence)
             if one.is_certain
-            or (root.id == MEASURED and one.cost <= SLIGHT and _fits(one, found, root))
+            or (
+                root is not None
+                and root.id == MEASURED
+                and one.cost <= SLIGHT
+                and _fits(one, found, root)
+            )
         ]
         return _with_first(sure, result, evidence, translate, replaces=True) or found
     if found.patch:
         return found
     return _with_small_change(found, evidence, translate) or found
+
+
+def _needs_more(found: CheckResult, result: CheckResult) -> bool:
+    """Whether the usual fix of what was only seen helps only together with further fixes."""
+    return _root(found) is None and len(found.advice) > len(result.advice)
 
 
 def _with_small_change(

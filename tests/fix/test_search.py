@@ -379,6 +379,35 @@ def test_a_change_that_only_skips_a_loop_is_not_told(tmp_path: Path) -> None:
     assert "+        while" not in check.patch
 
 
+BITWISE = (
+    LATE.replace("        node.begin()\n", "")
+    .replace(
+        "        self.counter_ = 0\n",
+        "        self.counter_ = 0\n        self.cycle_ = 0\n        self.on_ = True\n        self.begin()\n",
+    )
+    .replace("create_timer(1.0", "create_timer(0.1")
+    .replace(
+        '        self.get_logger().info("Hello time: " + str(self.counter_))\n        self.counter_ += 1\n',
+        "        self.cycle_ += 1\n"
+        "        if self.on_ & self.cycle_ % 10 == 0:\n"
+        "            self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+        "            self.counter_ += 1\n",
+    )
+)
+
+
+@pytest.mark.full
+def test_a_condition_is_corrected_after_which_its_block_still_runs(tmp_path: Path) -> None:
+    """The calls 2, 4, … of the timer log: a clock that jumps from second to second sees no fault."""
+    root = package_with(BITWISE, tmp_path)
+    order = replace(marking.order(root), tries_fixes=True)
+    report = mark(marking.taken_in(root), order, unheard)
+    (check,) = [check for check in report.checks if check.status == "failed"]
+    assert check.id == "run.period"
+    assert "work on the bits of a number" in check.rationale
+    assert "+        if self.on_ and self.cycle_ % 10 == 0:" in check.patch
+
+
 @pytest.mark.full
 def test_the_values_of_watched_code_are_those_before_its_line(tmp_path: Path) -> None:
     root = package_with(MASKED, tmp_path)

@@ -473,3 +473,19 @@ def test_a_name_that_is_none_first_may_be_asked_the_other_way_round() -> None:
     assert [one for one in changes(text) if "if self.made is None:" in one.text]
     anew = [one for one in changes(text) if one.change.sort.startswith("once")]
     assert not [one for one in anew if "create_timer" in one.change.written]
+
+
+@pytest.mark.parametrize(
+    ("code", "sort", "new"),
+    [
+        ("self.on = ~self.on", "bits", "self.on = not self.on"),
+        ("value = [~self.on]", "bits", "value = [(not self.on)]"),
+        ("if self.on & (n % 2 == 0): pass", "bits", "if self.on and (n % 2 == 0): pass"),
+        ("if (n > 1) | self.on: pass", "bits", "if (n > 1) or self.on: pass"),
+        ("n = 10^3", "power", "n = 10 ** 3"),
+    ],
+)
+def test_what_works_on_bits_becomes_what_is_meant(code: str, sort: str, new: str) -> None:
+    text = NODE.replace("self.counter_ = 0", code)
+    found = [one.text for one in changes(text) if one.change.sort == sort]
+    assert found == [NODE.replace("self.counter_ = 0", new)]

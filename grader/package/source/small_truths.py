@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import ast
+from dataclasses import replace
 
 from grader.package.source.change import Change, of_piece
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Module
 from grader.package.source.names import dotted
 from grader.package.source.node import NodeSource
-from grader.package.source.small_values import Found, Goal, Sort
+from grader.package.source.small_values import Found, Goal, Sort, between
 
 DIGITS = 6
 """The digits after the point to which a sum of floats is rounded."""
@@ -96,4 +97,26 @@ def _whole(module: Module, source: NodeSource, goal: Goal) -> Found:
             yield 4, of_piece(module, "value", node, str(float(value)))
 
 
-SORTS: tuple[Sort, ...] = (_falsy, _inexact, _whole)
+def _bits(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield the operators of conditions, and powers, in the place of those that work on bits."""
+    del source, goal
+    text = module.text
+    for node in module.nodes:
+        if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Invert):
+            new = f"not {text.code(node.operand)}"
+            around = module.parents.get(node)
+            whole = isinstance(around, ast.Assign | ast.Return | ast.If | ast.While | ast.BoolOp)
+            yield 1, of_piece(module, "bits", node, new if whole else f"({new})")
+        elif isinstance(node, ast.BinOp):
+            for sort, kind, sign in BITWISE:
+                if isinstance(node.op, kind):
+                    yield 1, replace(between(module, node, node.left, node.right, sign), sort=sort)
+
+
+BITWISE = (
+    ("bits", ast.BitAnd, "and"),
+    ("bits", ast.BitOr, "or"),
+    ("power", ast.BitXor, "**"),
+)
+"""Sorts of changes: the operators that work on bits, and what beginners mean by them."""
+SORTS: tuple[Sort, ...] = (_falsy, _inexact, _whole, _bits)

@@ -191,12 +191,12 @@ def _operators(module: Module, source: NodeSource, goal: Goal) -> Found:
         if isinstance(node, ast.BinOp):
             for kind in SUMS if isinstance(node.op, SUMMED) or _is_text(node.left) else ():
                 if not isinstance(node.op, kind):
-                    yield 2, _between(module, node, node.left, node.right, SIGNS[kind])
+                    yield 2, between(module, node, node.left, node.right, SIGNS[kind])
         elif isinstance(node, ast.Compare) and len(node.ops) == 1:
             yield from _compared(module, node)
         elif isinstance(node, ast.BoolOp) and len(node.values) == 2:
             sign = "or" if isinstance(node.op, ast.And) else "and"
-            yield 4, _between(module, node, node.values[0], node.values[1], sign)
+            yield 4, between(module, node, node.values[0], node.values[1], sign)
         elif isinstance(node, ast.AugAssign) and not isinstance(node.op, ast.Add):
             new = f"{text.code(node.target)} += {text.code(node.value)}"
             yield 2, of_piece(module, "value", node, new)
@@ -223,12 +223,12 @@ def _compared(module: Module, node: ast.Compare) -> Found:
     if dotted(node.left).endswith("ok()"):  # (what ok() returns is a condition already)
         yield 1, of_piece(module, "value", node, module.text.code(node.left))
     if written in OTHER:
-        yield 3, _between(module, node, node.left, right, OTHER[written])
+        yield 3, between(module, node, node.left, right, OTHER[written])
         return
     for kind in COMPARED:
         if kind is not written:
             cost = 2 if {written, kind} in NEAR else 4
-            yield cost, _between(module, node, node.left, right, SIGNS[kind])
+            yield cost, between(module, node, node.left, right, SIGNS[kind])
 
 
 def _counting(module: Module, source: NodeSource, goal: Goal) -> Found:
@@ -273,7 +273,7 @@ def _bases(module: Module, source: NodeSource, goal: Goal) -> Found:
             yield 4, Change("base", base, text.code(base), "Node", splices)
 
 
-def _between(module: Module, whole: ast.expr, left: ast.expr, right: ast.expr, sign: str) -> Change:
+def between(module: Module, whole: ast.expr, left: ast.expr, right: ast.expr, sign: str) -> Change:
     """Return the change of the operator between two operands."""
     text = module.text
     (begin, stop), first, last = text.span(whole), text.span(left)[1], text.span(right)[0]

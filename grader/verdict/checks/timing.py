@@ -59,7 +59,7 @@ class LinePeriod(Parameters):
 
 @kind("log.period", LinePeriod, depends=["run.starts"], after=["log.counts", "log.logger"])
 def period(use: Use[LinePeriod]) -> Passed:
-    """A line comes once in each period, at the right instants."""
+    """A line comes in each period, at the right instants."""
     return _in_scenario(use) if use.in_scenario else _line_by_line(use.evidence, use.given.period)
 
 
@@ -116,6 +116,8 @@ def _line_by_line(evidence: Evidence, wanted: float) -> Passed:
             follows=count if len(events) == 1 and _has_failed(evidence, count) else "",
         )
     on_time = [event for event in events if event.due is not None]
+    if evidence.has_failed(count) and len({event.due for event in on_time}) == 1:
+        raise Blocked(by=count)  # one instant has no period
     stopped = len(on_time) > 1 and abs((watch.period or wanted) - wanted) < 0.001
     if not watch.early and (not watch.missing or stopped):  # log.counts reports a stop
         slow = _kept_apart(evidence, on_time, wanted)
