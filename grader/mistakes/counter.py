@@ -31,6 +31,7 @@ from grader.package.source.counter import (
 from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import NodeSource
+from grader.package.source.place import statement_at
 from grader.package.source.plain_counter import plain_start
 from grader.package.source.sure_errors import is_never_set
 
@@ -50,16 +51,30 @@ LOG_AND_STEP = f"{LOG_LINE}{STEP_LINE}"
 
 
 def _step_is_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The line adds a number in quotes; without a line, the only place of the files that does."""
     del match
-    for node in raised.source.all_nodes:
-        if isinstance(node, ast.AugAssign) and isinstance(node.value, ast.Constant):
-            step, name = node.value.value, dotted(node.target)
-            if isinstance(step, str) and name:
-                return raised.finding("step_is_text", at=node, name=name, step=step)
-        if isinstance(node, ast.Assign) and (added := text_added(node)):
-            name = next(targets_of(node))
-            return raised.finding("step_is_text", at=node, name=name, step=added)
-    return None
+    statement = statement_at(raised.module, raised.line)
+    nodes = raised.source.all_nodes if raised.line is None else [statement]
+    found = [
+        (node, name, step)
+        for node in nodes
+        if isinstance(node, ast.AugAssign | ast.Assign)
+        for name, step in [_text_added(node)]
+        if name and step.isascii() and step.isdigit()
+    ]
+    if len(found) != 1:
+        return None
+    at, name, step = found[0]
+    return raised.finding("step_is_text", at=at, name=name, step=step)
+
+
+def _text_added(statement: ast.AugAssign | ast.Assign) -> tuple[str, str]:
+    """Return the name to which a statement adds a text, and that text; "" for what is not there."""
+    if isinstance(statement, ast.Assign):
+        return next(targets_of(statement), ""), text_added(statement)
+    step = statement.value.value if isinstance(statement.value, ast.Constant) else None
+    added = step if isinstance(step, str) and isinstance(statement.op, ast.Add) else ""
+    return dotted(statement.target), added
 
 
 def _plus_reversed(suspect: Suspect) -> RecognisedMistake | None:

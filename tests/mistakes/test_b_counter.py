@@ -1,0 +1,41 @@
+"""Diagnoses of a counter: each statement is true of the program."""
+
+from __future__ import annotations
+
+import pytest
+
+from grader.mistakes.catalogue import CATALOGUE
+from grader.mistakes.recognised import RecognisedMistake
+from tests.mistakes.other_forms import RIGHT, STEP, changed
+from tests.mistakes.test_from_source import line_of, raised
+
+INT_AND_STR = "TypeError: unsupported operand type(s) for +=: 'int' and 'str'"
+
+
+def texts(found: RecognisedMistake | None) -> tuple[str, str]:
+    """Return the reason and the fix."""
+    assert found is not None
+    kind, words = CATALOGUE[found.kind], {**found.params, **found.words}
+    return str(kind.rationale(words, found.variant)), str(kind.fix_text(words, found.variant))
+
+
+def kind_at(error: str, text: str, part: str) -> str:
+    """Return the kind behind an error of the line that has this part."""
+    found = raised(error, text, line_of(text, part))
+    return "" if found is None else found.kind
+
+
+def test_the_number_in_quotes_is_that_of_the_line_and_not_of_another_one() -> None:
+    rows = "        word = 'a'\n        word += '5'\n        self.counter_ += '1'\n"
+    text = changed(RIGHT, (STEP, rows))
+    found = raised(INT_AND_STR, text, line_of(text, "self.counter_ +="))
+    assert found is not None
+    assert found.kind == "node.step_is_text"
+    assert "self.counter_ += 1" in texts(found)[1]
+
+
+@pytest.mark.parametrize("added", ["' seconds'", "step"])
+def test_what_is_no_number_in_quotes_is_not_told_to_lose_its_quotes(added: str) -> None:
+    rows = f"        word = 'a'\n        word += '5'\n        step = '1'\n        self.counter_ += {added}\n"
+    text = changed(RIGHT, (STEP, rows))
+    assert kind_at(INT_AND_STR, text, "self.counter_ +=") != "node.step_is_text"
