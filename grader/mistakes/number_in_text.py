@@ -679,10 +679,10 @@ KINDS = (
                 "numbers: int() makes one of a string."
             ),
         },
-        seen=r'TypeError: can only concatenate str \(not "(?P<type>\w{1,40})"\) to str'
+        seen=r'TypeError: can only concatenate str \(not "(?P<type>int|float|bool|complex)"\) to str'
         r"|TypeError: unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'",
         raised={
-            r"can only concatenate str(?! \(not \"NoneType)|unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'": _concatenated
+            r"can only concatenate str \(not \"(?:int|float|bool|complex)\"|unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'": _concatenated
         },
         fixed_by=(node_log.number_as_text, lines.written),
         examples=(

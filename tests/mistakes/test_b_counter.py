@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from grader.mistakes.catalogue import CATALOGUE
@@ -39,3 +41,22 @@ def test_what_is_no_number_in_quotes_is_not_told_to_lose_its_quotes(added: str) 
     rows = f"        word = 'a'\n        word += '5'\n        step = '1'\n        self.counter_ += {added}\n"
     text = changed(RIGHT, (STEP, rows))
     assert kind_at(INT_AND_STR, text, "self.counter_ +=") != "node.step_is_text"
+
+
+@pytest.mark.parametrize(
+    ("kind", "value"),
+    [
+        ("list", "[self.counter_]"),
+        ("method", "self.get_name"),
+        ("Time", "self.get_clock().now()"),
+        ("bytes", "str(self.counter_).encode()"),
+        ("int", "self.counter_"),
+    ],
+)
+def test_only_a_number_is_told_to_be_made_a_string_of(kind: str, value: str) -> None:
+    text = changed(RIGHT, ("str(self.counter_)", value))
+    error = f'TypeError: can only concatenate str (not "{kind}") to str'
+    is_number = kind == "int"
+    assert (kind_at(error, text, "info(") == "node.str_plus_int") is is_number
+    seen = CATALOGUE["node.str_plus_int"].seen
+    assert (re.search(seen, error) is not None) is is_number
