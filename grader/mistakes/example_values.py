@@ -815,7 +815,12 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "type": "MyNode",
     },
     "node.name_local": {"name": "prefix", "line": 9, "function": "main"},
-    "node.variable_not_set": {"name": "period", "lines": "10", "function": "main"},
+    "node.variable_not_set": {
+        "name": "period",
+        "lines": "10",
+        "function": "main",
+        "written": "period = 0",
+    },
     "node.timer_method": {"name": "self.timer.stop", "written": "self.timer.cancel"},
     "node.spin_of_others": {
         "name": "rclpy.spin_some(node)",

@@ -8,7 +8,7 @@ import pytest
 
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.recognised import RecognisedMistake
-from tests.mistakes.other_forms import RIGHT, STEP, changed
+from tests.mistakes.other_forms import LOG, RIGHT, STEP, changed
 from tests.mistakes.test_from_source import line_of, raised
 
 INT_AND_STR = "TypeError: unsupported operand type(s) for +=: 'int' and 'str'"
@@ -60,3 +60,34 @@ def test_only_a_number_is_told_to_be_made_a_string_of(kind: str, value: str) -> 
     assert (kind_at(error, text, "info(") == "node.str_plus_int") is is_number
     seen = CATALOGUE["node.str_plus_int"].seen
     assert (re.search(seen, error) is not None) is is_number
+
+
+UNBOUND = (
+    "UnboundLocalError: cannot access local variable '{}' where it is not associated with a value"
+)
+SUM = "def add_up(numbers):\n    for one in numbers:\n        total += one\n    return total\n\n\nclass MyFirst"
+
+
+@pytest.mark.parametrize(
+    ("edit", "part", "name", "written"),
+    [
+        ((LOG, f"text += 'Hello time: ' + str(self.counter_)\n        {LOG}"), "text +=", "text", "text = ''"),
+        ((LOG, f"text = text + f'{{self.counter_}}'\n        {LOG}"), "text =", "text", "text = ''"),
+        ((STEP, "        for n in self.get_all():\n            n_ += n['step']\n"), "n_ +=", "n_", "n_ = 0"),
+        (("class MyFirst", SUM), "total +=", "total", "total = 0"),
+    ],
+)  # fmt: skip
+def test_a_text_or_a_sum_that_a_call_builds_is_not_told_to_outlast_the_call(
+    edit: tuple[str, str], part: str, name: str, written: str
+) -> None:
+    text = changed(RIGHT, edit)
+    found = raised(UNBOUND.format(name), text, line_of(text, part))
+    assert found is not None
+    assert (found.kind, found.variant) == ("node.variable_not_set", "added_to")
+    assert f"Write {written} on" in texts(found)[1]
+
+
+@pytest.mark.parametrize("step", ["counter_ += 1", "counter_ = counter_ + self.step"])
+def test_a_counter_without_self_is_told(step: str) -> None:
+    text = changed(RIGHT, (STEP, f"        {step}\n"))
+    assert kind_at(UNBOUND.format("counter_"), text, step) == "node.counter_local"
