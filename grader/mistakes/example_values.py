@@ -506,7 +506,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "line": 6,
     },
     "node.called_by_hand": {"written": "self.create_timer(0.5, self.callback)"},
-    "node.counts_elsewhere": {"name": "self.counter", "other": "count"},
+    "node.counts_elsewhere": {
+        "name": "self.counter",
+        "other": "count",
+        "written": "self.count()",
+    },
     "node.property_set": {"name": "counter", "written": "self._counter", "line": "15"},
     "node.str_plus_int": {
         "name": "self.counter",

@@ -8,8 +8,8 @@ import pytest
 
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.recognised import RecognisedMistake
-from tests.mistakes.other_forms import LOG, RIGHT, STEP, changed
-from tests.mistakes.test_from_source import line_of, raised
+from tests.mistakes.other_forms import LOG, RIGHT, STEP, TIMER, changed
+from tests.mistakes.test_from_source import line_of, look, raised
 
 INT_AND_STR = "TypeError: unsupported operand type(s) for +=: 'int' and 'str'"
 
@@ -91,3 +91,49 @@ def test_a_text_or_a_sum_that_a_call_builds_is_not_told_to_outlast_the_call(
 def test_a_counter_without_self_is_told(step: str) -> None:
     text = changed(RIGHT, (STEP, f"        {step}\n"))
     assert kind_at(UNBOUND.format("counter_"), text, step) == "node.counter_local"
+
+
+def method(name: str, *rows: str) -> tuple[str, str]:
+    """Return the edit that writes a method above the callback."""
+    body = "".join(f"        {row}\n" for row in rows)
+    return "    def timer_callback", f"    def {name}:\n{body}\n    def timer_callback"
+
+
+COUNT = method("count(self)", "self.counter_ += 1")
+OTHER_TIMER = (TIMER, f"self.create_timer(1.0, self.count)\n        {TIMER}")
+
+
+@pytest.mark.parametrize(
+    ("edits", "why", "fix"),
+    [
+        ([COUNT], "No line calls count", "self.count()"),
+        ([method("count(self, n)", "self.counter_ += n")], "No line calls count", "Move the +="),
+        ([method("count(self)", "self.counter_ += 1", "self.x = 1")], "No line calls", "Move the +="),
+        ([COUNT, OTHER_TIMER], "a timer of its own", "Then delete count"),
+        ([method("count(self)", "self.counter_ += 1", "self.x = 1"), OTHER_TIMER], "of its own", "Move"),
+        ([COUNT, (TIMER, f"Thread(target=self.count).start()\n        {TIMER}")], "other times", "Move"),
+    ],
+)  # fmt: skip
+def test_where_else_the_counter_is_increased_is_told_as_it_is(
+    edits: list[tuple[str, str]], why: str, fix: str
+) -> None:
+    found = look("run.constant_counter", changed(RIGHT, (STEP, ""), *edits))
+    assert found is not None
+    assert found.kind == "node.counts_elsewhere"
+    reason, change = texts(found)
+    assert why in reason
+    assert fix in change
+
+
+@pytest.mark.parametrize("symptom", ["run.wrong_step", "run.wrong_start", "run.constant_counter"])
+def test_a_method_that_nothing_calls_does_not_count_beside_the_callback(symptom: str) -> None:
+    for step in ("self.counter_ += 2", "self.more()"):
+        more = method("more(self)", "self.counter_ += 2")
+        text = changed(RIGHT, (STEP, f"        {step}\n"), COUNT, more)
+        found = look(symptom, text)
+        assert found is None or found.kind != "node.counts_elsewhere"
+
+
+def test_a_method_that_never_runs_does_not_change_the_first_number() -> None:
+    found = look("run.wrong_start", changed(RIGHT, (STEP, ""), COUNT))
+    assert found is None or found.kind != "node.counts_elsewhere"
