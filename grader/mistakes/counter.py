@@ -179,9 +179,26 @@ def _reset_if(suspect: Suspect) -> RecognisedMistake | None:
 
 def _modulo(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a rest of a division, after which the counter starts again."""
+    change = change_of(suspect, "modulo")
+    if change is not None and _is_asked(suspect, change.at):
+        return None
     found = worked_out("counter_reset", "modulo", variant="modulo")(suspect)
     deleted = found is not None and not found.params["written"]
     return replace(found, variant="modulo_line") if found is not None and deleted else found
+
+
+def _is_asked(suspect: Suspect, part: ast.AST) -> bool:
+    """Whether a value is only compared or is a condition, and is not what is counted."""
+    below = part
+    for around in suspect.source.module_of(part).around(part):
+        if isinstance(around, ast.Compare | ast.BoolOp):
+            return True
+        if isinstance(around, ast.If | ast.While | ast.IfExp) and around.test is below:
+            return True
+        if isinstance(around, ast.stmt):
+            return False
+        below = around
+    return False
 
 
 def _copy_increased(suspect: Suspect) -> RecognisedMistake | None:
@@ -310,9 +327,31 @@ def _adds_twice(suspect: Suspect) -> RecognisedMistake | None:
     counter, step = counter_in(suspect), suspect.output.step
     if counter is None or plain_start(suspect.source, counter.name) is None:
         return None
-    if len(counter.added) < 2 or not all(_is_plain_sum(suspect, n) for n in counter.added):
+    plain = [n for n in counter.added if _is_plain_sum(suspect, n)]
+    others = [n for n in counter.added if n not in plain]
+    right = len(plain) == 1 and _is_step(plain[0], step)
+    if len(counter.added) < 2 or (others and not (right and _are_under_if(suspect, others))):
         return None
-    return suspect.finding("adds_twice", counter.added[1], name=counter.name, step=step)
+    second = others[0] if others else plain[1]
+    return suspect.finding("adds_twice", second, name=counter.name, step=step)
+
+
+def _is_step(node: ast.AugAssign, step: float) -> bool:
+    added = node.value.value if isinstance(node.value, ast.Constant) else None
+    return isinstance(node.op, ast.Add) and type(added) is int and added == step
+
+
+def _are_under_if(suspect: Suspect, nodes: list[ast.AugAssign]) -> bool:
+    """Whether each of these sums is in an if of the callback, and in no other block."""
+    for node in nodes:
+        around = suspect.source.module_of(node).around(node)
+        blocks = [next(around, None), next(around, None)]
+        if not isinstance(node.op, SUM) or not isinstance(blocks[0], ast.If):
+            return False
+        left = [n for n in ast.walk(blocks[0]) if isinstance(n, ast.Return | ast.Raise)]
+        if left or not isinstance(blocks[1], Function):
+            return False
+    return True
 
 
 def _is_plain_sum(suspect: Suspect, node: ast.AugAssign) -> bool:
@@ -321,8 +360,19 @@ def _is_plain_sum(suspect: Suspect, node: ast.AugAssign) -> bool:
     return isinstance(node.op, SUM) and isinstance(around, Function)
 
 
-_added_elsewhere = worked_out("adds_twice", "doubled", variant="line")
+_added_in_line = worked_out("adds_twice", "doubled", variant="line")
 _any_step = worked_out("other_step", "step", variant="written")
+
+
+def _added_elsewhere(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a second addition to what is logged; another name may be the step that it grows by."""
+    change, counter = change_of(suspect, "doubled"), counter_in(suspect)
+    statement = change.at if change is not None else None
+    names = {last_part(name) for name in targets_of(statement)} if statement is not None else set()
+    own = counter is not None and bool(counter.added)
+    if counter is not None and own and names and last_part(counter.name) not in names:
+        return None
+    return _added_in_line(suspect)
 
 
 def _step_worked_out(suspect: Suspect) -> RecognisedMistake | None:
@@ -630,7 +680,8 @@ KINDS = (
             "run.wrong_step": first_of(_adds_twice, _added_elsewhere),
             "run.wrong_start": _added_elsewhere,
         },
-        fixed_by=(node_count.twice, node_worked_out.change("doubled")),
+        fixed_by=(node_count.twice, node_worked_out.change("doubled"), lines.deleted),
+        deletes=("", "line"),
         examples=(
             example(
                 "adds_in_helper_too",

@@ -7,9 +7,11 @@ import re
 import pytest
 
 from grader.mistakes.catalogue import CATALOGUE
-from grader.mistakes.recognised import RecognisedMistake
-from tests.mistakes.other_forms import LOG, RIGHT, STEP, TIMER, changed
-from tests.mistakes.test_from_source import line_of, look, raised
+from grader.mistakes.recognise import behind_symptom
+from grader.mistakes.recognised import RecognisedMistake, Suspect
+from tests.marking import ASSIGNMENT
+from tests.mistakes.other_forms import LOG, RIGHT, START, STEP, TIMER, changed
+from tests.mistakes.test_from_source import line_of, look, node_in, raised
 
 INT_AND_STR = "TypeError: unsupported operand type(s) for +=: 'int' and 'str'"
 
@@ -137,3 +139,37 @@ def test_a_method_that_nothing_calls_does_not_count_beside_the_callback(symptom:
 def test_a_method_that_never_runs_does_not_change_the_first_number() -> None:
     found = look("run.wrong_start", changed(RIGHT, (STEP, ""), COUNT))
     assert found is None or found.kind != "node.counts_elsewhere"
+
+
+def behind_lines(symptom: str, numbers: list[int], text: str) -> RecognisedMistake | None:
+    """Return the mistake behind a symptom of a node that logs these numbers."""
+    lines = tuple(f"Hello time: {number}" for number in numbers)
+    return behind_symptom(symptom, Suspect(node_in(text), ASSIGNMENT, lines=lines))
+
+
+def test_a_step_that_grows_is_not_another_addition_to_the_counter() -> None:
+    rows = "        self.counter_ += self.step\n        self.step += 1\n"
+    text = changed(RIGHT, (STEP, rows), (START, f"{START}        self.step = 1\n"))
+    found = behind_lines("run.wrong_step", [0, 1, 3, 6], text)
+    assert found is not None
+    assert found.kind == "node.other_step"
+    assert "self.counter_ += self.step" in texts(found)[1]
+
+
+@pytest.mark.parametrize(
+    ("rows", "numbers", "kind"),
+    [
+        ("self.counter_ = (self.counter_ + 1) % 2", [0, 1, 0, 1], "node.counter_reset"),
+        ("self.counter_ += 2 if self.counter_ % 2 else 1", [0, 1, 3, 5], ""),
+        ("self.counter_ += 1\n        if self.counter_ % 2 == 0:\n            self.counter_ += 1",
+         [0, 1, 3, 5], "node.adds_twice"),
+        ("self.counter_ += 2\n        if self.counter_ % 3 == 0:\n            self.counter_ -= 1",
+         [0, 2, 4, 5], ""),
+    ],
+)  # fmt: skip
+def test_a_rest_that_is_only_asked_for_does_not_reset_the_counter(
+    rows: str, numbers: list[int], kind: str
+) -> None:
+    found = behind_lines("run.wrong_step", numbers, changed(RIGHT, (STEP, f"        {rows}\n")))
+    assert found is None or found.kind not in {"node.counter_reset", "node.adds_twice"} - {kind}
+    assert not kind or (found is not None and found.kind == kind)
