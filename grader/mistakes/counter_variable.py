@@ -15,7 +15,7 @@ from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import adds_to, declares, names_given, outer_word, targets_of
 from grader.package.source.module import Function
-from grader.package.source.names import called_name, dotted
+from grader.package.source.names import called_name, dotted, last_part
 from grader.package.source.place import function_at
 
 COUNTER = msg(
@@ -162,6 +162,8 @@ def _anew(suspect: Suspect) -> RecognisedMistake | None:
         mistake = suspect.finding("counts_in_variable", steps[0], name=name)
         words = {**mistake.words, "function": callback.name, "written": step}
         if name in _with_default(callback) and not others:
+            if not _is_called_bare(suspect, callback):
+                continue
             back = [n for n in ast.walk(callback) if isinstance(n, ast.Return) and n.value]
             if not back:
                 return replace(mistake, words=words, variant="default")
@@ -171,6 +173,23 @@ def _anew(suspect: Suspect) -> RecognisedMistake | None:
         if given is not None and "get_parameter" in ast.unparse(given):
             return replace(mistake, words={**words, "line": str(others[0].lineno)})
     return None
+
+
+def _is_called_bare(suspect: Suspect, callback: Function) -> bool:
+    """Whether a timer gets the callback itself, not what gives it values: a lambda or a partial."""
+    source = suspect.source
+    named = [
+        n
+        for n in source.all_nodes
+        if isinstance(n, ast.Name | ast.Attribute) and last_part(dotted(n)) == callback.name
+    ]
+    for node in named:
+        parents = source.module_of(node).parents
+        around = parents.get(node)
+        call = parents.get(around) if isinstance(around, ast.keyword) else around
+        if not isinstance(call, ast.Call) or called_name(call) != "create_timer":
+            return False
+    return bool(named)
 
 
 def _with_default(function: Function) -> set[str]:
