@@ -173,3 +173,45 @@ def test_a_rest_that_is_only_asked_for_does_not_reset_the_counter(
     found = behind_lines("run.wrong_step", numbers, changed(RIGHT, (STEP, f"        {rows}\n")))
     assert found is None or found.kind not in {"node.counter_reset", "node.adds_twice"} - {kind}
     assert not kind or (found is not None and found.kind == kind)
+
+
+@pytest.mark.parametrize(
+    ("given", "is_bare"),
+    [
+        ("self.timer_callback", True),
+        ("callback=self.timer_callback", True),
+        ("partial(self.timer_callback, 0)", False),
+        ("functools.partial(self.timer_callback, number=self.counter_)", False),
+        ("lambda: self.timer_callback(self.counter_)", False),
+    ],
+)
+def test_a_callback_that_gets_a_value_does_not_begin_with_its_default(
+    given: str, is_bare: bool
+) -> None:
+    text = changed(
+        RIGHT,
+        ("(1.0, self.timer_callback)", f"(1.0, {given})"),
+        ("timer_callback(self)", "timer_callback(self, number=0)"),
+        ("str(self.counter_)", "str(number)"),
+        (STEP, "        number += 1\n"),
+    )
+    found = look("run.constant_counter", text)
+    assert (found is not None and found.kind == "node.counts_in_variable") is is_bare
+
+
+@pytest.mark.parametrize("test", ["not rclpy.init()", "rclpy.init() is None", "rclpy.init() != 0"])
+def test_a_condition_that_is_met_ends_main_and_does_not_hide_its_block(test: str) -> None:
+    assert _kind_of_tested(test, "return") == "node.init_tested"
+    assert _kind_of_tested(test, "print('ok')") != "node.init_tested"
+
+
+@pytest.mark.parametrize("test", ["rclpy.init()", "rclpy.init() is not None", "rclpy.init() == 0"])
+def test_a_condition_that_is_not_met_hides_its_block_and_does_not_end_main(test: str) -> None:
+    assert _kind_of_tested(test, "print('ok')") == "node.init_tested"
+    assert _kind_of_tested(test, "return") != "node.init_tested"
+
+
+def _kind_of_tested(test: str, then: str) -> str:
+    text = changed(RIGHT, ("    rclpy.init(args=args)\n", f"    if {test}:\n        {then}\n"))
+    found = look("run.exits_at_once", text)
+    return "" if found is None else found.kind
