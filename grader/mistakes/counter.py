@@ -6,6 +6,7 @@ import ast
 import re
 from collections.abc import Mapping
 from dataclasses import replace
+from itertools import takewhile
 
 from grader.base.i18n.message import Value, msg
 from grader.mistakes import links
@@ -31,7 +32,7 @@ from grader.package.source.counter import (
 from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import NodeSource
-from grader.package.source.place import statement_at
+from grader.package.source.place import block_of, statement_at
 from grader.package.source.plain_counter import plain_start
 from grader.package.source.sure_errors import is_never_set
 
@@ -89,10 +90,10 @@ def _reset(suspect: Suspect) -> RecognisedMistake | None:
     counter = counter_in(suspect)
     if counter is None:
         return None
-    changed = bool(counter.added) or any(adds_to(node, counter.name) for node in counter.set)
+    adds = [*counter.added, *(n for n in counter.set if adds_to(n, counter.name))]
     for node in counter.set:
-        if not changed and _is_under_if(suspect, node):
-            continue  # (nothing counts, so its condition may never be met)
+        if _is_under_if(suspect, node) and not any(_runs_too(suspect, n, node) for n in adds):
+            continue  # (its condition may never be met)
         if isinstance(node.value, ast.Constant):
             value = str(node.value.value)[:40]
             found = suspect.finding("counter_reset", node, name=counter.name, value=value)
@@ -104,6 +105,16 @@ def _reset(suspect: Suspect) -> RecognisedMistake | None:
             words = {**found.words, "function": around.name}
             return replace(found, variant="helper", words=words)
     return None
+
+
+def _runs_too(suspect: Suspect, added: ast.stmt, reset: ast.stmt) -> bool:
+    """Whether an addition is in no branch, or in the branch in which the counter is reset."""
+    module, parents = suspect.source.module_of(added), suspect.source.module_of(reset).parents
+    if module.parents.get(added) is parents.get(reset):
+        return block_of(module, added) == block_of(module, reset)
+    branches = (ast.If, ast.Match, ast.ExceptHandler)
+    inside = takewhile(lambda part: not isinstance(part, Function), module.around(added))
+    return not any(isinstance(part, branches) for part in inside)
 
 
 def _in_variable(
