@@ -14,7 +14,7 @@ from grader.mistakes.fixes import lines, node_log_call, node_words
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
-from grader.package.source.names import called_name, dotted
+from grader.package.source.names import called_name, dotted, last_part
 from grader.package.source.node import LOG_METHODS
 from grader.package.source.place import statement_at
 
@@ -55,10 +55,19 @@ def _swapped(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     call = node_log_call.call_of(raised.module, raised.line, "log")
     if call is None or len(call.args) != 2 or call.keywords:
         return None
+    if not _is_severity(call.args[0]):
+        return None  # (the severity is in its place, and is none)
     text = raised.module.text
     severity, message = (text.code(argument) for argument in call.args)
     written = f"{text.code(call.func)}({message}, {severity})"
     return raised.finding("log_order", at=call, name=text.code(call), written=written)
+
+
+def _is_severity(value: ast.expr) -> bool:
+    """Whether a value is a severity for certain, or nearly: LoggingSeverity.INFO, 20."""
+    number = isinstance(value, ast.Constant) and type(value.value) is int
+    level = last_part(dotted(value)).lower() if isinstance(value, ast.Attribute) else ""
+    return number or level in LOG_METHODS
 
 
 def _called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
