@@ -50,6 +50,8 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
         kept = _kept_and_added(raised, statement)
     if kept is not None:
         return kept
+    if not number_first and statement is not None and _added_to_itself(statement) is not None:
+        return None  # (with str() the digits are joined, and nothing counts)
     if number_first and statement is not None and _sums(statement):
         return _summed(raised, statement)
     for node in raised.module.nodes:
@@ -63,6 +65,9 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
             return replace(found, variant=variant)
         sides = (node.left,) if number_first else (node.right,)
         operand = next((part for part in sides if _may_be_number(part)), None)
+        if operand is not None and statement is not None and _is_literal(operand):
+            if dotted(node.left) in targets_of(statement):
+                return None  # (likewise)
         if operand is not None:
             text = raised.module.text
             number = operand
@@ -101,9 +106,7 @@ def _kept_and_added(raised: Raised, statement: ast.stmt) -> RecognisedMistake | 
         raised.module.text.code(statement),
         raised.module.text.code(found[1]),
     )
-    sets = [n for n in raised.module.nodes if isinstance(n, ast.Assign) and name in targets_of(n)]
-    texts = [n.value.value for n in sets if isinstance(n.value, ast.Constant)]
-    if any(isinstance(text, str) and not text.strip().isdigit() for text in texts):
+    if not _has_digits(raised, name):
         return None
     start = _start_as_text(raised, name)
     if start is not None:
@@ -111,6 +114,39 @@ def _kept_and_added(raised: Raised, statement: ast.stmt) -> RecognisedMistake | 
     params = {"name": code, "written": f"{name} = int({name}) + {added}"}
     kept = raised.finding("str_plus_int", at=statement, params=params)
     return replace(kept, words={**kept.words, "attribute": name}, variant="kept_text")
+
+
+def _has_digits(raised: Raised, name: str) -> bool:
+    """Whether each value that an attribute gets is a number or a number's text, so int() reads it."""
+    values = [
+        n.value
+        for n in raised.source.all_nodes
+        if isinstance(n, ast.Assign | ast.AnnAssign)
+        and name in targets_of(n)
+        and not (isinstance(n, ast.Assign) and _added_to_itself(n) is not None)
+    ]
+    return bool(values) and all(value is not None and _reads_as_number(value) for value in values)
+
+
+def _reads_as_number(value: ast.expr) -> bool:
+    made = isinstance(value, ast.Call) and dotted(value.func) == "str" and len(value.args) == 1
+    if isinstance(value, ast.Call) and made:
+        return not any(map(_is_other_value, ast.walk(value.args[0])))
+    text = value.value if isinstance(value, ast.Constant) else None
+    return _is_literal(value) or (isinstance(text, str) and text.strip().isdigit())
+
+
+def _is_other_value(part: ast.AST) -> bool:
+    """Whether a part of what becomes a text is a word, or a call that may give one."""
+    text = part.value if isinstance(part, ast.Constant) else None
+    word = isinstance(text, str) and not text.strip().isdigit()
+    called = isinstance(part, ast.Call) and dotted(part.func) not in (
+        "int",
+        "len",
+        "float",
+        "round",
+    )
+    return word or called or isinstance(part, ast.JoinedStr)
 
 
 def _start_as_text(raised: Raised, name: str) -> RecognisedMistake | None:
@@ -141,7 +177,7 @@ def _kept_as_text(raised: Raised, statement: ast.stmt | None) -> RecognisedMista
     name = dotted(total.left)
     if not isinstance(total.op, ast.Add) or name not in targets_of(statement):
         return None
-    if not _is_literal(total.right):
+    if not _is_literal(total.right) or not _has_digits(raised, name):
         return None
     code, added = raised.module.text.code(total), raised.module.text.code(total.right)
     if "\n" in code:

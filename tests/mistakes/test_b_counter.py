@@ -215,3 +215,92 @@ def _kind_of_tested(test: str, then: str) -> str:
     text = changed(RIGHT, ("    rclpy.init(args=args)\n", f"    if {test}:\n        {then}\n"))
     found = look("run.exits_at_once", text)
     return "" if found is None else found.kind
+
+
+@pytest.mark.parametrize(
+    ("first", "step", "reads"),
+    [
+        ("'0'", "self.counter_ = str(self.counter_ + 1)", True),
+        ("0", "self.counter_ = str(self.counter_ + 1)", True),
+        ("'Hello time: '", "self.counter_ = str(self.counter_ + 1)", False),
+        ("'Hello time: '", "self.counter_ += 1", False),
+        ("f'Hello time: '", "self.counter_ += 1", False),
+        ("str(self.get_name())", "self.counter_ += 1", False),
+        ("self.first_text()", "self.counter_ = self.counter_ + 1", False),
+        ("input()", "self.counter_ = self.counter_ + 1", False),
+    ],
+)
+def test_int_is_only_told_for_a_text_of_digits(first: str, step: str, reads: bool) -> None:
+    start = f"        self.counter_ = {first}\n"
+    text = changed(RIGHT, (START, start), ("self.counter_ += 1", step))
+    error = 'TypeError: can only concatenate str (not "int") to str'
+    found = raised(error, text, line_of(text, step))
+    assert (found is not None and found.variant == "kept_text") is reads
+    assert reads or found is None or found.kind != "node.str_plus_int"
+
+
+SEVERITY = "ValueError: {} is not a valid LoggingSeverity"
+
+
+@pytest.mark.parametrize(
+    ("given", "swapped"),
+    [
+        ("LoggingSeverity.INFO, 'text'", True),
+        ("20, 'text'", True),
+        ("'text', 'INFO'", False),
+        ("'text', 1", False),
+        ("'INFO', 'text'", False),
+        ("str(self.counter_), self.counter_", False),
+    ],
+)
+def test_only_a_severity_before_the_text_is_told_to_be_put_behind_it(
+    given: str, swapped: bool
+) -> None:
+    text = changed(RIGHT, (LOG, f"self.get_logger().log({given})"))
+    kind = kind_at(SEVERITY.format("'text'"), text, ".log(")
+    assert (kind == "node.log_order") is swapped
+
+
+def test_a_method_that_a_dict_does_not_have_is_no_entry() -> None:
+    rows = "        self.seen = {}\n        self.seen.last = 0\n"
+    call = "        self.seen.append(self.counter_)\n"
+    text = changed(RIGHT, (START, START + rows), (STEP, call + STEP))
+    error = "AttributeError: 'dict' object has no attribute '{}'"
+    assert kind_at(error.format("append"), text, "append") != "node.dict_attribute"
+    found = raised(error.format("last"), text, line_of(text, "seen.last"))
+    assert found is not None
+    assert found.kind == "node.dict_attribute"
+    assert "append" not in texts(found)[1]
+
+
+@pytest.mark.parametrize(("given", "sure"), [("{'n': 1}", True), ("{**data, 'n': 1}", False)])
+def test_a_key_is_not_told_to_be_renamed_where_others_are_not_known(given: str, sure: bool) -> None:
+    text = changed(RIGHT, (LOG, f"self.get_logger().info('Hello time: %(count)d' % {given})"))
+    found = raised("KeyError: 'count'", text, line_of(text, "info("))
+    assert (found is not None and found.variant == "key") is sure
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        "if self.counter_ > 0:\n            self.counter_ += 1\n        else:\n            self.counter_ = 0",
+        "if self.counter_ < 1:\n            self.counter_ = 0\n        else:\n            self.counter_ += 1",
+        "if self.on:\n            self.counter_ += 1\n        if self.off:\n            self.counter_ = 0",
+    ],
+)
+def test_a_reset_in_another_branch_than_the_sum_is_not_said_to_be_in_each_call(rows: str) -> None:
+    found = look("run.constant_counter", changed(RIGHT, (STEP, f"        {rows}\n")))
+    assert found is None or found.kind != "node.counter_reset"
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        "self.counter_ += 1\n        if self.counter_ > 0:\n            self.counter_ = 0",
+        "if self.counter_ >= 0:\n            self.counter_ += 1\n            self.counter_ = 0",
+    ],
+)
+def test_a_reset_that_runs_when_the_sum_has_run_is_told(rows: str) -> None:
+    found = look("run.constant_counter", changed(RIGHT, (STEP, f"        {rows}\n")))
+    assert found is not None
+    assert found.kind == "node.counter_reset"
