@@ -50,8 +50,8 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
         kept = _kept_and_added(raised, statement)
     if kept is not None:
         return kept
-    if not number_first and statement is not None and _added_to_itself(statement) is not None:
-        return None  # (with str() the digits are joined, and nothing counts)
+    if _joins_digits(statement) and not number_first:
+        return None
     if number_first and statement is not None and _sums(statement):
         return _summed(raised, statement)
     for node in raised.module.nodes:
@@ -65,9 +65,6 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
             return replace(found, variant=variant)
         sides = (node.left,) if number_first else (node.right,)
         operand = next((part for part in sides if _may_be_number(part)), None)
-        if operand is not None and statement is not None and _is_literal(operand):
-            if dotted(node.left) in targets_of(statement):
-                return None  # (likewise)
         if operand is not None:
             text = raised.module.text
             number = operand
@@ -94,6 +91,15 @@ def _added_to_itself(statement: ast.stmt) -> tuple[str, ast.expr] | None:
     else:
         return None
     return (name, added) if name.startswith("self.") and _is_literal(added) else None
+
+
+def _joins_digits(statement: ast.stmt | None) -> bool:
+    """Whether a number is added to what is set: with str() the digits are joined, nothing counts."""
+    if statement is None or _added_to_itself(statement) is not None:
+        return statement is not None
+    names = set(targets_of(statement))
+    sums = [n for n in ast.walk(statement) if isinstance(n, ast.BinOp) and _is_literal(n.right)]
+    return any(dotted(n.left) in names for n in sums)
 
 
 def _kept_and_added(raised: Raised, statement: ast.stmt) -> RecognisedMistake | None:
