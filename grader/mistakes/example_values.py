@@ -466,6 +466,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "line": 14,
         "function": "step",
         "names": "log, numbers",
+        "attribute": "self.numbers_",
     },
     "node.pop_from_the_end": {"name": "self.numbers.pop()", "written": "self.numbers.pop(0)"},
     "node.starts_as_truth_value": {"name": "False", "written": "0"},

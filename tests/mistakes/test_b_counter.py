@@ -304,3 +304,29 @@ def test_a_reset_that_runs_when_the_sum_has_run_is_told(rows: str) -> None:
     found = look("run.constant_counter", changed(RIGHT, (STEP, f"        {rows}\n")))
     assert found is not None
     assert found.kind == "node.counter_reset"
+
+
+NO_ITERATOR = "TypeError: '{}' object is not an iterator"
+YIELDS = method("numbers(self)", "n = 0", "while True:", "    yield n", "    n += 1")
+
+
+@pytest.mark.parametrize(
+    ("kind", "edits", "fix"),
+    [
+        ("int", [("str(self.counter_)", "str(next(self.counter_))")],
+         "Write self.counter_ instead of next(self.counter_)"),
+        ("int", [("str(self.counter_)", "str(next(self.counter_))"), (STEP, "")], ""),
+        ("NoneType", [("str(self.counter_)", "str(next(self.numbers))")], ""),
+        ("method", [("str(self.counter_)", "str(next(self.numbers))"), YIELDS],
+         "write self.numbers_ = self.numbers() in __init__"),
+        ("method", [("str(self.counter_)", "str(next(self.numbers))"),
+                    method("numbers(self)", "return self.counter_")], ""),
+    ],
+)  # fmt: skip
+def test_iter_is_not_told_for_what_has_no_items(
+    kind: str, edits: list[tuple[str, str]], fix: str
+) -> None:
+    text = changed(RIGHT, *edits)
+    found = raised(NO_ITERATOR.format(kind), text, line_of(text, "info("))
+    assert (found is not None and found.kind == "node.not_an_iterator") is bool(fix)
+    assert fix in (texts(found)[1] if fix else "")
