@@ -289,7 +289,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.guard_inside": {"name": "main"},
     "node.main_misspelt": {"name": "mian"},
     "node.logger_method": {"name": "print"},
-    "node.log_severity": {"name": "log"},
+    "node.log_severity": {
+        "name": "log",
+        "value": "'INFO'",
+        "written": "self.get_logger().info(text)",
+    },
     "node.spin_of_class": {"made": "MyNode", "written": "rclpy.spin(node)"},
     "node.len_of_number": {"name": "self.counter", "written": "self.counter"},
     "node.counter_is_list": {"name": "self.counter", "line": "16"},

@@ -330,3 +330,19 @@ def test_iter_is_not_told_for_what_has_no_items(
     found = raised(NO_ITERATOR.format(kind), text, line_of(text, "info("))
     assert (found is not None and found.kind == "node.not_an_iterator") is bool(fix)
     assert fix in (texts(found)[1] if fix else "")
+
+
+@pytest.mark.parametrize(
+    ("given", "written"),
+    [
+        ("'text', 'INFO'", ".info('text')"),
+        ("'warn', 'text'", ".warn('text')"),
+        ("'text', 'LOUD'", ""),
+        ("'text', 1", ""),
+    ],
+)
+def test_a_level_in_quotes_is_told_to_be_the_method(given: str, written: str) -> None:
+    text = changed(RIGHT, (LOG, f"self.get_logger().log({given})"))
+    found = raised(SEVERITY.format("'text'"), text, line_of(text, ".log("))
+    assert (found is not None and found.kind == "node.log_severity") is bool(written)
+    assert written in (texts(found)[1] if written else "")
