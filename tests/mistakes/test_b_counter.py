@@ -9,9 +9,10 @@ import pytest
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.recognise import behind_symptom
 from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.report.model import Where
 from tests.marking import ASSIGNMENT
 from tests.mistakes.other_forms import LOG, RIGHT, START, STEP, TIMER, changed
-from tests.mistakes.test_from_source import line_of, look, node_in, raised
+from tests.mistakes.test_from_source import FILE, line_of, look, node_in, raised
 
 INT_AND_STR = "TypeError: unsupported operand type(s) for +=: 'int' and 'str'"
 
@@ -346,3 +347,25 @@ def test_a_level_in_quotes_is_told_to_be_the_method(given: str, written: str) ->
     found = raised(SEVERITY.format("'text'"), text, line_of(text, ".log("))
     assert (found is not None and found.kind == "node.log_severity") is bool(written)
     assert written in (texts(found)[1] if written else "")
+
+
+JOIN = "'Hello time: '.join(str(self.counter_))"
+
+
+@pytest.mark.parametrize(
+    ("line", "edit", "is_cause"),
+    [
+        ("0", (LOG, f"self.get_logger().info({JOIN})"), True),
+        ("0", (LOG, f"text = {JOIN}\n        self.get_logger().info(text)"), True),
+        ("Hello Time: 0", (LOG, "self.get_logger().info('Hello Time: ' + ''.join(str(self.counter_)))"), False),
+        ("Hello Time: 0", (LOG, f"{LOG.replace('time', 'Time')}\n        self.last = '-'.join(str(12))"), False),
+    ],
+)  # fmt: skip
+def test_only_a_join_in_the_logged_text_changes_it(
+    line: str, edit: tuple[str, str], is_cause: bool
+) -> None:
+    text = changed(RIGHT, edit)
+    place = Where(file=FILE, line=line_of(text, "().info("))
+    suspect = Suspect(node_in(text), ASSIGNMENT, text=line, lines=(line,), place=place)
+    found = behind_symptom("run.wrong_text", suspect)
+    assert (found is not None and found.kind == "node.text_joined") is is_cause
