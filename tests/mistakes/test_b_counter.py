@@ -369,3 +369,25 @@ def test_only_a_join_in_the_logged_text_changes_it(
     suspect = Suspect(node_in(text), ASSIGNMENT, text=line, lines=(line,), place=place)
     found = behind_symptom("run.wrong_text", suspect)
     assert (found is not None and found.kind == "node.text_joined") is is_cause
+
+
+@pytest.mark.parametrize(
+    ("shown", "step", "part", "is_cause"),
+    [
+        ("str(self.counter_)", "self.counter_ += self.step", "self.counter_ +=", True),
+        ("str(self.counter_)", "self.counter_ = 1 + self.counter_", "self.counter_ = 1", True),
+        ("self.counter_ + str(0) + self.number", "self.number += 1", "info(", False),
+        ("'v' + self.counter_ + self.number", "self.number += 1", "info(", False),
+    ],
+)
+def test_a_start_in_quotes_is_only_told_where_it_is_added(
+    shown: str, step: str, part: str, is_cause: bool
+) -> None:
+    text = changed(
+        RIGHT,
+        (START, "        self.counter_ = '2'\n        self.number = 0\n"),
+        ("str(self.counter_)", shown),
+        (STEP, f"        {step}\n"),
+    )
+    error = 'TypeError: can only concatenate str (not "int") to str'
+    assert (kind_at(error, text, part) == "node.start_is_text") is is_cause
