@@ -182,10 +182,17 @@ def _reset_if(suspect: Suspect) -> RecognisedMistake | None:
         if counter is None or not isinstance(around, ast.If) or around.orelse:
             continue
         start = starts_of(suspect.source).get(counter.name)
-        if isinstance(node.value, ast.Constant) and start not in (None, node.value):
+        if isinstance(node.value, ast.Constant) and _is_near(node.value, start):
             found = suspect.finding("counter_reset", node, name=counter.name)
             return replace(found, variant="if")
     return None
+
+
+def _is_near(value: ast.Constant, start: ast.Constant | None) -> bool:
+    """Whether a counter begins again with a value: its start, or the number beside it."""
+    if start is None or start is value or not isinstance(value.value, int):
+        return False
+    return isinstance(start.value, int) and abs(value.value - start.value) <= 1
 
 
 def _modulo(suspect: Suspect) -> RecognisedMistake | None:

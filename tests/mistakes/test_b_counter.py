@@ -391,3 +391,10 @@ def test_a_start_in_quotes_is_only_told_where_it_is_added(
     )
     error = 'TypeError: can only concatenate str (not "int") to str'
     assert (kind_at(error, text, part) == "node.start_is_text") is is_cause
+
+
+@pytest.mark.parametrize(("value", "again"), [("0", True), ("1", True), ("10", False)])
+def test_a_jump_to_another_number_is_not_a_new_start(value: str, again: bool) -> None:
+    row = f"        if self.counter_ == 4:\n            self.counter_ = {value}\n"
+    found = look("run.wrong_step", changed(RIGHT, (STEP, STEP + row)))
+    assert (found is not None and found.variant == "if") is again
