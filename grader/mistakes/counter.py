@@ -6,6 +6,7 @@ import ast
 import re
 from collections.abc import Mapping
 from dataclasses import replace
+from itertools import takewhile
 
 from grader.base.i18n.message import Value, msg
 from grader.mistakes import links
@@ -31,6 +32,7 @@ from grader.package.source.counter import (
 from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import NodeSource
+from grader.package.source.place import block_of, statement_at
 from grader.package.source.plain_counter import plain_start
 from grader.package.source.sure_errors import is_never_set
 
@@ -50,16 +52,30 @@ LOG_AND_STEP = f"{LOG_LINE}{STEP_LINE}"
 
 
 def _step_is_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The line adds a number in quotes; without a line, the only place of the files that does."""
     del match
-    for node in raised.source.all_nodes:
-        if isinstance(node, ast.AugAssign) and isinstance(node.value, ast.Constant):
-            step, name = node.value.value, dotted(node.target)
-            if isinstance(step, str) and name:
-                return raised.finding("step_is_text", at=node, name=name, step=step)
-        if isinstance(node, ast.Assign) and (added := text_added(node)):
-            name = next(targets_of(node))
-            return raised.finding("step_is_text", at=node, name=name, step=added)
-    return None
+    statement = statement_at(raised.module, raised.line)
+    nodes = raised.source.all_nodes if raised.line is None else [statement]
+    found = [
+        (node, name, step)
+        for node in nodes
+        if isinstance(node, ast.AugAssign | ast.Assign)
+        for name, step in [_text_added(node)]
+        if name and step.isascii() and step.isdigit()
+    ]
+    if len(found) != 1:
+        return None
+    at, name, step = found[0]
+    return raised.finding("step_is_text", at=at, name=name, step=step)
+
+
+def _text_added(statement: ast.AugAssign | ast.Assign) -> tuple[str, str]:
+    """Return the name to which a statement adds a text, and that text; "" for what is not there."""
+    if isinstance(statement, ast.Assign):
+        return next(targets_of(statement), ""), text_added(statement)
+    step = statement.value.value if isinstance(statement.value, ast.Constant) else None
+    added = step if isinstance(step, str) and isinstance(statement.op, ast.Add) else ""
+    return dotted(statement.target), added
 
 
 def _plus_reversed(suspect: Suspect) -> RecognisedMistake | None:
@@ -74,10 +90,10 @@ def _reset(suspect: Suspect) -> RecognisedMistake | None:
     counter = counter_in(suspect)
     if counter is None:
         return None
-    changed = bool(counter.added) or any(adds_to(node, counter.name) for node in counter.set)
+    adds = [*counter.added, *(n for n in counter.set if adds_to(n, counter.name))]
     for node in counter.set:
-        if not changed and _is_under_if(suspect, node):
-            continue  # (nothing counts, so its condition may never be met)
+        if _is_under_if(suspect, node) and not any(_runs_too(suspect, n, node) for n in adds):
+            continue  # (its condition may never be met)
         if isinstance(node.value, ast.Constant):
             value = str(node.value.value)[:40]
             found = suspect.finding("counter_reset", node, name=counter.name, value=value)
@@ -89,6 +105,16 @@ def _reset(suspect: Suspect) -> RecognisedMistake | None:
             words = {**found.words, "function": around.name}
             return replace(found, variant="helper", words=words)
     return None
+
+
+def _runs_too(suspect: Suspect, added: ast.stmt, reset: ast.stmt) -> bool:
+    """Whether an addition is in no branch, or in the branch in which the counter is reset."""
+    module, parents = suspect.source.module_of(added), suspect.source.module_of(reset).parents
+    if module.parents.get(added) is parents.get(reset):
+        return block_of(module, added) == block_of(module, reset)
+    branches = (ast.If, ast.Match, ast.ExceptHandler)
+    inside = takewhile(lambda part: not isinstance(part, Function), module.around(added))
+    return not any(isinstance(part, branches) for part in inside)
 
 
 def _in_variable(
@@ -156,17 +182,41 @@ def _reset_if(suspect: Suspect) -> RecognisedMistake | None:
         if counter is None or not isinstance(around, ast.If) or around.orelse:
             continue
         start = starts_of(suspect.source).get(counter.name)
-        if isinstance(node.value, ast.Constant) and start not in (None, node.value):
+        if isinstance(node.value, ast.Constant) and _is_near(node.value, start):
             found = suspect.finding("counter_reset", node, name=counter.name)
             return replace(found, variant="if")
     return None
 
 
+def _is_near(value: ast.Constant, start: ast.Constant | None) -> bool:
+    """Whether a counter begins again with a value: its start, or the number beside it."""
+    if start is None or start is value or not isinstance(value.value, int):
+        return False
+    return isinstance(start.value, int) and abs(value.value - start.value) <= 1
+
+
 def _modulo(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a rest of a division, after which the counter starts again."""
+    change = change_of(suspect, "modulo")
+    if change is not None and _is_asked(suspect, change.at):
+        return None
     found = worked_out("counter_reset", "modulo", variant="modulo")(suspect)
     deleted = found is not None and not found.params["written"]
     return replace(found, variant="modulo_line") if found is not None and deleted else found
+
+
+def _is_asked(suspect: Suspect, part: ast.AST) -> bool:
+    """Whether a value is only compared or is a condition, and is not what is counted."""
+    below = part
+    for around in suspect.source.module_of(part).around(part):
+        if isinstance(around, ast.Compare | ast.BoolOp):
+            return True
+        if isinstance(around, ast.If | ast.While | ast.IfExp) and around.test is below:
+            return True
+        if isinstance(around, ast.stmt):
+            return False
+        below = around
+    return False
 
 
 def _copy_increased(suspect: Suspect) -> RecognisedMistake | None:
@@ -295,9 +345,31 @@ def _adds_twice(suspect: Suspect) -> RecognisedMistake | None:
     counter, step = counter_in(suspect), suspect.output.step
     if counter is None or plain_start(suspect.source, counter.name) is None:
         return None
-    if len(counter.added) < 2 or not all(_is_plain_sum(suspect, n) for n in counter.added):
+    plain = [n for n in counter.added if _is_plain_sum(suspect, n)]
+    others = [n for n in counter.added if n not in plain]
+    right = len(plain) == 1 and _is_step(plain[0], step)
+    if len(counter.added) < 2 or (others and not (right and _are_under_if(suspect, others))):
         return None
-    return suspect.finding("adds_twice", counter.added[1], name=counter.name, step=step)
+    second = others[0] if others else plain[1]
+    return suspect.finding("adds_twice", second, name=counter.name, step=step)
+
+
+def _is_step(node: ast.AugAssign, step: float) -> bool:
+    added = node.value.value if isinstance(node.value, ast.Constant) else None
+    return isinstance(node.op, ast.Add) and type(added) is int and added == step
+
+
+def _are_under_if(suspect: Suspect, nodes: list[ast.AugAssign]) -> bool:
+    """Whether each of these sums is in an if of the callback, and in no other block."""
+    for node in nodes:
+        around = suspect.source.module_of(node).around(node)
+        blocks = [next(around, None), next(around, None)]
+        if not isinstance(node.op, SUM) or not isinstance(blocks[0], ast.If):
+            return False
+        left = [n for n in ast.walk(blocks[0]) if isinstance(n, ast.Return | ast.Raise)]
+        if left or not isinstance(blocks[1], Function):
+            return False
+    return True
 
 
 def _is_plain_sum(suspect: Suspect, node: ast.AugAssign) -> bool:
@@ -306,8 +378,19 @@ def _is_plain_sum(suspect: Suspect, node: ast.AugAssign) -> bool:
     return isinstance(node.op, SUM) and isinstance(around, Function)
 
 
-_added_elsewhere = worked_out("adds_twice", "doubled", variant="line")
+_added_in_line = worked_out("adds_twice", "doubled", variant="line")
 _any_step = worked_out("other_step", "step", variant="written")
+
+
+def _added_elsewhere(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a second addition to what is logged; another name may be the step that it grows by."""
+    change, counter = change_of(suspect, "doubled"), counter_in(suspect)
+    statement = change.at if change is not None else None
+    names = {last_part(name) for name in targets_of(statement)} if statement is not None else set()
+    own = counter is not None and bool(counter.added)
+    if counter is not None and own and names and last_part(counter.name) not in names:
+        return None
+    return _added_in_line(suspect)
 
 
 def _step_worked_out(suspect: Suspect) -> RecognisedMistake | None:
@@ -615,7 +698,8 @@ KINDS = (
             "run.wrong_step": first_of(_adds_twice, _added_elsewhere),
             "run.wrong_start": _added_elsewhere,
         },
-        fixed_by=(node_count.twice, node_worked_out.change("doubled")),
+        fixed_by=(node_count.twice, node_worked_out.change("doubled"), lines.deleted),
+        deletes=("", "line"),
         examples=(
             example(
                 "adds_in_helper_too",

@@ -10,9 +10,12 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import LOG, NODE, STEP_LINE, example
 from grader.mistakes.fixes import lines, node_words, node_worked_out
+from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, first_of
 from grader.mistakes.worked_out import INSTEAD, change_of, worked_out
+from grader.package.edit.files import Files
+from grader.package.edit.text import indent_of
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import changes_of, outer_word, parts_of_callback
 from grader.package.source.named_tuples import is_named_tuple
@@ -57,6 +60,30 @@ def _prefix(suspect: Suspect) -> RecognisedMistake | None:
             right = first.number == suspect.output.start
             return replace(found, words=words, variant="" if right else "start")
     return None
+
+
+def _counted_below(case: Case) -> Files | None:
+    """Delete the signs, and count below the call that logs, if the signs are in that call."""
+    node, module, given = case.node, case.module, case.finding.params
+    name, signs = str(given.get("name", "")), str(given.get("form", ""))
+    first = plain_start(node, name) if node is not None else None
+    statement = statement_at(module, case.finding.line) if module is not None else None
+    if node is None or module is None or first is None or not isinstance(statement, ast.Expr):
+        return None
+    output, text, code = case.assignment.output, module.text, module.text.code(statement)
+    old = f"{signs}{name}"
+    if statement.value is not node.log_call or code.count(signs) != 1 or code.count(old) != 1:
+        return None
+    if node.module_of(first.at) is not module or "\n" in code:
+        return None
+    below = f"{indent_of(text.line(statement.lineno))}{name} += {output.step}"
+    starts = [] if first.number == output.start else [text.swap(first.at, str(output.start))]
+    return case.changed(
+        module,
+        text.swap(statement, code.replace(old, name)),
+        text.before(statement.lineno + 1, below),
+        *starts,
+    )
 
 
 def _dropped(suspect: Suspect) -> RecognisedMistake | None:
@@ -171,6 +198,7 @@ KINDS = (
             )
         },
         behind={"run.constant_counter": _prefix},
+        fixed_by=(_counted_below,),
         examples=(
             example(
                 "increment_sign_in_text",

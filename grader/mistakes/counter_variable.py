@@ -15,7 +15,7 @@ from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import adds_to, declares, names_given, outer_word, targets_of
 from grader.package.source.module import Function
-from grader.package.source.names import dotted
+from grader.package.source.names import called_name, dotted, last_part
 from grader.package.source.place import function_at
 
 COUNTER = msg(
@@ -30,6 +30,8 @@ def _local(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A function adds to a name that it does not set: an attribute is meant."""
     name, function = match["name"], _function(raised)
     if function is None or not _adds(function, name) or _word(raised, function, name):
+        return None
+    if is_built(raised, function, name):
         return None
     found = raised.finding("counter_local", name=name)
     step = raised.assignment.output.step
@@ -108,6 +110,38 @@ def _adds(function: Function, name: str) -> bool:
     )
 
 
+def is_built(raised: Raised, function: Function, name: str) -> bool:
+    """Whether a function puts a text together, or a sum in a loop: each call has to begin anew.
+
+    That does not hold for the name of an attribute, which may be meant.
+    """
+    if name in raised.source.attributes:
+        return False
+    changed = [n for n in ast.walk(function) if name in targets_of(n)]
+    loops = (n for n in ast.walk(function) if isinstance(n, ast.For | ast.While))
+    inside = {part for loop in loops for part in ast.walk(loop)}
+    return any(n in inside or (isinstance(n, ast.stmt) and has_text(n)) for n in changed)
+
+
+def has_text(statement: ast.stmt) -> bool:
+    """Whether one of the parts that a statement adds is a text for certain."""
+    value = statement.value if isinstance(statement, ast.Assign | ast.AugAssign) else None
+    return value is not None and any(map(_is_text, _parts_of_sum(value)))
+
+
+def _parts_of_sum(value: ast.expr) -> list[ast.expr]:
+    if not isinstance(value, ast.BinOp) or not isinstance(value.op, ast.Add):
+        return [value]
+    return [*_parts_of_sum(value.left), *_parts_of_sum(value.right)]
+
+
+def _is_text(value: ast.expr) -> bool:
+    made = isinstance(value, ast.Call) and called_name(value) in ("str", "format", "join")
+    filled = isinstance(value, ast.BinOp) and isinstance(value.op, ast.Mod) and _is_text(value.left)
+    plain = isinstance(value, ast.Constant) and isinstance(value.value, str)
+    return made or filled or plain or isinstance(value, ast.JoinedStr)
+
+
 def _reads(value: ast.expr, name: str) -> bool:
     return any(isinstance(n, ast.Name) and n.id == name for n in ast.walk(value))
 
@@ -128,6 +162,8 @@ def _anew(suspect: Suspect) -> RecognisedMistake | None:
         mistake = suspect.finding("counts_in_variable", steps[0], name=name)
         words = {**mistake.words, "function": callback.name, "written": step}
         if name in _with_default(callback) and not others:
+            if not _is_called_bare(suspect, callback):
+                continue
             back = [n for n in ast.walk(callback) if isinstance(n, ast.Return) and n.value]
             if not back:
                 return replace(mistake, words=words, variant="default")
@@ -137,6 +173,23 @@ def _anew(suspect: Suspect) -> RecognisedMistake | None:
         if given is not None and "get_parameter" in ast.unparse(given):
             return replace(mistake, words={**words, "line": str(others[0].lineno)})
     return None
+
+
+def _is_called_bare(suspect: Suspect, callback: Function) -> bool:
+    """Whether a timer gets the callback itself, not what gives it values: a lambda or a partial."""
+    source = suspect.source
+    named = [
+        n
+        for n in source.all_nodes
+        if isinstance(n, ast.Name | ast.Attribute) and last_part(dotted(n)) == callback.name
+    ]
+    for node in named:
+        parents = source.module_of(node).parents
+        around = parents.get(node)
+        call = parents.get(around) if isinstance(around, ast.keyword) else around
+        if not isinstance(call, ast.Call) or called_name(call) != "create_timer":
+            return False
+    return bool(named)
 
 
 def _with_default(function: Function) -> set[str]:

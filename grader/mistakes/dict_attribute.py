@@ -25,12 +25,23 @@ METHODS = frozenset(dir(dict))
 
 
 def _uses(module: Module, name: str) -> list[ast.Attribute]:
-    """Return where the file reads or sets an attribute of a dict that a dict does not have."""
+    """Return where the file reads or sets an attribute of a dict that a dict does not have.
+
+    What is called is no entry: such a method may be one of a list.
+    """
     return [
         n
         for n in module.nodes
-        if isinstance(n, ast.Attribute) and dotted(n.value) == name and n.attr not in METHODS
+        if isinstance(n, ast.Attribute)
+        and dotted(n.value) == name
+        and n.attr not in METHODS
+        and not _is_called(module, n)
     ]
+
+
+def _is_called(module: Module, part: ast.expr) -> bool:
+    around = module.parents.get(part)
+    return isinstance(around, ast.Call) and around.func is part
 
 
 def _is_dict(module: Module, name: str) -> bool:
@@ -52,7 +63,7 @@ def _as_struct(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
         if not isinstance(part, ast.Attribute) or part.attr != match["name"]:
             continue
         name = dotted(part.value)
-        if not name or not _is_dict(module, name):
+        if not name or not _is_dict(module, name) or _is_called(module, part):
             continue
         uses = _uses(module, name)
         params = {"name": f"{name}.{part.attr}", "written": _entry(module, name, part.attr)}

@@ -289,7 +289,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.guard_inside": {"name": "main"},
     "node.main_misspelt": {"name": "mian"},
     "node.logger_method": {"name": "print"},
-    "node.log_severity": {"name": "log"},
+    "node.log_severity": {
+        "name": "log",
+        "value": "'INFO'",
+        "written": "self.get_logger().info(text)",
+    },
     "node.spin_of_class": {"made": "MyNode", "written": "rclpy.spin(node)"},
     "node.len_of_number": {"name": "self.counter", "written": "self.counter"},
     "node.counter_is_list": {"name": "self.counter", "line": "16"},
@@ -466,6 +470,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "line": 14,
         "function": "step",
         "names": "log, numbers",
+        "attribute": "self.numbers_",
     },
     "node.pop_from_the_end": {"name": "self.numbers.pop()", "written": "self.numbers.pop(0)"},
     "node.starts_as_truth_value": {"name": "False", "written": "0"},
@@ -506,7 +511,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "line": 6,
     },
     "node.called_by_hand": {"written": "self.create_timer(0.5, self.callback)"},
-    "node.counts_elsewhere": {"name": "self.counter", "other": "count"},
+    "node.counts_elsewhere": {
+        "name": "self.counter",
+        "other": "count",
+        "written": "self.count()",
+    },
     "node.property_set": {"name": "counter", "written": "self._counter", "line": "15"},
     "node.str_plus_int": {
         "name": "self.counter",
@@ -815,7 +824,12 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "type": "MyNode",
     },
     "node.name_local": {"name": "prefix", "line": 9, "function": "main"},
-    "node.variable_not_set": {"name": "period", "lines": "10", "function": "main"},
+    "node.variable_not_set": {
+        "name": "period",
+        "lines": "10",
+        "function": "main",
+        "written": "period = 0",
+    },
     "node.timer_method": {"name": "self.timer.stop", "written": "self.timer.cancel"},
     "node.spin_of_others": {
         "name": "rclpy.spin_some(node)",

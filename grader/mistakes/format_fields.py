@@ -209,6 +209,8 @@ def _of_mapping(raised: Raised, name: str) -> RecognisedMistake | None:
 def _keys(module: Module, given: ast.expr) -> list[str] | None:
     if not isinstance(given, ast.Dict):
         return None
+    if not all(given.keys):
+        return None  # (** brings names that are not in the code)
     return [module.text.code(key) for key in given.keys if key is not None]
 
 

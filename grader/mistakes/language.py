@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterable
 from dataclasses import replace
 
 from grader.base.i18n.message import Value, msg
 from grader.mistakes import links
+from grader.mistakes.elsewhere import counted_at_other_times, counted_elsewhere
 from grader.mistakes.example import (
     DATACLASS_IMPORTED,
     LOG,
@@ -288,64 +288,6 @@ def _used_up_default(suspect: Suspect) -> RecognisedMistake | None:
     found = suspect.finding("iterator_ended", calls[0])
     words = {**found.words, "value": repr(given.value)}
     return replace(found, words=words, variant="default")
-
-
-def _elsewhere(suspect: Suspect) -> RecognisedMistake | None:
-    """Look for the += in another function than the callback that logs the counter."""
-    source, callback = suspect.source, suspect.source.callback
-    logged = logged_counter(source)
-    if logged is None or callback is None:
-        return None
-    inside = set(ast.walk(callback))
-    for node in source.own_nodes:
-        target = _added_to(node)
-        if not isinstance(node, ast.stmt) or last_part(target) != last_part(logged[1]):
-            continue
-        around = source.function_around(node)
-        if node in inside:
-            return None
-        if around is None or around.name in ("__init__", callback.name):
-            continue
-        if around is suspect.function or not _calls(source.calls, around):
-            found = suspect.finding("counts_elsewhere", node, name=logged[1])
-            if target.partition(".")[0] in source.node_variables:
-                words = {**found.words, "written": f"{logged[1]} += {suspect.output.step}"}
-                return replace(found, words=words, variant="outside")
-            if _has_only(around, node) and _given_to_timer(source.calls, around):
-                words = {**found.words, "other": around.name}
-                return replace(found, words=words, variant="timer")
-            return found
-    return None
-
-
-def _added_to(node: ast.AST) -> str:
-    """Return the name that a statement adds to: a += 1, or a = a + 1; "" if it does not."""
-    if isinstance(node, ast.AugAssign):
-        return dotted(node.target)
-    value = node.value if isinstance(node, ast.Assign) else None
-    if not isinstance(node, ast.Assign) or not isinstance(value, ast.BinOp):
-        return ""
-    target = dotted(node.targets[0])
-    return target if target in (dotted(value.left), dotted(value.right)) else ""
-
-
-def _has_only(function: Function, statement: ast.stmt) -> bool:
-    """Return whether a function does nothing but one statement."""
-    rest = [s for s in function.body if s is not statement and not isinstance(s, ast.Pass)]
-    return all(isinstance(s, ast.Expr) and isinstance(s.value, ast.Constant) for s in rest)
-
-
-def _given_to_timer(calls: Iterable[tuple[ast.Call, object]], function: Function) -> bool:
-    for call, _ in calls:
-        if last_part(dotted(call.func)) == "create_timer":
-            given = (*call.args, *(keyword.value for keyword in call.keywords))
-            if any(last_part(dotted(value)) == function.name for value in given):
-                return True
-    return False
-
-
-def _calls(calls: list[tuple[ast.Call, str]], function: Function) -> bool:
-    return any(last_part(name) == function.name for _, name in calls)
 
 
 def _frozen(suspect: Suspect) -> RecognisedMistake | None:
@@ -778,23 +720,72 @@ KINDS = (
                 "This line counts how often it runs itself. The timer calls {callback} once for each "
                 "line: only there, each line is counted once. (spin_once() also returns after other "
                 "work of the node, such as a request of a service.)"
-            )
+            ),
+            **dict.fromkeys(
+                ("timer", "timer_too"),
+                msg(
+                    "{other} has a timer of its own. It adds when that timer is due, and not each time after "
+                    "{callback} has logged a line."
+                ),
+            ),
+            **dict.fromkeys(
+                ("unused", "call_it"), msg("No line calls {other}, so its += never runs.")
+            ),
         },
         fixes={
             "outside": msg(
                 "Delete this line. Write in {callback}, below the line that logs: {written}"
             ),
+            "call_it": msg("Write in {callback}, below the line that logs: {written}"),
             "timer": msg(
                 "Move the += into {callback}, below the line that logs. Then delete {other}, which "
                 "does nothing else, and the create_timer that calls it."
             ),
         },
+        deletes=("", "outside", "timer_too", "unused"),
         behind={
-            "run.constant_counter": _elsewhere,
-            "run.wrong_start": _elsewhere,
-            "run.wrong_step": _elsewhere,
+            "run.constant_counter": counted_elsewhere,
+            "run.wrong_start": counted_at_other_times,
+            "run.wrong_step": counted_at_other_times,
         },
         examples=(
+            example(
+                "counts_in_a_method_without_call",
+                Replace(NODE, STEP_LINE, ""),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def count(self):\n        self.counter_ += 1\n\n    def timer_callback",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "counts_in_a_longer_method_without_call",
+                Replace(NODE, STEP_LINE, ""),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def count(self, more):\n        self.counter_ += 1\n        print(more)\n\n"
+                    "    def timer_callback",
+                ),
+                fails="run.output",
+            ),
+            example(
+                "counts_in_a_timer_due_before",
+                Replace(NODE, STEP_LINE, ""),
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0,",
+                    "        self.create_timer(1.0, self.count)\n        self.create_timer(1.0,",
+                ),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def count(self):\n        self.counter_ += 1\n        self.changed = True\n\n"
+                    "    def timer_callback",
+                ),
+                fails="run.output",
+            ),
             example(
                 "counts_in_the_loop_of_main",
                 Replace(NODE, STEP_LINE, ""),

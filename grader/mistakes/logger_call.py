@@ -13,8 +13,9 @@ from grader.mistakes.example import DEAD, LOG, NODE, example
 from grader.mistakes.fixes import lines, node_log_call, node_words
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake
+from grader.mistakes.worked_out import INSTEAD
 from grader.package.edit.tree import Replace
-from grader.package.source.names import called_name, dotted
+from grader.package.source.names import called_name, dotted, last_part
 from grader.package.source.node import LOG_METHODS
 from grader.package.source.place import statement_at
 
@@ -38,6 +39,30 @@ def _no_severity(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
     return raised.finding("log_severity", at=call, name="log") if call is not None else None
 
 
+def _level_in_words(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """log() gets the name of a level as a text, before or behind the text to log."""
+    del match
+    call = node_log_call.call_of(raised.module, raised.line, "log")
+    called = call.func if call is not None else None
+    if call is None or not isinstance(called, ast.Attribute) or len(call.args) != 2:
+        return None
+    levels = [a for a in call.args if isinstance(a, ast.Constant) and _level(a)]
+    code = raised.module.text.code(call)
+    if len(levels) != 1 or call.keywords or "\n" in code:
+        return None
+    message = next(a for a in call.args if a is not levels[0])
+    text = raised.module.text
+    written = f"{text.code(called.value)}.{_level(levels[0])}({text.code(message)})"
+    found = raised.finding("log_severity", at=call, name=code, written=written)
+    return replace(found, words={**found.words, "value": repr(levels[0].value)}, variant="text")
+
+
+def _level(value: ast.Constant) -> str:
+    """Return the method of the logger for the name of a level; "" if it is none."""
+    name = value.value.lower() if isinstance(value.value, str) else ""
+    return name if name in LOG_METHODS else ""
+
+
 def _text_given(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """get_logger gets the text, or the name of a logger."""
     del match
@@ -55,10 +80,19 @@ def _swapped(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     call = node_log_call.call_of(raised.module, raised.line, "log")
     if call is None or len(call.args) != 2 or call.keywords:
         return None
+    if not _is_severity(call.args[0]):
+        return None  # (the severity is in its place, and is none)
     text = raised.module.text
     severity, message = (text.code(argument) for argument in call.args)
     written = f"{text.code(call.func)}({message}, {severity})"
     return raised.finding("log_order", at=call, name=text.code(call), written=written)
+
+
+def _is_severity(value: ast.expr) -> bool:
+    """Whether a value is a severity for certain, or nearly: LoggingSeverity.INFO, 20."""
+    number = isinstance(value, ast.Constant) and type(value.value) is int
+    level = last_part(dotted(value)).lower() if isinstance(value, ast.Attribute) else ""
+    return number or level in LOG_METHODS
 
 
 def _called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -148,10 +182,25 @@ KINDS = (
             "normal line, and needs only the text."
         ),
         msg("Write .info(…) instead of .{name}(…)."),
+        whys={
+            "text": msg(
+                "The method log takes a text and a severity. {value} in quotes is a text, and no severity."
+            )
+        },
+        fixes={"text": INSTEAD},
         seen=r"TypeError: RcutilsLogger\.log\(\) missing 1 required positional argument: 'severity'",
-        raised={r"(?<!\w)log\(\) missing 1 required positional argument: 'severity'": _no_severity},
-        fixed_by=(node_log_call.info,),
+        raised={
+            r"(?<!\w)log\(\) missing 1 required positional argument: 'severity'": _no_severity,
+            r"is not a valid LoggingSeverity": _level_in_words,
+        },
+        fixed_by=(lines.written, node_log_call.info),
         examples=(
+            example(
+                "level_in_quotes",
+                Replace(NODE, LOG, f"self.get_logger().log({TEXT}, 'INFO')"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "logger_log",
                 Replace(NODE, "get_logger().info(", "get_logger().log("),

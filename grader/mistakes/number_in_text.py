@@ -50,6 +50,8 @@ def _concatenated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
         kept = _kept_and_added(raised, statement)
     if kept is not None:
         return kept
+    if _joins_digits(statement) and not number_first:
+        return None
     if number_first and statement is not None and _sums(statement):
         return _summed(raised, statement)
     for node in raised.module.nodes:
@@ -91,6 +93,15 @@ def _added_to_itself(statement: ast.stmt) -> tuple[str, ast.expr] | None:
     return (name, added) if name.startswith("self.") and _is_literal(added) else None
 
 
+def _joins_digits(statement: ast.stmt | None) -> bool:
+    """Whether a number is added to what is set: with str() the digits are joined, nothing counts."""
+    if statement is None or _added_to_itself(statement) is not None:
+        return statement is not None
+    names = set(targets_of(statement))
+    sums = [n for n in ast.walk(statement) if isinstance(n, ast.BinOp) and _is_literal(n.right)]
+    return any(dotted(n.left) in names for n in sums)
+
+
 def _kept_and_added(raised: Raised, statement: ast.stmt) -> RecognisedMistake | None:
     """A number is added to an attribute that no line sets to a text of other signs."""
     found = _added_to_itself(statement)
@@ -101,9 +112,7 @@ def _kept_and_added(raised: Raised, statement: ast.stmt) -> RecognisedMistake | 
         raised.module.text.code(statement),
         raised.module.text.code(found[1]),
     )
-    sets = [n for n in raised.module.nodes if isinstance(n, ast.Assign) and name in targets_of(n)]
-    texts = [n.value.value for n in sets if isinstance(n.value, ast.Constant)]
-    if any(isinstance(text, str) and not text.strip().isdigit() for text in texts):
+    if not _has_digits(raised, name):
         return None
     start = _start_as_text(raised, name)
     if start is not None:
@@ -111,6 +120,39 @@ def _kept_and_added(raised: Raised, statement: ast.stmt) -> RecognisedMistake | 
     params = {"name": code, "written": f"{name} = int({name}) + {added}"}
     kept = raised.finding("str_plus_int", at=statement, params=params)
     return replace(kept, words={**kept.words, "attribute": name}, variant="kept_text")
+
+
+def _has_digits(raised: Raised, name: str) -> bool:
+    """Whether each value that an attribute gets is a number or a number's text, so int() reads it."""
+    values = [
+        n.value
+        for n in raised.source.all_nodes
+        if isinstance(n, ast.Assign | ast.AnnAssign)
+        and name in targets_of(n)
+        and not (isinstance(n, ast.Assign) and _added_to_itself(n) is not None)
+    ]
+    return bool(values) and all(value is not None and _reads_as_number(value) for value in values)
+
+
+def _reads_as_number(value: ast.expr) -> bool:
+    made = isinstance(value, ast.Call) and dotted(value.func) == "str" and len(value.args) == 1
+    if isinstance(value, ast.Call) and made:
+        return not any(map(_is_other_value, ast.walk(value.args[0])))
+    text = value.value if isinstance(value, ast.Constant) else None
+    return _is_literal(value) or (isinstance(text, str) and text.strip().isdigit())
+
+
+def _is_other_value(part: ast.AST) -> bool:
+    """Whether a part of what becomes a text is a word, or a call that may give one."""
+    text = part.value if isinstance(part, ast.Constant) else None
+    word = isinstance(text, str) and not text.strip().isdigit()
+    called = isinstance(part, ast.Call) and dotted(part.func) not in (
+        "int",
+        "len",
+        "float",
+        "round",
+    )
+    return word or called or isinstance(part, ast.JoinedStr)
 
 
 def _start_as_text(raised: Raised, name: str) -> RecognisedMistake | None:
@@ -141,7 +183,7 @@ def _kept_as_text(raised: Raised, statement: ast.stmt | None) -> RecognisedMista
     name = dotted(total.left)
     if not isinstance(total.op, ast.Add) or name not in targets_of(statement):
         return None
-    if not _is_literal(total.right):
+    if not _is_literal(total.right) or not _has_digits(raised, name):
         return None
     code, added = raised.module.text.code(total), raised.module.text.code(total.right)
     if "\n" in code:
@@ -679,10 +721,10 @@ KINDS = (
                 "numbers: int() makes one of a string."
             ),
         },
-        seen=r'TypeError: can only concatenate str \(not "(?P<type>\w{1,40})"\) to str'
+        seen=r'TypeError: can only concatenate str \(not "(?P<type>int|float|bool|complex)"\) to str'
         r"|TypeError: unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'",
         raised={
-            r"can only concatenate str(?! \(not \"NoneType)|unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'": _concatenated
+            r"can only concatenate str \(not \"(?:int|float|bool|complex)\"|unsupported operand type\(s\) for \+: '(?:int|float)' and 'str'": _concatenated
         },
         fixed_by=(node_log.number_as_text, lines.written),
         examples=(

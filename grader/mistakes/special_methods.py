@@ -10,18 +10,20 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, LOG, NODE, STEP_LINE, example
-from grader.mistakes.fixes import lines, node_words
+from grader.mistakes.fixes import lines, node_anew, node_words
 from grader.mistakes.kind import Family
 from grader.mistakes.made_by import statements_that_make
 from grader.mistakes.recognised import OWN_ATTRIBUTE, Raised, RecognisedMistake, Suspect, on_line
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import parts_of_callback, targets_of
+from grader.package.source.counter import adds_to, parts_of_callback, starts_of, targets_of
 from grader.package.source.module import Function
-from grader.package.source.names import called_name, dotted, is_enum, last_part
+from grader.package.source.names import called_name, dotted, is_enum, last_part, own_name
 from grader.package.source.place import function_at, statement_at
 
 MOST_CODE = 80  # characters of a piece of code that a text shows
 NOT_CALLED = ("method", "function")
+NO_ITEMS = ("int", "float", "bool", "NoneType")
+"""Types of which iter() makes no iterator."""
 
 
 def _no_iterator(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -35,6 +37,8 @@ def _no_iterator(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
     code = raised.module.text.code(calls[0].args[0]) if len(calls) == 1 else ""
     if not code or not dotted(calls[0].args[0]) or len(code) > MOST_CODE:
         return None
+    if kind in NO_ITEMS:
+        return _of_number(raised, calls[0], code)
     if kind not in NOT_CALLED:
         precise = _named_next(raised, kind) or _made_once(raised, calls[0].args[0])
         if precise is not None:
@@ -44,6 +48,9 @@ def _no_iterator(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
         words = {**found.words, "type": kind, "line": str(raised.line)}
         return replace(found, words=words, variant="own" if own else "")
     values = node_words.values_of(raised.source, calls[0].args[0])
+    method = raised.source.methods.get(own_name(calls[0].args[0]))
+    if method is not None and not values:
+        return _of_method(raised, method, code) if _is_generator(method) else None
     named = values[0] if len(values) == 1 and dotted(values[0]) else None
     known = [
         n
@@ -62,6 +69,23 @@ def _no_iterator(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
     name = raised.source.module_of(named).text.code(named)
     found = raised.finding("not_an_iterator", at=named, name=name, written=f"{name}()")
     return replace(found, words={**found.words, "function": known[0].name}, variant="kept")
+
+
+def _of_number(raised: Raised, call: ast.Call, code: str) -> RecognisedMistake | None:
+    """next() gets a number that another line adds to: the number itself is meant."""
+    added = any(adds_to(n, code) for n in raised.source.own_nodes)
+    whole = raised.module.text.code(call)
+    if not added or len(call.args) > 1 or "\n" in whole or code not in starts_of(raised.source):
+        return None
+    found = raised.finding("not_an_iterator", name=whole, written=code)
+    return replace(found, words={**found.words, "type": "int"}, variant="number")
+
+
+def _of_method(raised: Raised, method: Function, code: str) -> RecognisedMistake:
+    """next() gets a method with yield, which has to be called once."""
+    attribute = node_anew.attribute_for(raised.source, method.name)
+    found = raised.finding("not_an_iterator", name=code, written=f"{attribute} = {code}()")
+    return replace(found, words={**found.words, "attribute": attribute}, variant="method")
 
 
 def _named_next(raised: Raised, kind: str) -> RecognisedMistake | None:
@@ -301,9 +325,15 @@ KINDS = (
                 "next() takes the next item of an iterator. {name} is a parameter of {function} and gets a "
                 "function here, not an iterator."
             ),
-            "kept": msg(
-                "Without (), {name} is the function itself. next() needs what the call of the function "
-                "gives."
+            **dict.fromkeys(
+                ("kept", "method"),
+                msg(
+                    "Without (), {name} is the function itself. next() needs what the call of the function "
+                    "gives."
+                ),
+            ),
+            "number": msg(
+                "next() takes the next item of an iterator. A number of the type {type} has no items."
             ),
         },
         fixes={
@@ -317,6 +347,11 @@ KINDS = (
                 "parameters in their order: {names}. An iterator has to stand at the place of {name}."
             ),
             "kept": msg("Write {written} instead of {name} in this line."),
+            "number": msg("Write {written} instead of {name} in this line."),
+            "method": msg(
+                "Call it once: write {written} in __init__, below super().__init__. In this line, write "
+                "{attribute} instead of {name}."
+            ),
             "items": msg("Write {written} instead of {name} in this line."),
             "renamed": msg("Write {written} instead of {name} in this line."),
             "own": msg(
@@ -327,6 +362,25 @@ KINDS = (
         raised={r"'(?P<type>\w{1,60})' object is not an iterator": on_line(_no_iterator)},
         fixed_by=(lines.written,),
         examples=(
+            example(
+                "next_of_a_number",
+                Replace(NODE, "str(self.counter_)", "str(next(self.counter_))"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "next_of_a_method_with_yield",
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def numbers(self):\n        n = 0\n        while True:\n"
+                    "            yield n\n            n += 1\n\n    def timer_callback",
+                ),
+                Replace(NODE, "str(self.counter_)", "str(next(self.numbers))"),
+                Replace(NODE, STEP_LINE, ""),
+                fails="run.output",
+                blocks=DEAD,
+            ),
             example(
                 "generator_function_without_brackets",
                 Replace(NODE, "class MyFirstNode", GENERATOR),

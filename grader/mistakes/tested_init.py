@@ -33,6 +33,23 @@ def _leaves(block: ast.If) -> bool:
     return isinstance(block.body[-1], ast.Return | ast.Raise) and not block.orelse
 
 
+def _is_met(test: ast.expr) -> bool | None:
+    """Whether a test of None is met: init() gives None back; None if this is not known."""
+    if isinstance(test, ast.Call):
+        return False
+    if isinstance(test, ast.UnaryOp):
+        return True if isinstance(test.op, ast.Not) and _is_met(test.operand) is False else None
+    if not isinstance(test, ast.Compare) or len(test.ops) != 1:
+        return None
+    other = test.comparators[0]
+    if not isinstance(other, ast.Constant) or not isinstance(test.left, ast.Call):
+        return None
+    same, op = other.value is None, test.ops[0]
+    if isinstance(op, ast.Is | ast.Eq):
+        return same
+    return not same if isinstance(op, ast.IsNot | ast.NotEq) else None
+
+
 def _tested(suspect: Suspect) -> RecognisedMistake | None:
     """Look for an if with rclpy.init() in its condition."""
     for node in suspect.source.all_nodes:
@@ -41,7 +58,7 @@ def _tested(suspect: Suspect) -> RecognisedMistake | None:
         module = suspect.source.module_of(node)
         call = _call_in(node.test, module)
         code = module.text.code(call) if call is not None else ""
-        if call is None or "\n" in code:
+        if call is None or "\n" in code or node.orelse or _is_met(node.test) is not _leaves(node):
             continue
         params = {"name": module.text.code(node.test), "written": code}
         found = suspect.finding("init_tested", node, **params)

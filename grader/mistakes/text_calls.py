@@ -14,7 +14,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.made_by import statements_that_make
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import targets_of
+from grader.package.source.counter import parts_of_callback, targets_of
 from grader.package.source.names import called_name, dotted, last_part
 from grader.package.source.place import statement_at
 from grader.report.model import Where
@@ -44,13 +44,18 @@ def _written(raised: Raised, at: ast.expr, name: str, written: str) -> Recognise
 
 
 def _joined(suspect: Suspect) -> RecognisedMistake | None:
-    """Look for `'text'.join(value)` in the text that is logged."""
+    """Look for `'text'.join(value)` in the text that is logged; with '' it changes nothing."""
+    source = suspect.source
+    logs = [call for part in parts_of_callback(source) for call in source.logs(part)]
+    made = {n for s in (*statements_that_make(source, suspect.place), *logs) for n in ast.walk(s)}
     found = [
         call
-        for call, _ in suspect.source.calls
-        if isinstance(call.func, ast.Attribute)
+        for call, _ in source.calls
+        if call in made
+        and isinstance(call.func, ast.Attribute)
         and call.func.attr == "join"
         and isinstance(call.func.value, ast.Constant)
+        and call.func.value.value
         and len(call.args) == 1
         and isinstance(call.args[0], ast.Call | ast.JoinedStr)
         and (isinstance(call.args[0], ast.JoinedStr) or called_name(call.args[0]) == "str")

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import ast
 import re
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import NODE, example
+from grader.mistakes.counter_variable import has_text, is_built
+from grader.mistakes.example import DEAD, LOG_LINE, NODE, STEP_LINE, example
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake
+from grader.mistakes.recognised import Raised, RecognisedMistake, first_of
 from grader.mistakes.unset_name import UNBOUND
 from grader.package.edit.tree import Replace
+from grader.package.source.counter import adds_to, targets_of
 from grader.package.source.module import Function
+from grader.package.source.place import function_at, statement_at
 from grader.package.source.scopes import bindings, scope_of, use_of
 
 
@@ -32,6 +36,20 @@ def _no_value(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     rows = ", ".join(str(row) for row in sorted({b.line for b in found}))
     params = {"name": name, "lines": rows, "function": here.name}
     return raised.finding("variable_not_set", params=params)
+
+
+def _added_to_nothing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The line adds to a text or a sum that no line of the function begins."""
+    name, function = match["name"], function_at(raised.module, raised.line)
+    statement = statement_at(raised.module, raised.line)
+    if function is None or statement is None or not adds_to(statement, name):
+        return None
+    changed = [n for n in ast.walk(function) if isinstance(n, ast.stmt) and name in targets_of(n)]
+    if not is_built(raised, function, name) or any(not adds_to(n, name) for n in changed):
+        return None
+    written = f"{name} = {raised.module.text.quote * 2 if has_text(statement) else 0}"
+    found = raised.finding("variable_not_set", at=statement, name=name, written=written)
+    return replace(found, words={**found.words, "function": function.name}, variant="added_to")
 
 
 def _def_below(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -85,8 +103,42 @@ KINDS = (
             "entered, or an earlier error skipped it; the terminal shows such an error above this "
             "one. Give {name} a value on a line of {function} that runs in each case."
         ),
-        raised={UNBOUND: _no_value},
+        whys={
+            "added_to": msg(
+                "{name} is a variable of {function}, and no line of {function} gives it a first value. So "
+                "there is nothing yet to which this line can add."
+            )
+        },
+        fixes={
+            "added_to": msg(
+                "Write {written} on a line of its own above this line, indented as far as this line. If "
+                "this line is in a loop, write it above the loop, indented as far as the loop."
+            )
+        },
+        raised={UNBOUND: first_of(_added_to_nothing, _no_value)},
         examples=(
+            example(
+                "text_put_together_from_nothing",
+                Replace(
+                    NODE,
+                    LOG_LINE,
+                    "        text += 'Hello time: ' + str(self.counter_)\n"
+                    "        self.get_logger().info(text)\n",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "sum_in_a_loop_from_nothing",
+                Replace(
+                    NODE,
+                    STEP_LINE,
+                    "        for number in (self.counter_, 1):\n            total += number\n"
+                    "        self.counter_ = total\n",
+                ),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
             example(
                 "period_set_in_empty_loop",
                 Replace(

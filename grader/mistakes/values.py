@@ -14,7 +14,7 @@ from grader.mistakes.fixes import node_values
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, always, on_line
 from grader.package.edit.tree import Replace, Write
-from grader.package.source.counter import logged_counter, starts_of
+from grader.package.source.counter import adds_to, logged_counter, starts_of
 from grader.package.source.module import Module
 from grader.package.source.names import dotted
 from grader.package.source.own_imports import imports_of
@@ -36,10 +36,24 @@ def _start_is_text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
     starts = starts_of(raised.source, str)
     for part in ast.walk(statement) if statement is not None else ():
         start = starts.get(dotted(part))
-        if start is not None and node_values.number_in(start):
+        if start is None or statement is None or not _is_added(statement, dotted(part)):
+            continue
+        if node_values.number_in(start):
             number = node_values.number_in(start)
             return raised.finding("start_is_text", at=start, name=dotted(part), value=number)
     return None
+
+
+def _is_added(statement: ast.stmt, name: str) -> bool:
+    """Whether a statement adds to a name, or has a sum of it alone and of another value."""
+    sums = [n for n in ast.walk(statement) if isinstance(n, ast.BinOp)]
+    first = any(dotted(n.left) == name for n in sums)
+    last = any(dotted(n.right) == name and not _has_text(n.left) for n in sums)
+    return adds_to(statement, name) or first or last
+
+
+def _has_text(value: ast.expr) -> bool:
+    return any(isinstance(n, ast.Constant) and isinstance(n.value, str) for n in ast.walk(value))
 
 
 def _joined(suspect: Suspect) -> RecognisedMistake | None:

@@ -50,6 +50,7 @@ STEPS_ALONE = (
     "        self.counter_ += 1\n\n"
 )
 OTHERWISE = {
+    "increment_sign_in_text": "{self.counter_}')\n        self.counter_ += 1\n",
     "spin_before_node": "    node = MyFirstNode()\n    rclpy.spin(node)\n",
     "shutdown_before_spin": "    node = MyFirstNode()\n    rclpy.spin(node)\n    rclpy.shutdown()\n",
     "counter_misspelt_in_step": "self.counter_ = self.counter_ + 1\n",
