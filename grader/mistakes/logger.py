@@ -723,7 +723,7 @@ KINDS = (
         behind={
             "run.stops": _left_out("once", "throttle_duration_sec"),
             "run.wrong_step": _left_out("throttle_duration_sec"),
-            "run.wrong_period": _left_out(*node_words.OPTIONS),
+            "run.wrong_period": _left_out("once", "throttle_duration_sec"),
             "run.wrong_start": _left_out("skip_first"),
         },
         fixed_by=(node_words.options,),

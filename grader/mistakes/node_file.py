@@ -94,11 +94,31 @@ KINDS = (
             "Delete the folder {folder}, or give it another name. Delete the workspace's build/ and "
             "install/ too: they can still have a copy of it. Then build again."
         ),
+        fixes={
+            "imported": msg(
+                "Give the folder {folder} another name, for example {other}, and write this name where "
+                "code imports from the folder ({lines}). Delete the workspace's build/ and install/ too: "
+                "they can still have a copy of it. Then build again."
+            ),
+        },
         link=links.FIRST_NODE,
         examples=(
             example(
                 "node_hidden_by_folder",
                 Write(f"{NODE.removesuffix('.py')}/__init__.py", ""),
+                fails="source.node_file",
+                blocks=UNSTARTED,
+            ),
+            example(
+                "folder_of_the_nodes_name_is_imported",
+                Write(f"{NODE.removesuffix('.py')}/__init__.py", ""),
+                Write(f"{NODE.removesuffix('.py')}/settings.py", "PERIOD = 1.0\n"),
+                Replace(
+                    NODE,
+                    "from rclpy.node import Node\n",
+                    "from rclpy.node import Node\nfrom .my_first_node.settings import PERIOD\n",
+                ),
+                Replace(NODE, "create_timer(1.0,", "create_timer(PERIOD,"),
                 fails="source.node_file",
                 blocks=UNSTARTED,
             ),

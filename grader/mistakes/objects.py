@@ -754,7 +754,7 @@ KINDS = (
             ),
             "method_called": msg(
                 "Give your method another name, for example {written}: here, and where you call it "
-                "(line {line}). All other calls of {name} call the method of Node: leave them."
+                "(line {line}). If {name} is used elsewhere too, that is the one of Node: leave it."
             ),
             "method_only": msg(
                 "Give your method another name, for example {written}. Calls of Node's {name} keep "

@@ -521,7 +521,7 @@ def _plain(body: list[ast.stmt]) -> list[ast.stmt]:
 def _never(variant: str) -> Message:
     """Return what is known if setup() did not finish its work."""
     if variant.startswith("entries_") or variant.startswith("refused"):
-        return say("setuptools stopped in setup(), and gave no reason")
+        return say("setuptools stopped in setup(), and colcon does not show its reason")
     if variant == "guard":
         return say("the condition in this line is never true, so nothing calls setup()")
     if variant == "not_done":

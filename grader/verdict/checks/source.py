@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import codecs
 import re
 import shlex
@@ -15,6 +16,7 @@ from grader.mistakes.slips import description, words_of
 from grader.package.edit.text import read_source
 from grader.package.source.broken_python import Slip
 from grader.package.source.documents import code_cells, document_of
+from grader.package.source.module import parse_module
 from grader.package.source.names import misnamed_init, module_name
 from grader.package.source.newer_python import SINCE, first_difference, with_older_quotes
 from grader.package.source.numbers_above import numbers_above
@@ -81,13 +83,7 @@ def node_file(evidence: Evidence) -> Passed:
         _older_python(path, parsed.text)
     folder = path.removesuffix(".py")
     if evidence.submission.file(f"{folder}/__init__.py") is not None:
-        raise Failed(
-            "source.hidden_by_folder",
-            expected=say("a file {path} that Python imports", path=path),
-            actual=say("there is also a folder {folder}/ with an __init__.py", folder=folder),
-            where=Where(file=folder),
-            words={"path": path, "folder": folder},
-        )
+        raise _hidden_by_folder(evidence, path, folder)
     advice = hints(parsed.tree, evidence.assignment.function)
     inner = evidence.assignment.folder
     if evidence.submission.file(f"{inner}/__init__.py") is None:
@@ -101,6 +97,40 @@ def node_file(evidence: Evidence) -> Passed:
         two = say("{other} has a node too, but ros2 run starts {path}.", other=other, path=path)
         advice.insert(0, two)
     return Passed(actual=path, advice=advice[:MOST_ADVICE])
+
+
+def _hidden_by_folder(evidence: Evidence, path: str, folder: str) -> Failed:
+    """Return the failure of a node's file beside a folder with its name, from which code may import."""
+    name = module_name(path)
+    words = {"path": path, "folder": folder, "other": f"{name.rpartition('.')[2]}_parts"}
+    uses: list[str] = []
+    for file in evidence.submission.files:
+        if file.path.endswith(".py") and not file.path.startswith(f"{folder}/"):
+            try:
+                module = parse_module(file.path, file.data)
+            except (PythonFault, RecursionError, MemoryError):
+                continue
+            imports = [n for n in module.nodes if isinstance(n, ast.Import | ast.ImportFrom)]
+            lines = sorted({n.lineno for n in imports if _imports_from(n, name)})
+            uses += [f"{file.path}:{line}" for line in lines]
+    return Failed(
+        "source.hidden_by_folder",
+        expected=say("a file {path} that Python imports", path=path),
+        actual=say("there is also a folder {folder}/ with an __init__.py", folder=folder),
+        where=Where(file=folder),
+        variant="imported" if uses else "",
+        words={**words, "lines": ", ".join(uses[:MOST_ADVICE])},
+    )
+
+
+def _imports_from(node: ast.Import | ast.ImportFrom, package: str) -> bool:
+    """Whether a statement imports a module of a package, by its whole name or a relative one."""
+    if isinstance(node, ast.Import):
+        return any(alias.name.startswith(f"{package}.") for alias in node.names)
+    if not node.module:
+        return False
+    full = node.module if not node.level else f"{package.rpartition('.')[0]}.{node.module}"
+    return full.startswith(f"{package}.")
 
 
 def _older_python(path: str, text: str) -> None:
