@@ -74,6 +74,11 @@ def test_a_jump_of_the_clock_makes_a_wrong_node_look_right() -> None:
     assert driven(0.1, 2, GRID).period == pytest.approx(0.2)
 
 
+@pytest.mark.parametrize("period", [0.009, 0.02, 0.05])
+def test_a_period_below_the_steps_is_measured_in_milliseconds(period: float) -> None:
+    assert driven(period, 1, GRID, fine=False).period == pytest.approx(period)
+
+
 def test_larger_steps_than_the_timer_has_lose_ticks() -> None:
     assert driven(0.01, 100, GRID).missing
 

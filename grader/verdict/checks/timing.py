@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
     from grader.verdict.use import Use
 
+SHORT = 0.1  # seconds, below which a text shows milliseconds
 WALL_TOLERANCE, WALL_SLACK = 0.05, 0.02  # a share of the period, and seconds
 MOST_INSTANTS = 5  # of those whose lines are counted in a text
 MILLISECONDS = (1000.0, 0.001)  # by which ms are divided or multiplied
@@ -122,7 +123,7 @@ def _line_by_line(evidence: Evidence, wanted: float) -> Passed:
     if not watch.early and (not watch.missing or stopped):  # log.counts reports a stop
         slow = _kept_apart(evidence, on_time, wanted)
         if slow:
-            actual = say("a line about every {period} s", period=f"{slow:.2f}")
+            actual = say("a line about every {period} s", period=_shown(slow))
             raise _wrong_period(evidence, expected, actual, seconds=slow)
         if evidence.has_mistake(count, "node.timer_again"):
             at_a_time = Counter(event.due for event in on_time).values()
@@ -157,9 +158,14 @@ def _seen_every(evidence: Evidence, seconds: float) -> str:
     if slept is not None and slept[1] >= seconds:
         return say(
             "a timer of {period} s, and a callback whose sleep holds the lines back",
-            period=f"{seconds:.2f}",
+            period=_shown(seconds),
         )
-    return say("a line about every {period} s", period=f"{seconds:.2f}")
+    return say("a line about every {period} s", period=_shown(seconds))
+
+
+def _shown(seconds: float) -> str:
+    """Return a period as a text shows it."""
+    return f"{seconds:.2f}" if seconds >= SHORT else f"{seconds:.3f}"
 
 
 def _kept_apart(evidence: Evidence, on_time: Sequence[Event], wanted: float) -> float:
