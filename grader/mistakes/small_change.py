@@ -134,6 +134,11 @@ KINDS = (
                 "{name} calls the function in this line. The grader ran the node with {written}, "
                 "which only names it, and then this check passes."
             ),
+            "copied": msg(
+                "This line gives the object {name} a second name, and makes no second object: what changes "
+                "one of them later changes the other. The grader ran the node with {written}, which is an "
+                "object of its own, and then this check passes."
+            ),
             "once": msg(
                 "Each call of this function makes {name} anew. The grader ran the node with {written} "
                 "above the function, so that it is made once, and then this check passes."
@@ -195,6 +200,9 @@ KINDS = (
             "gives_itself": msg("Write return self below this line, as the last line of {name}."),
             "asked_for": msg("Write {written}, or a for loop, instead of {name}."),
             "yields": msg("Delete this yield."),
+            "copied": msg(
+                "Write {written} instead of {name}, and at the top of the file: import copy"
+            ),
             "long": msg("Make the change below."),
             "condition": msg(
                 "Delete the line {name}, and indent the lines of its block one step less."

@@ -26,13 +26,14 @@ OWN_REASON = (
         "field",
         "bits",
         "power",
+        "copied",
     ),
 )
 """The sorts of changes that only their own reason explains."""
 CERTAIN = (
     *("called", "not_called", "argument", "kept", "asked_for"),
     *("yields", "returned", "falsy", "inexact", "unkept", "gives_itself"),
-    *("given_back", "unit", "field", "before_spin", "bits", "power"),
+    *("given_back", "unit", "field", "before_spin", "bits", "power", "copied"),
 )
 """The sorts of changes that hardly help by chance: a rule of Python is their reason."""
 MOVED = ("moved", "moved_down", "before_spin")

@@ -489,3 +489,12 @@ def test_what_works_on_bits_becomes_what_is_meant(code: str, sort: str, new: str
     text = NODE.replace("self.counter_ = 0", code)
     found = [one.text for one in changes(text) if one.change.sort == sort]
     assert found == [NODE.replace("self.counter_ = 0", new)]
+
+
+def test_an_object_with_a_second_name_is_copied() -> None:
+    text = NODE.replace("self.counter_ += 1", "self.counter_ += 1\n        self.old = self.data")
+    text = "from __future__ import annotations\n" + text
+    found = [one for one in changes(text) if one.change.sort == "copied"]
+    assert [one.change.written for one in found] == ["copy.copy(self.data)"]
+    assert found[0].text.startswith("from __future__ import annotations\nimport copy\n")
+    assert "self.old = copy.copy(self.data)\n" in found[0].text

@@ -175,4 +175,22 @@ def _given_back(module: Module, source: NodeSource, goal: Goal) -> Found:
                 yield 1, Change("given_back", call, text.code(call), new, splices, text.code(given))
 
 
-SORTS: tuple[Sort, ...] = (_kept, _given_back, _asked_for, _plain, _once)
+def _copied(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield copies of the objects that an assignment, or an append, gives a second name."""
+    del source, goal
+    text = module.text
+    imports = [s for s in module.tree.body if isinstance(s, ast.Import | ast.ImportFrom)]
+    imports = [s for s in imports if getattr(s, "module", "") != "__future__"]
+    for node in module.nodes if imports else ():
+        call = node.value if isinstance(node, ast.Expr) else None
+        value = node.value if isinstance(node, ast.Assign) else None
+        if isinstance(call, ast.Call) and called_name(call) == "append" and len(call.args) == 1:
+            value = call.args[0]
+        if value is not None and is_name(value):
+            new = f"copy.copy({text.code(value)})"
+            line = text.before(imports[0].lineno, "import copy")
+            splices = (line, text.swap(value, new))
+            yield 3, Change("copied", value, text.code(value), new, splices)
+
+
+SORTS: tuple[Sort, ...] = (_kept, _given_back, _copied, _asked_for, _plain, _once)
