@@ -16,7 +16,6 @@ from grader.mistakes.placeholders import placeholder_values
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.stop_in_branch import in_branch
 from grader.package.edit.tree import Edit, Replace, Write
-from grader.package.source.counter import targets_of
 from grader.package.source.endless import Loop, idle_loop
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
@@ -29,6 +28,7 @@ from grader.package.source.spinning_loop import (
     other_work,
     until_ros_ends,
 )
+from grader.package.source.spinning_threads import lines_of, spinning_threads
 from grader.package.source.until_ctrl_c import parts_until_ctrl_c
 from grader.report.model import Where
 
@@ -160,46 +160,23 @@ def _of_executor(suspect: Suspect, call: ast.Call, wanted: str) -> RecognisedMis
     return replace(found, variant="executor")
 
 
-def _threads_that_spin(source: NodeSource) -> list[ast.Call]:
-    return [
-        call
-        for call in source.calls_of("Thread")
-        for word in call.keywords
-        if word.arg == "target" and last_part(dotted(word.value)) == "spin"
-    ]
-
-
-def _uses_of(source: NodeSource, thread: ast.Call) -> list[int]:
-    """Return the other lines that use the variable of a thread."""
-    module = source.module_of(thread)
-    statement = statement_at(module, thread.lineno)
-    names = set(targets_of(statement)) if statement is not None else set()
-    function = source.function_around(thread) or module.tree
-    uses = {n.lineno for n in ast.walk(function) if isinstance(n, ast.expr) and dotted(n) in names}
-    return sorted(uses - {thread.lineno})
-
-
 def _spun_twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """Look for a thread that spins beside a call of spin."""
     del match
     source = raised.source
-    threads, spins = _threads_that_spin(source), source.calls_of("spin")
+    threads = spinning_threads(source)
+    inside = {part for thread in threads for part in thread.parts}
+    spins = [call for call in source.calls_of("spin") if call not in inside]
     if len(threads) != 1 or len(spins) != 1:
         return None
-    rows = ", ".join(map(str, _uses_of(source, threads[0])))
-    spun, other = _given(threads[0]), dotted(spins[0].args[0]) if spins[0].args else ""
+    thread = threads[0].call
+    rows = ", ".join(map(str, sorted(lines_of(source, thread) - {thread.lineno})))
+    spun, other = threads[0].given, dotted(spins[0].args[0]) if spins[0].args else ""
     if spun and other and spun != other:
-        return _two_at_once(raised, threads[0], spins[0], (spun, other), rows)
+        return _two_at_once(raised, thread, spins[0], (spun, other), rows)
     params = {"line": str(spins[0].lineno), "lines": rows}
-    found = raised.finding("spun_twice", at=threads[0], params=params)
+    found = raised.finding("spun_twice", at=thread, params=params)
     return replace(found, variant="used" if rows else "")
-
-
-def _given(thread: ast.Call) -> str:
-    """Return the name of the only thing that a thread passes to the function that it runs."""
-    given = next((word.value for word in thread.keywords if word.arg == "args"), None)
-    alone = isinstance(given, ast.Tuple | ast.List) and len(given.elts) == 1
-    return dotted(given.elts[0]) if alone and isinstance(given, ast.Tuple | ast.List) else ""
 
 
 def _two_at_once(
@@ -368,11 +345,12 @@ def _with_class(
     """Return a loop with sleep; a node without a class of its own has no method and no __init__."""
     if suspect.source.node_class is not None:
         around = suspect.source.function_around(loop)
+        own = spinning_threads(suspect.source)
+        inside = {part for thread in own for part in thread.parts}
         spins = suspect.source.calls_of("spin", within=suspect.function or ast.Pass())
-        threads = _threads_that_spin(suspect.source)
+        spins, threads = [c for c in spins if c not in inside], [thread.call for thread in own]
         if len(threads) == 1 and not spins:
-            rows = [threads[0].lineno, *_uses_of(suspect.source, threads[0])]
-            lines = ", ".join(map(str, rows))
+            lines = ", ".join(map(str, sorted(lines_of(suspect.source, threads[0]))))
             return replace(found, variant="threaded", words={**found.words, "lines": lines})
         if not spins or around is None or around is suspect.function:
             return found

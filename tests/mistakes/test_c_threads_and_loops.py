@@ -1,0 +1,90 @@
+"""Diagnoses of threads, loops, the start and the end of a node: each statement is true."""
+
+from __future__ import annotations
+
+import pytest
+
+from grader.mistakes.recognised import RecognisedMistake
+from tests.mistakes.other_forms import RIGHT, TIMER, changed
+from tests.mistakes.test_from_source import line_of, look, raised
+from tests.mistakes.test_spun_and_ended import texts
+
+SPIN = "        rclpy.spin(node)\n"
+INIT = "    rclpy.init(args=args)\n"
+MADE = "    node = MyFirstNode()\n"
+THREADING = (
+    "import rclpy\n",
+    "import threading\nimport time\nfrom threading import Thread\nimport rclpy\n",
+)
+NO_TIMER = (f"        {TIMER}\n", "")
+LOOP = "        while rclpy.ok():\n            time.sleep(1.0)\n            node.timer_callback()\n"
+OWN = ("def main(", "def spin_node(node):\n    rclpy.spin(node)\n\n\ndef main(")
+
+
+def kind_of(found: RecognisedMistake | None) -> str:
+    return "" if found is None else found.kind
+
+
+THREADS = [
+    "Thread(None, rclpy.spin, None, (node,), daemon=True).start()",
+    "Thread(target=lambda: rclpy.spin(node), daemon=True).start()",
+    "Thread(target=spin_node, args=(node,), daemon=True).start()",
+    "Thread(None, spin_node, args=[node], daemon=True).start()",
+]
+
+
+@pytest.mark.parametrize("thread", THREADS)
+def test_a_loop_beside_any_thread_that_spins_is_beside_spin(thread: str) -> None:
+    text = changed(RIGHT, THREADING, NO_TIMER, OWN, (SPIN, f"        {thread}\n{LOOP}"))
+    found = look("run.never_spins", text)
+    assert kind_of(found) == "node.sleep_loop"
+    why, fix = texts(found)
+    assert "beside rclpy.spin" in why
+    assert f"delete the thread that spins the node now (lines: {line_of(text, thread)})" in fix
+
+
+@pytest.mark.parametrize("thread", THREADS)
+def test_a_daemon_that_spins_in_any_form_is_told(thread: str) -> None:
+    text = changed(RIGHT, THREADING, OWN, (SPIN, f"        {thread}\n"))
+    assert kind_of(look("run.exits_at_once", text)) == "node.spin_in_daemon"
+
+
+@pytest.mark.parametrize("daemon", ["thread.daemon = True", "thread.setDaemon(True)"])
+def test_a_thread_that_is_made_a_daemon_later_is_one(daemon: str) -> None:
+    made = f"        thread = Thread(target=rclpy.spin, args=(node,))\n        {daemon}\n"
+    end = "    finally:\n        node.destroy_node()\n        rclpy.try_shutdown()\n"
+    start = f"{made}        thread.start()\n"
+    text = changed(RIGHT, THREADING, (SPIN, start), (end, ""))
+    assert kind_of(look("run.exits_at_once", text)) == "node.spin_in_daemon"
+
+
+@pytest.mark.parametrize("given", ["timeout=2.0", "2.0"])
+def test_a_join_with_a_limit_waits_for_a_time(given: str) -> None:
+    start = (
+        "        thread = Thread(target=rclpy.spin, args=(node,))\n        thread.start()\n"
+        f"        thread.join({given})\n"
+    )
+    text = changed(RIGHT, THREADING, (SPIN, start))
+    why, fix = texts(look("run.ended_early", text))
+    assert f"thread.join({given}) in line {line_of(text, 'thread.join')}" in why
+    first = line_of(text, "thread = ")
+    assert fix.endswith(f"of the thread (lines: {first}, {first + 1}, {first + 2}).")
+    text = text.replace(f"thread.join({given})", "thread.join()")
+    assert kind_of(look("run.ended_early", text)) != "node.spin_in_daemon"
+
+
+def test_the_join_of_a_path_waits_for_nothing() -> None:
+    start = (
+        "        Thread(target=rclpy.spin, args=(node,), daemon=True).start()\n"
+        "        print(os.path.join('a', 'b'))\n"
+    )
+    text = changed(RIGHT, (THREADING[0], f"import os\n{THREADING[1]}"), (SPIN, start))
+    assert kind_of(look("run.exits_at_once", text)) == "node.spin_in_daemon"
+
+
+@pytest.mark.parametrize("thread", THREADS[:2])
+def test_a_thread_in_any_form_and_main_spin_twice(thread: str) -> None:
+    text = changed(RIGHT, THREADING, (SPIN, f"        {thread}\n{SPIN}"))
+    line = text.splitlines().index(SPIN.rstrip()) + 1
+    found = raised("ValueError: generator already executing", text, line, "rclpy")
+    assert kind_of(found) == "node.spun_twice"
