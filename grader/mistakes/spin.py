@@ -20,7 +20,7 @@ from grader.package.source.endless import Loop, idle_loop
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
-from grader.package.source.place import statement_at
+from grader.package.source.place import block_of, statement_at
 from grader.package.source.spinning_loop import (
     condition_of,
     loop_around,
@@ -418,11 +418,13 @@ def _loop_of_calls(suspect: Suspect) -> RecognisedMistake | None:
 def _loop_above(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a loop that only waits, above the line that spins."""
     loop = idle_loop(suspect.source, suspect.function) if suspect.function else None
-    body = suspect.function.body if suspect.function is not None else []
+    body = list(node_order.always_run(suspect.function.body if suspect.function else []))
     spins = [s for s in body if last_part(node_executor.called(s)) == "spin"]
     below = [s for s in spins if loop is not None and s.lineno > loop.lineno]
-    if loop is None or not below:
+    if loop is None or loop not in body or not below:
         return None
+    if len(block_of(suspect.source.module_of(loop), loop)) == 1:
+        return None  # (its block would be empty)
     found = suspect.finding("spin_missing", loop, line=str(below[0].lineno))
     return replace(found, variant="loop_above")
 

@@ -88,3 +88,14 @@ def test_a_thread_in_any_form_and_main_spin_twice(thread: str) -> None:
     line = text.splitlines().index(SPIN.rstrip()) + 1
     found = raised("ValueError: generator already executing", text, line, "rclpy")
     assert kind_of(found) == "node.spun_twice"
+
+
+@pytest.mark.parametrize(
+    "old", [(SPIN, f"        while True:\n            pass\n{SPIN}"), (MADE, f"{MADE}{{}}")]
+)
+def test_a_loop_that_does_nothing_above_spin_in_a_try_is_told(old: tuple[str, str]) -> None:
+    waits = "    while rclpy.ok():\n        pass\n"
+    text = changed(RIGHT, (old[0], old[1].format(waits)))
+    why, fix = texts(look("run.never_spins", text))
+    assert f"line {line_of(text, 'rclpy.spin(node)')}, which spins the node, is not reached" in why
+    assert fix.startswith("Delete this loop")
