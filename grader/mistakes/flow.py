@@ -249,7 +249,7 @@ def _ends(suspect: Suspect) -> RecognisedMistake | None:
     inner = methods_run_by(suspect.source, callback) if callback is not None else ()
     parts = [] if callback is None else [callback, *inner]
     for call, name in (found for part in parts for found in calls_in(part)):
-        if name in ENDS or last_part(name) == "destroy_node":
+        if name in ENDS or (last_part(name) == "destroy_node" and _is_own(suspect.source, name)):
             if any(
                 isinstance(n, ast.ExceptHandler)
                 for n in suspect.source.module_of(call).around(call)
@@ -258,6 +258,19 @@ def _ends(suspect: Suspect) -> RecognisedMistake | None:
             found = suspect.finding("ends_in_callback", call, name=f"{name}()")
             return _with_its_block(suspect, call, found)
     return None
+
+
+def _is_own(source: NodeSource, name: str) -> bool:
+    """Whether destroy_node is called on the node, not on another one: self.helper, or a plain node."""
+    owner = name.rpartition(".")[0]
+    made = {
+        target
+        for n in source.all_nodes
+        if isinstance(n, ast.Assign) and isinstance(n.value, ast.Call)
+        if called_name(n.value) in ("create_node", "Node")
+        for target in targets_of(n)
+    }
+    return owner == "super()" or ("." not in owner and owner not in made)
 
 
 def _with_its_block(

@@ -12,6 +12,14 @@ from grader.mistakes.example import NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_executor, node_life, node_order
 from grader.mistakes.hidden import hides
 from grader.mistakes.kind import Family
+from grader.mistakes.other_end import (
+    ENDED_BY,
+    EXITS,
+    ends_before,
+    ends_elsewhere,
+    spins_below,
+    stays_true,
+)
 from grader.mistakes.placeholders import placeholder_values
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.stop_in_branch import in_branch
@@ -36,7 +44,6 @@ TWICE = "generator already executing|Executor is already spinning"
 ENDED = ("loop", "condition")  # variants of a loop that ended before Ctrl+C
 SPUN = ("spin", "rclpy.spin", "rclpy.spin_once")
 ERRORS = ("Error", "Exception")
-EXITS = ("exit", "quit", "sys.exit", "os._exit")
 SPIN = msg("rclpy.spin(node) waits and calls the callbacks when they are due, until Ctrl+C.")
 
 
@@ -74,23 +81,16 @@ def _by_loop(suspect: Suspect) -> RecognisedMistake | None:
 
 def _once(suspect: Suspect) -> RecognisedMistake | None:
     """Look for spin_once, in a loop that may end before Ctrl+C or in none."""
-    found = _first_once(suspect)
-    if found is None or found.where is None or found.variant not in ("loop", "condition"):
+    found, source = _first_once(suspect), suspect.source
+    if found is None or ends_before(source) or spins_below(source):
+        return None
+    if found.where is None or found.variant not in ("loop", "condition"):
         return found
-    module = suspect.source.module_at(found.where.file)
+    module = source.module_at(found.where.file)
     at = [n for n in module.nodes if isinstance(n, ast.Call) and n.lineno == found.where.line]
-    loops = [loop for call in at if (loop := loop_around(suspect.source, call)) is not None]
-    by_ros = bool(loops) and until_ros_ends(loops[0])
-    return None if by_ros and _ends_elsewhere(suspect.source) else found
-
-
-def _ends_elsewhere(source: NodeSource) -> bool:
-    """Whether something that runs before Ctrl+C shuts ROS down or ends the program."""
-    early = parts_until_ctrl_c(source)
-    return any(
-        call in early and (name in EXITS or last_part(name) in node_order.CLEANUP)
-        for call, name in source.calls
-    )
+    loops = [loop for call in at if (loop := loop_around(source, call)) is not None]
+    goes_on = bool(loops) and (until_ros_ends(loops[0]) or stays_true(source, loops[0]))
+    return None if goes_on and ends_elsewhere(source) else found
 
 
 def _first_once(suspect: Suspect) -> RecognisedMistake | None:
@@ -453,7 +453,9 @@ def _exits(suspect: Suspect) -> RecognisedMistake | None:
         called = dotted(node.func) if isinstance(node, ast.Call) else ""
         if isinstance(node, ast.Call) and any(isinstance(arg, ast.Call) for arg in node.args):
             continue  # sys.exit(main())
-        if raised.startswith(("SystemExit", "KeyboardInterrupt")) or called in EXITS:
+        if raised.startswith(ENDED_BY) or called in EXITS:
+            if _above_spin(suspect, node):
+                continue
             module = suspect.source.module_of(node)
             found = suspect.finding("exits", node, name=called or raised)
             handlers = [n for n in module.around(node) if isinstance(n, ast.ExceptHandler)]
@@ -467,8 +469,19 @@ def _exits(suspect: Suspect) -> RecognisedMistake | None:
             branch = in_branch(suspect.source, module, statement)
             if branch is not None:
                 return replace(found, variant=branch[0], words={**found.words, **branch[1]})
+            if not alone and statement is not None and len(block_of(module, statement)) == 1:
+                return replace(found, variant="alone")
             return replace(found, variant="if" if alone else "")
     return after_error
+
+
+def _above_spin(suspect: Suspect, node: ast.Raise | ast.Call) -> bool:
+    """Whether an end stands above spin in the entry function, and the timer's lines came: it did not run."""
+    source, main = suspect.source, suspect.source.main
+    spins = source.calls_of("spin", within=main) if main is not None else []
+    if not (spins and suspect.lines and source.timers) or source.function_around(node) is not main:
+        return False
+    return node.lineno < spins[0].lineno
 
 
 def _after_error(
@@ -1037,6 +1050,7 @@ KINDS = (
         },
         fixes={
             "if": msg("Delete this line and the if above it."),
+            "alone": msg("Write pass instead of this line."),
             "in_except": msg(
                 "Write raise instead of this line, and run the node again: the traceback then names the "
                 "error and the line that raises it. Correct that line."

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from grader.mistakes.recognised import RecognisedMistake
+from grader.mistakes.recognise import behind_symptom
+from grader.mistakes.recognised import RecognisedMistake, Suspect
+from tests.marking import ASSIGNMENT
 from tests.mistakes.other_forms import RIGHT, TIMER, changed
-from tests.mistakes.test_from_source import line_of, look, raised
+from tests.mistakes.test_from_source import line_of, look, node_in, raised
 from tests.mistakes.test_spun_and_ended import texts
 
 SPIN = "        rclpy.spin(node)\n"
@@ -99,3 +101,62 @@ def test_a_loop_that_does_nothing_above_spin_in_a_try_is_told(old: tuple[str, st
     why, fix = texts(look("run.never_spins", text))
     assert f"line {line_of(text, 'rclpy.spin(node)')}, which spins the node, is not reached" in why
     assert fix.startswith("Delete this loop")
+
+
+STEP = "        self.counter_ += 1\n"
+IMPORTS = ("import rclpy\n", "import sys\nimport rclpy\n")
+LIMIT = f"{STEP}        if self.counter_ > 3:\n            {{}}\n"
+
+
+@pytest.mark.parametrize("end", ["raise SystemExit", "raise KeyboardInterrupt", "sys.exit()"])
+@pytest.mark.parametrize("test", ["True", "rclpy.ok()", "node.running"])
+def test_a_loop_that_goes_on_does_not_end_the_program(end: str, test: str) -> None:
+    loop = f"        while {test}:\n            rclpy.spin_once(node)\n"
+    made = f"{MADE}    node.running = True\n"
+    text = changed(RIGHT, IMPORTS, (SPIN, loop), (MADE, made), (STEP, LIMIT.format(end)))
+    assert kind_of(look("run.ended_early", text)) == "node.exits"
+    assert kind_of(look("run.exits_at_once", text)) == ""
+    other = text.replace("node.running = True", "node.running = False")
+    found = "node.spin_loop_ends" if test == "node.running" else "node.exits"
+    assert kind_of(look("run.ended_early", other)) == found
+
+
+def test_spin_once_below_the_end_of_main_is_not_the_cause() -> None:
+    once = "        rclpy.spin_once(node)\n"
+    text = changed(RIGHT, IMPORTS, (SPIN, once), (MADE, f"{MADE}    sys.exit()\n"))
+    found = look("run.exits_at_once", text)
+    assert kind_of(found) == "node.spin_not_reached"
+    assert f"line {line_of(text, 'spin_once')}, which spins" in texts(found)[0]
+    text = changed(RIGHT, (SPIN, once), (MADE, f"{MADE}    return\n"))
+    assert kind_of(look("run.exits_at_once", text)) == "node.return_early"
+
+
+def test_spin_once_above_spin_does_not_end_the_program() -> None:
+    once = f"        rclpy.spin_once(node)\n{SPIN}"
+    text = changed(RIGHT, (SPIN, once), (STEP, LIMIT.format("rclpy.shutdown()")))
+    assert kind_of(look("run.ended_early", text)) == "node.ends_in_callback"
+
+
+def test_an_end_above_spin_did_not_run_if_the_lines_of_the_timer_came() -> None:
+    usage = f"{INIT}    if len(sys.argv) > 20:\n        print('too many')\n        sys.exit(1)\n"
+    text = changed(RIGHT, IMPORTS, (INIT, usage), (STEP, LIMIT.format("rclpy.shutdown()")))
+    suspect = Suspect(node_in(text), ASSIGNMENT, lines=("Hello time: 0", "Hello time: 1"))
+    found = behind_symptom("run.ended_early", suspect)
+    assert kind_of(found) == "node.ends_in_callback"
+
+
+def test_an_end_that_is_alone_in_its_function_leaves_a_pass() -> None:
+    stop = "    def stop(self):\n        sys.exit()\n\n    def timer_callback"
+    text = changed(
+        RIGHT, IMPORTS, (STEP, LIMIT.format("self.stop()")), ("    def timer_callback", stop)
+    )
+    assert texts(look("run.ended_early", text))[1] == "Write pass instead of this line."
+
+
+def test_the_end_of_another_node_does_not_end_this_one() -> None:
+    made = "        self.counter_ = 0\n"
+    helper = f"{made}        self.helper = rclpy.create_node('helper')\n"
+    text = changed(RIGHT, (made, helper), (STEP, f"{STEP}        self.helper.destroy_node()\n"))
+    assert kind_of(look("run.ended_early", text)) == ""
+    text = changed(RIGHT, (STEP, f"{STEP}        self.destroy_node()\n"))
+    assert kind_of(look("run.ended_early", text)) == "node.ends_in_callback"
