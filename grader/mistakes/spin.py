@@ -345,15 +345,23 @@ def _with_class(
     """Return a loop with sleep; a node without a class of its own has no method and no __init__."""
     if suspect.source.node_class is not None:
         around = suspect.source.function_around(loop)
-        own = spinning_threads(suspect.source)
-        inside = {part for thread in own for part in thread.parts}
+        beside = spinning_threads(suspect.source)
+        inside = {part for thread in beside for part in thread.parts}
         spins = suspect.source.calls_of("spin", within=suspect.function or ast.Pass())
-        spins, threads = [c for c in spins if c not in inside], [thread.call for thread in own]
+        spins, threads = [c for c in spins if c not in inside], [thread.call for thread in beside]
         if len(threads) == 1 and not spins:
             lines = ", ".join(map(str, sorted(lines_of(suspect.source, threads[0]))))
             return replace(found, variant="threaded", words={**found.words, "lines": lines})
-        if not spins or around is None or around is suspect.function:
+        if around is None:
             return found
+        if around is suspect.function:
+            below = [spin for spin in spins if spin.lineno > (loop.end_lineno or loop.lineno)]
+            words = {**found.words, "line": str(below[0].lineno) if below else ""}
+            return replace(found, variant="spun" if below else "", words=words)
+        if not spins:
+            words = {**found.words, "name": around.name}
+            called = not around.name.startswith("__")
+            return replace(found, variant="elsewhere", words=words) if called else found
         variant = "beside" if _in_thread(suspect.source, around) else "above"
         return replace(found, variant=variant, words={**found.words, "name": around.name})
     word = "while" if isinstance(loop, ast.While) else "for"
@@ -607,6 +615,17 @@ KINDS = (
                 "waits: the timer keeps the time."
             ),
             "function": INTO_FUNCTION,
+            "spun": msg(
+                "Put what the loop does into a method, without the sleep, if it is not in one already. Call "
+                "the method with a timer that __init__ creates: self.create_timer({period}, "
+                "self.{callback}), and delete the loop: line {line} spins the node."
+            ),
+            "elsewhere": msg(
+                "Put what the loop in {name} does into a method, without the sleep, if it is not in one "
+                "already. Call the method with a timer that __init__ creates: self.create_timer({period}, "
+                "self.{callback}). Then delete the loop, and write rclpy.spin({node}) in {function} instead "
+                "of what calls or starts {name} now."
+            ),
             "threaded": msg(
                 "Put what the loop does into a method, without the sleep, if it is not in one already. "
                 "Call the method with a timer that __init__ creates: self.create_timer({period}, self.{callback}). Then write "
@@ -633,6 +652,22 @@ KINDS = (
                 ),
                 Replace(
                     NODE, "self.get_logger().info", "delay(1000)\n        self.get_logger().info"
+                ),
+                fails="run.spins",
+            ),
+            example(
+                "sleep_loop_above_spin",
+                *_loop(LOOPS.replace("    except", "        rclpy.spin(node)\n    except")),
+                fails="run.spins",
+            ),
+            example(
+                "sleep_loop_in_a_method_that_main_calls",
+                *_loop(SPINS.replace("rclpy.spin(node)", "node.run()")),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def run(self):\n        while rclpy.ok():\n            self.timer_callback()\n"
+                    "            time.sleep(1.0)\n\n    def timer_callback",
                 ),
                 fails="run.spins",
             ),

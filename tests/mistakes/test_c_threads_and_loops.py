@@ -160,3 +160,46 @@ def test_the_end_of_another_node_does_not_end_this_one() -> None:
     assert kind_of(look("run.ended_early", text)) == ""
     text = changed(RIGHT, (STEP, f"{STEP}        self.destroy_node()\n"))
     assert kind_of(look("run.ended_early", text)) == "node.ends_in_callback"
+
+
+RUN = """\
+    def run(self):
+        while rclpy.ok():
+            self.timer_callback()
+            time.sleep(1.0)
+
+    def timer_callback"""
+RUNS = ("    def timer_callback", RUN)
+
+
+@pytest.mark.parametrize(
+    "start", ["node.run()", "t = Thread(target=node.run)\n        t.start()\n        t.join()"]
+)
+def test_a_loop_in_a_method_is_not_in_main(start: str) -> None:
+    text = changed(RIGHT, THREADING, NO_TIMER, RUNS, (SPIN, f"        {start}\n"))
+    fix = texts(look("run.never_spins", text))[1]
+    assert "what the loop in run does" in fix
+    assert "rclpy.spin(node) in main instead of what calls or starts run now" in fix
+
+
+@pytest.mark.parametrize("looped", [True, False])
+def test_a_loop_above_spin_is_deleted_and_spin_stays(looped: bool) -> None:
+    spin = f"    {SPIN}" if looped else SPIN
+    text = changed(RIGHT, THREADING, NO_TIMER, (SPIN, LOOP + spin))
+    fix = texts(look("run.never_spins", text))[1]
+    line = line_of(text, "rclpy.spin(node)")
+    assert fix.endswith(f"delete the loop: line {line} spins the node.") is not looped
+
+
+@pytest.mark.parametrize("beside", [True, False])
+def test_a_thread_is_beside_spin_only_if_spin_is_reached(beside: bool) -> None:
+    start = "        self.counter_ = 0\n"
+    made = f"{start}        t = Thread(target=self.run)\n        t.start()\n"
+    for end, spin in (("", "        pass\n"), ("        t.join()\n", SPIN)):
+        edit, spun = (made, SPIN) if beside else (made + end, spin)
+        text = changed(RIGHT, THREADING, NO_TIMER, RUNS, (start, edit), (SPIN, spun))
+        wanted = "node.thread_for_timer" if beside else "node.sleep_loop"
+        assert kind_of(look("run.never_spins", text)) == wanted
+        # (and daemon=True would not help there: nothing else keeps the program running)
+        found = kind_of(look("run.ignores_interrupt", text))
+        assert found == ("node.thread_for_timer" if beside else "")
