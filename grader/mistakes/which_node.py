@@ -118,7 +118,9 @@ def _executor_without_node(suspect: Suspect) -> RecognisedMistake | None:
         found = suspect.finding("executor_without_node", late.spin, name=owner, line=rows)
         return replace(found, variant="late")
     given = {
-        name.rpartition(".")[0] for _, name in suspect.source.calls if name.endswith(".add_node")
+        dotted(n.value)
+        for n in suspect.source.all_nodes
+        if isinstance(n, ast.Attribute) and n.attr == "add_node"
     }
     for call, name in suspect.source.calls:
         before, _, method = name.rpartition(".")

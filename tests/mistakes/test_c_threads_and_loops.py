@@ -203,3 +203,69 @@ def test_a_thread_is_beside_spin_only_if_spin_is_reached(beside: bool) -> None:
         # (and daemon=True would not help there: nothing else keeps the program running)
         found = kind_of(look("run.ignores_interrupt", text))
         assert found == ("node.thread_for_timer" if beside else "")
+
+
+LOG = "        self.get_logger().info('Hello time: ' + str(self.counter_))\n"
+SET_UP = ("import rclpy\n", "import logging\nimport rclpy\nlogging.basicConfig(level=10)\n")
+
+
+@pytest.mark.parametrize(
+    ("line", "found"),
+    [
+        ("print('Hello time: ' + str(self.counter_))", False),
+        ("logging.info('Hello time: ' + str(self.counter_))", True),
+    ],
+)
+def test_logging_that_is_only_set_up_logs_nothing(line: str, found: bool) -> None:
+    text = changed(RIGHT, SET_UP, (LOG, f"        {line}\n"))
+    for symptom in ("run.print_not_logger", "run.wrong_text"):
+        assert (kind_of(look(symptom, text)) == "node.python_logging") is found
+
+
+def test_logging_beside_the_logger_of_the_node_does_not_log_the_lines() -> None:
+    text = changed(RIGHT, SET_UP, (MADE, f"{MADE}    logging.info('made')\n"))
+    assert kind_of(look("run.wrong_text", text)) != "node.python_logging"
+
+
+def test_a_timer_of_python_for_something_else_is_not_the_cause() -> None:
+    end = "    def end(self):\n        self.ended = True\n\n    def timer_callback"
+    edits = (THREADING, ("    def timer_callback", end))
+    made = "threading.Timer(9.0, self.{}).start()"
+    text = changed(RIGHT, *edits, (TIMER, made.format("end")))
+    assert kind_of(look("run.no_lines", text)) == "node.timer_missing"
+    text = changed(RIGHT, *edits, (TIMER, made.format("timer_callback")))
+    assert kind_of(look("run.no_lines", text)) == "node.threading_timer"
+
+
+@pytest.mark.parametrize(("test", "ends"), [("running", True), ("other", False)])
+def test_a_handler_of_ctrl_c_that_ends_the_loop_is_not_the_cause(test: str, ends: bool) -> None:
+    stop = "    def stop(self, *_):\n        self.running = False\n\n    def timer_callback"
+    made = (
+        f"{MADE}    signal.signal(signal.SIGINT, node.stop)\n    node.running = node.other = True\n"
+    )
+    loop = f"        while node.{test}:\n            rclpy.spin_once(node, timeout_sec=0.1)\n"
+    signals = ("import rclpy\n", "import signal\nimport rclpy\n")
+    text = changed(RIGHT, signals, (MADE, made), ("    def timer_callback", stop), (SPIN, loop))
+    found = kind_of(look("run.ignores_interrupt", text))
+    assert (found != "node.signal_handler") is ends
+
+
+def test_an_executor_may_get_the_node_through_a_name_of_add_node() -> None:
+    spin = (
+        "        executor = rclpy.executors.SingleThreadedExecutor()\n{}        executor.spin()\n"
+    )
+    add = "        add = executor.add_node\n        add(node)\n"
+    for added, found in ((add, False), ("", True)):
+        text = changed(RIGHT, (SPIN, spin.format(added)))
+        kind = kind_of(look("run.never_spins", text))
+        assert (kind == "node.executor_without_node") is found
+
+
+@pytest.mark.parametrize(
+    ("test", "found"),
+    [("is None", False), ("< 0", False), ("> 3", True), (">= 3", True), ("== 3", True)],
+)
+def test_a_limit_is_a_condition_that_the_counter_makes_true(test: str, found: bool) -> None:
+    early = f"        if self.counter_ {test}:\n            return\n{LOG}"
+    text = changed(RIGHT, (LOG, early))
+    assert (kind_of(look("run.stops", text)) == "node.return_early") is found
