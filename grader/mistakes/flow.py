@@ -30,10 +30,11 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import adds_to, logged_counter, starts_of, targets_of
 from grader.package.source.endless import calls_of_methods, methods_run_by
 from grader.package.source.module import Function, Module, is_text
-from grader.package.source.names import called_name, calls_in, dotted, last_part
+from grader.package.source.names import SPINS, called_name, calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.period import is_right, seconds_of
 from grader.package.source.place import block_of, function_at, statement_at
+from grader.package.source.truth import truth_of
 
 ENDS = ("destroy_node", "rclpy.shutdown", "rclpy.try_shutdown")
 LEVELS = ("set_level", "set_logger_level")
@@ -137,6 +138,9 @@ def _logs_each_nth(suspect: Suspect) -> RecognisedMistake | None:
 def _logs_if(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a condition that decides whether the callback logs."""
     for block in _around_all_logs(suspect):
+        truth = truth_of(suspect.source, block.test)
+        if truth is not None and truth.value:
+            continue  # (it is always true)
         if not _chooses(block) and not _has_effect(suspect.source, block.test):
             return suspect.finding("log_if", block, name=ast.unparse(block.test)[:60])
     return None
@@ -406,7 +410,7 @@ def _swallowed(suspect: Suspect) -> RecognisedMistake | None:
         around = list(suspect.source.module_of(handler).around(handler))
         loops = [part for part in around if isinstance(part, ast.While)]
         leaves = any(isinstance(n, ast.Raise | ast.Return | ast.Break) for n in ast.walk(handler))
-        if loops and not leaves:
+        if loops and not leaves and not _ends_loop(suspect.source, handler, loops[0]):
             place = suspect.place_at(handler)
             found = suspect.finding("interrupt_swallowed", place, line=loops[0].lineno)
             last = handler.body[-1]
@@ -416,6 +420,19 @@ def _swallowed(suspect: Suspect) -> RecognisedMistake | None:
                 return replace(found, words=words, variant=variant)
             return replace(found, variant="" if handler.type is None else "named")
     return None
+
+
+def _ends_loop(source: NodeSource, handler: ast.ExceptHandler, loop: ast.While) -> bool:
+    """Whether an except makes its loop's condition false, or its try is not what spins in the loop."""
+    tested = {last_part(dotted(part)) for part in ast.walk(loop.test)} - {""}
+    for node in ast.walk(handler):
+        value = node.value if isinstance(node, ast.Assign) else None
+        false = isinstance(value, ast.Constant) and not value.value
+        if false and tested & set(map(last_part, targets_of(node))):
+            return True
+    tried = source.module_of(handler).parents.get(handler)
+    spins = [call for call, name in calls_in(loop) if last_part(name) in SPINS]
+    return bool(spins) and tried is not None and not any(n in spins for n in ast.walk(tried))
 
 
 def _catches_interrupt(handler: ast.ExceptHandler) -> bool:

@@ -261,7 +261,7 @@ def _under_guard(suspect: Suspect) -> RecognisedMistake | None:
 def _missing(suspect: Suspect) -> RecognisedMistake | None:
     if _spins(suspect):
         return _under_guard(suspect)
-    if suspect.source.calls_of("spin_once"):
+    if suspect.source.calls_of("spin_once") or _is_passed_on(suspect.source):
         return None
     for call, name in suspect.source.calls:
         before, _, method = name.rpartition(".")
@@ -269,6 +269,17 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
             found = suspect.finding("spin_missing", call, name=before)
             return replace(found, variant="executor")
     return _unnamed(suspect) or suspect.finding("spin_missing", suspect.place_of_function)
+
+
+def _is_passed_on(source: NodeSource) -> bool:
+    """Whether spin itself is given to something that may call it: a Process, a Timer, a partial."""
+    threads = source.calls_of("Thread")
+    return any(
+        isinstance(given, ast.Attribute) and given.attr == "spin"
+        for call, _ in source.calls
+        if call not in threads
+        for given in (*call.args, *(word.value for word in call.keywords))
+    )
 
 
 def _unnamed(suspect: Suspect) -> RecognisedMistake | None:

@@ -269,3 +269,86 @@ def test_a_limit_is_a_condition_that_the_counter_makes_true(test: str, found: bo
     early = f"        if self.counter_ {test}:\n            return\n{LOG}"
     text = changed(RIGHT, (LOG, early))
     assert (kind_of(look("run.stops", text)) == "node.return_early") is found
+
+
+RUNNER = """\
+class Runner(Thread):
+    def __init__(self, node):
+        super().__init__()
+        self.node = node
+
+    def run(self):
+        rclpy.spin(self.node)
+
+
+class MyFirstNode"""
+
+
+def test_the_run_of_a_thread_is_called_by_its_start() -> None:
+    start = "        Runner(node).start()\n"
+    text = changed(RIGHT, THREADING, ("class MyFirstNode", RUNNER), (SPIN, start))
+    assert kind_of(look("run.exits_at_once", text)) != "node.spin_not_reached"
+
+
+def test_a_thread_that_is_not_started_does_not_spin() -> None:
+    made = "        thread = Thread(target=rclpy.spin, args=(node,), daemon=True)\n"
+    for start, kind in (
+        ("", "node.spin_missing"),
+        ("        thread.start()\n", "node.spin_in_daemon"),
+    ):
+        text = changed(RIGHT, THREADING, (SPIN, made + start))
+        assert kind_of(look("run.exits_at_once", text)) == kind
+
+
+@pytest.mark.parametrize(
+    ("given", "kind"),
+    [
+        ("threading.Timer(0.1, rclpy.spin, [node]).start()", ""),
+        ("Thread(target=partial(rclpy.spin, node), daemon=True).start()", "node.spin_in_daemon"),
+        ("print(node)", "node.spin_missing"),
+    ],
+)
+def test_spin_that_is_passed_on_is_not_missing(given: str, kind: str) -> None:
+    text = changed(RIGHT, THREADING, (SPIN, f"        {given}\n"))
+    assert kind_of(look("run.exits_at_once", text)) == kind
+
+
+@pytest.mark.parametrize(
+    ("tried", "line", "found"),
+    [
+        ("rclpy.spin_once(node)", "pass", True),
+        ("rclpy.spin_once(node)", "running = False", False),
+        ("node.value = int('3')", "pass", False),
+    ],
+)
+def test_an_except_that_lets_the_loop_end_is_not_the_cause(
+    tried: str, line: str, found: bool
+) -> None:
+    loop = (
+        "        running = True\n        while running:\n            try:\n"
+        f"                {tried}\n            except:\n                {line}\n"
+        f"            rclpy.spin_once(node, timeout_sec=0)\n"
+    )
+    if "spin" in tried:
+        loop = loop.replace("            rclpy.spin_once(node, timeout_sec=0)\n", "")
+    text = changed(RIGHT, (SPIN, loop))
+    kind = kind_of(look("run.ignores_interrupt", text))
+    assert (kind == "node.interrupt_swallowed") is found
+
+
+@pytest.mark.parametrize(("test", "found"), [("rclpy.ok()", False), ("self.counter_ < 3", True)])
+def test_a_condition_that_is_always_true_does_not_stop_the_lines(test: str, found: bool) -> None:
+    text = changed(RIGHT, (LOG, f"        if {test}:\n    {LOG}"))
+    assert (kind_of(look("run.stops", text)) == "node.log_if") is found
+
+
+@pytest.mark.parametrize(("rounds", "found"), [(3, False), (300, True)])
+def test_a_loop_that_is_over_soon_does_not_keep_init_from_returning(
+    rounds: int, found: bool
+) -> None:
+    loop = f"        for _ in range({rounds}):\n            time.sleep(0.1)\n"
+    text = changed(RIGHT, THREADING, (TIMER, f"{TIMER}\n{loop}"))
+    kind = kind_of(look("run.never_spins", text))
+    assert (kind == "node.constructor_repeats") is found
+    text = changed(RIGHT, THREADING, (STEP, STEP + loop))
+    assert (kind_of(look("run.stops", text)) == "node.callback_repeats") is found

@@ -47,12 +47,16 @@ class SpinningThread:
             return ""
         if given is not None and not isinstance(given, ast.Tuple | ast.List):
             return ""
+        if isinstance(self.target, ast.Call):
+            return ""
         return f"{dotted(self.target)}({', '.join(map(code, given.elts if given else ()))})"
 
 
 def spinning_threads(source: NodeSource) -> list[SpinningThread]:
     """Return the threads that spin a node."""
-    found = []
+    found: list[SpinningThread] = []
+    if not any(name.endswith("start") for _, name in source.calls):
+        return found  # (no thread is started)
     for call in source.calls_of("Thread"):
         target = argument(call, "target")
         if target is None:
@@ -106,6 +110,8 @@ def is_daemon(source: NodeSource, call: ast.Call) -> bool:
 def _spins(target: ast.expr) -> bool:
     if isinstance(target, ast.Lambda):
         return _calls_spin(target)
+    if isinstance(target, ast.Call) and last_part(dotted(target.func)) == "partial":
+        return bool(target.args) and _spins(target.args[0])
     return last_part(dotted(target)) in SPINS
 
 
