@@ -352,3 +352,20 @@ def test_a_loop_that_is_over_soon_does_not_keep_init_from_returning(
     assert (kind == "node.constructor_repeats") is found
     text = changed(RIGHT, THREADING, (STEP, STEP + loop))
     assert (kind_of(look("run.stops", text)) == "node.callback_repeats") is found
+
+
+NOT_INITIALIZED = "rclpy.exceptions.NotInitializedException: rclpy.init() has not been called"
+BUILD = "def build():\n    return MyFirstNode()\n\n\n"
+
+
+@pytest.mark.parametrize("on_import", [True, False])
+def test_a_function_that_is_called_on_import_makes_the_node_then(on_import: bool) -> None:
+    made, inside = ("node = build()\n\n\n", "") if on_import else ("", "    node = build()\n")
+    text = changed(RIGHT, (INIT + MADE, inside + INIT), ("def main(", f"{BUILD}{made}def main("))
+    found = raised(NOT_INITIALIZED, text, line_of(text, "super()"), "rclpy")
+    assert (kind_of(found) == "node.made_on_import") is on_import
+    if on_import:
+        assert found is not None
+        assert found.where is not None
+        assert found.where.line == line_of(text, "node = build()")
+        assert texts(found)[1].startswith("Move this line into main, below rclpy.init(args=args)")
