@@ -369,3 +369,48 @@ def test_a_function_that_is_called_on_import_makes_the_node_then(on_import: bool
         assert found.where is not None
         assert found.where.line == line_of(text, "node = build()")
         assert texts(found)[1].startswith("Move this line into main, below rclpy.init(args=args)")
+
+
+COUNTS = """\
+class CountOnRead:
+    def __init__(self):
+        self._n = -1
+
+    @property
+    def number(self):
+        self._n += 1
+        return self._n
+
+
+class MyFirstNode"""
+
+
+@pytest.mark.parametrize(("second", "once"), [("else:", True), ("if self.other:", False)])
+def test_a_property_in_two_branches_is_read_once(second: str, once: bool) -> None:
+    log = "            self.get_logger().info('Hello time: ' + str(self.counter_.number))\n"
+    text = changed(
+        RIGHT,
+        ("class MyFirstNode", COUNTS),
+        ("self.counter_ = 0", "self.counter_ = CountOnRead()"),
+        (LOG, f"        if self.active:\n{log}        {second}\n{log}"),
+        (STEP, ""),
+    )
+    for symptom in ("run.wrong_start", "run.wrong_step"):
+        assert (kind_of(look(symptom, text)) != "node.read_counts") is once
+
+
+@pytest.mark.parametrize(("imports", "moves"), [("    import os\n", True), ("", False)])
+def test_an_import_under_the_guard_moves_with_the_line_that_needs_it(
+    imports: str, moves: bool
+) -> None:
+    guard = "if __name__ == '__main__':\n"
+    at_top = "" if moves else "import os\n"
+    text = changed(
+        RIGHT,
+        ("import rclpy\n", f"{at_top}import rclpy\n"),
+        ("self.counter_ = 0", "self.counter_ = START"),
+        (guard, f"{guard}{imports}    START = os.getpid()\n"),
+    )
+    line = line_of(text, "self.counter_ = START")
+    fix = texts(raised("NameError: name 'START' is not defined", text, line))[1]
+    assert ("the lines of that block that it needs" in fix) is moves
