@@ -143,6 +143,16 @@ def test_the_node_that_counts_is_judged_and_no_other(bench: Bench) -> None:
     assert isinstance(outcome_of(node_name, bench, run_of(*nodes, clock="virtual")), Passed)
 
 
+@pytest.mark.parametrize(("passed", "variant"), [("my_first_node", "other"), ("my_node", "")])
+def test_a_node_that_has_the_right_name_is_not_told_to_look_for_another(
+    passed: str, variant: str, bench: Bench
+) -> None:
+    run = run_of(seen(), seen("/my_node"), clock="virtual", logger="my_node")
+    failed = outcome_of(node_name, bench, run, RIGHT.replace("my_first_node", passed))
+    assert isinstance(failed, Failed)
+    assert failed.variant == variant
+
+
 def test_a_node_in_a_namespace_is_found_by_its_logger() -> None:
     nodes = (seen("/other"), seen("/robot/my_first_node"))
     assert counting_node(nodes, [line(0, "robot.my_first_node")]) == "/robot/my_first_node"

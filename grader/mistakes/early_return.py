@@ -90,7 +90,19 @@ def _is_limit(source: NodeSource, test: ast.expr) -> bool:
     compares = isinstance(test, ast.Compare) and not any(
         isinstance(n, ast.Call) for n in ast.walk(test)
     )
-    return compares and logged is not None and outer == {logged[1]}
+    if not isinstance(test, ast.Compare) or not compares or logged is None:
+        return False
+    return outer == {logged[1]} and _comes_true(test, logged[1])
+
+
+def _comes_true(test: ast.Compare, name: str) -> bool:
+    """Whether a comparison can become true when the counter grows: not `< 0` nor `is None`."""
+    if len(test.ops) > 1:
+        return True
+    left = dotted(test.left) == name
+    kinds = (ast.Gt, ast.GtE, ast.Eq, ast.In) if left else (ast.Lt, ast.LtE, ast.Eq)
+    known = left or any(dotted(other) == name for other in test.comparators)
+    return not known or isinstance(test.ops[0], kinds)
 
 
 def _condition_of(source: NodeSource, found: ast.Return) -> ast.expr | None:

@@ -582,7 +582,15 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.node_not_kept": {"name": "node", "made": "MyNode", "line": "25"},
     "node.used_before_set": {"name": "node", "at": "25"},
     "node.counter_global": {"name": "counter", "word": "global"},
-    "node.spin_in_daemon": {"name": "executor", "called": "self.run()", "line": 12},
+    "node.spin_in_daemon": {
+        "name": "executor",
+        "called": "self.run()",
+        "line": 12,
+        "waits": "thread.join(timeout=5)",
+        "row": 24,
+        "written": "rclpy.spin(robot)",
+        "lines": "22, 23, 24",
+    },
     "node.cleanup_early": {
         "method": "close",
         "name": "rclpy.shutdown()",

@@ -30,10 +30,11 @@ from grader.package.edit.tree import Replace
 from grader.package.source.counter import adds_to, logged_counter, starts_of, targets_of
 from grader.package.source.endless import calls_of_methods, methods_run_by
 from grader.package.source.module import Function, Module, is_text
-from grader.package.source.names import called_name, calls_in, dotted, last_part
+from grader.package.source.names import SPINS, called_name, calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.period import is_right, seconds_of
 from grader.package.source.place import block_of, function_at, statement_at
+from grader.package.source.truth import truth_of
 
 ENDS = ("destroy_node", "rclpy.shutdown", "rclpy.try_shutdown")
 LEVELS = ("set_level", "set_logger_level")
@@ -137,6 +138,9 @@ def _logs_each_nth(suspect: Suspect) -> RecognisedMistake | None:
 def _logs_if(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a condition that decides whether the callback logs."""
     for block in _around_all_logs(suspect):
+        truth = truth_of(suspect.source, block.test)
+        if truth is not None and truth.value:
+            continue  # (it is always true)
         if not _chooses(block) and not _has_effect(suspect.source, block.test):
             return suspect.finding("log_if", block, name=ast.unparse(block.test)[:60])
     return None
@@ -249,7 +253,7 @@ def _ends(suspect: Suspect) -> RecognisedMistake | None:
     inner = methods_run_by(suspect.source, callback) if callback is not None else ()
     parts = [] if callback is None else [callback, *inner]
     for call, name in (found for part in parts for found in calls_in(part)):
-        if name in ENDS or last_part(name) == "destroy_node":
+        if name in ENDS or (last_part(name) == "destroy_node" and _is_own(suspect.source, name)):
             if any(
                 isinstance(n, ast.ExceptHandler)
                 for n in suspect.source.module_of(call).around(call)
@@ -258,6 +262,19 @@ def _ends(suspect: Suspect) -> RecognisedMistake | None:
             found = suspect.finding("ends_in_callback", call, name=f"{name}()")
             return _with_its_block(suspect, call, found)
     return None
+
+
+def _is_own(source: NodeSource, name: str) -> bool:
+    """Whether destroy_node is called on the node, not on another one: self.helper, or a plain node."""
+    owner = name.rpartition(".")[0]
+    made = {
+        target
+        for n in source.all_nodes
+        if isinstance(n, ast.Assign) and isinstance(n.value, ast.Call)
+        if called_name(n.value) in ("create_node", "Node")
+        for target in targets_of(n)
+    }
+    return owner == "super()" or ("." not in owner and owner not in made)
 
 
 def _with_its_block(
@@ -393,7 +410,7 @@ def _swallowed(suspect: Suspect) -> RecognisedMistake | None:
         around = list(suspect.source.module_of(handler).around(handler))
         loops = [part for part in around if isinstance(part, ast.While)]
         leaves = any(isinstance(n, ast.Raise | ast.Return | ast.Break) for n in ast.walk(handler))
-        if loops and not leaves:
+        if loops and not leaves and not _ends_loop(suspect.source, handler, loops[0]):
             place = suspect.place_at(handler)
             found = suspect.finding("interrupt_swallowed", place, line=loops[0].lineno)
             last = handler.body[-1]
@@ -403,6 +420,19 @@ def _swallowed(suspect: Suspect) -> RecognisedMistake | None:
                 return replace(found, words=words, variant=variant)
             return replace(found, variant="" if handler.type is None else "named")
     return None
+
+
+def _ends_loop(source: NodeSource, handler: ast.ExceptHandler, loop: ast.While) -> bool:
+    """Whether an except makes its loop's condition false, or its try is not what spins in the loop."""
+    tested = {last_part(dotted(part)) for part in ast.walk(loop.test)} - {""}
+    for node in ast.walk(handler):
+        value = node.value if isinstance(node, ast.Assign) else None
+        false = isinstance(value, ast.Constant) and not value.value
+        if false and tested & set(map(last_part, targets_of(node))):
+            return True
+    tried = source.module_of(handler).parents.get(handler)
+    spins = [call for call, name in calls_in(loop) if last_part(name) in SPINS]
+    return bool(spins) and tried is not None and not any(n in spins for n in ast.walk(tried))
 
 
 def _catches_interrupt(handler: ast.ExceptHandler) -> bool:

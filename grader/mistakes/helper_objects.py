@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Sequence
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
@@ -74,6 +75,7 @@ def _read_counts(suspect: Suspect) -> RecognisedMistake | None:
             for n in ast.walk(callback)
             if isinstance(n, ast.Attribute) and n.attr == method.name and _is_read(n)
         ]
+        read = [n for n in read if not _is_other_branch(source, n, read)]
         codes = {dotted(n) for n in read}
         if len(added) != 1 or len(read) < 2 or len(codes) != 1:
             continue
@@ -83,6 +85,18 @@ def _read_counts(suspect: Suspect) -> RecognisedMistake | None:
         words = {**mistake.words, "line": str(added[0].lineno), "lines": rows}
         return replace(mistake, words={**words, "number": free, "count": len(read)})
     return None
+
+
+def _is_other_branch(source: NodeSource, node: ast.AST, all_nodes: Sequence[ast.AST]) -> bool:
+    """Whether a part is in the else of an if whose own block has another: one call runs one of them."""
+    inner: ast.AST = node
+    for around in source.module_of(node).around(node):
+        if isinstance(around, ast.If) and inner in around.orelse:
+            first = {part for statement in around.body for part in ast.walk(statement)}
+            if first & set(all_nodes):
+                return True
+        inner = around
+    return False
 
 
 def _setter_adds(suspect: Suspect) -> RecognisedMistake | None:

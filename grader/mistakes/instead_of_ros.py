@@ -9,7 +9,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import LOG, NODE, SILENT, SPIN_UNTIL_CTRL_C, STEP_LINE, example
-from grader.mistakes.fixes import lines, node_logging, node_threads
+from grader.mistakes.fixes import lines, node_logging, node_loops, node_threads
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.node_timer import value_of
 from grader.mistakes.kind import Family
@@ -20,7 +20,7 @@ from grader.package.source.counter import targets_of
 from grader.package.source.imported import full_name, imports
 from grader.package.source.lost_flag import lost_flag
 from grader.package.source.module import Function, Module
-from grader.package.source.names import dotted, last_part
+from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import NodeSource
 from grader.package.source.python_logging import is_of_logging, python_logs
 from grader.package.source.thread_timers import row_ranges, thread_timer
@@ -41,6 +41,11 @@ def _threading_timer(suspect: Suspect) -> RecognisedMistake | None:
         if full_name(suspect.source.module_of(call), call.func) == "threading.Timer":
             if thread_timer(suspect.source) is not None:
                 return None
+            method = suspect.source.methods.get(
+                own_name(call.args[1] if len(call.args) > 1 else None)
+            )
+            if method is not None and not _may_log(suspect.source, method):
+                continue  # (it does something else than the lines)
             found = suspect.finding("threading_timer", call)
             lines = _lines_of_timer(suspect, call)
             if not lines:
@@ -48,6 +53,12 @@ def _threading_timer(suspect: Suspect) -> RecognisedMistake | None:
             words = {**found.words, "line": ", ".join(map(str, lines))}
             return replace(found, variant="used", words=words)
     return None
+
+
+def _may_log(source: NodeSource, method: Function) -> bool:
+    """Whether a method is the callback, or logs or prints."""
+    tells = source.logs(method) or node_loops.prints_in(source, method)
+    return method is source.callback or bool(tells)
 
 
 def _thread_timer(suspect: Suspect) -> RecognisedMistake | None:
@@ -80,6 +91,11 @@ def _python_logging(suspect: Suspect) -> RecognisedMistake | None:
     source = suspect.source
     set_up = [c for c in source.calls_of("getLogger", "basicConfig") if _of_logging(source, c)]
     logs = [c for module in source.modules for c in python_logs(source, module.tree)]
+    own = bool(source.callback and source.logs(source.callback))
+    beside = own and not (source.callback and python_logs(source, source.callback))
+    made = any(last_part(dotted(call.func)) == "getLogger" for call in set_up)
+    if beside or not (logs or made):
+        return None  # (the lines are printed, or logged with the node's own logger)
     calls = set_up or logs
     return suspect.finding("python_logging", calls[0]) if calls else None
 
@@ -141,10 +157,22 @@ def _may_end(source: NodeSource, handler: ast.expr) -> bool:
     ]
     parts = [handler] if isinstance(handler, ast.Lambda) else defined
     ends = {"exit", "_exit", "quit", "shutdown", "try_shutdown", "kill", "set", "set_result"}
-    return not parts or any(
-        isinstance(n, ast.Raise) or (isinstance(n, ast.Call) and last_part(dotted(n.func)) in ends)
-        for part in parts
-        for n in ast.walk(part)
+    tested = {
+        last_part(dotted(part))
+        for loop in source.all_nodes
+        if isinstance(loop, ast.While)
+        for part in ast.walk(loop.test)
+    } - {""}
+    sets = {last_part(name) for part in parts for n in ast.walk(part) for name in targets_of(n)}
+    return (
+        bool(tested & sets)
+        or not parts
+        or any(
+            isinstance(n, ast.Raise)
+            or (isinstance(n, ast.Call) and last_part(dotted(n.func)) in ends)
+            for part in parts
+            for n in ast.walk(part)
+        )
     )
 
 

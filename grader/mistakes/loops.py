@@ -14,9 +14,11 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.endless import Loop, calls_of_methods, endless_loop, sleeps_in
-from grader.package.source.names import calls_in, last_part
+from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.node import NodeSource
 from grader.package.source.place import statement_at
 
+SHORT = 2.0  # seconds
 IMPORT = Replace(NODE, "import rclpy\nfrom", "import rclpy\nfrom time import sleep\nfrom")
 TIMER_LINE = "        self.create_timer(1.0, self.timer_callback)\n"
 WHILE_OK = Replace(
@@ -30,6 +32,19 @@ def _word(loop: Loop) -> str:
     return "while" if isinstance(loop, ast.While) else "for"
 
 
+def _is_short(source: NodeSource, loop: Loop) -> bool:
+    """Whether a loop of a few rounds with short sleeps is over soon, and does not log."""
+    rounds = loop.iter if isinstance(loop, ast.For) else None
+    if not isinstance(rounds, ast.Call) or dotted(rounds.func) != "range" or source.logs(loop):
+        return False
+    given = [*rounds.args[-1:], *(arg for c in sleeps_in(source, loop) for arg in c.args)]
+    values = [arg.value if isinstance(arg, ast.Constant) else None for arg in given]
+    numbers = [value for value in values if isinstance(value, int | float)]
+    calls = [method for _, method in calls_of_methods(source, loop)]
+    known = len(numbers) == len(values) and len(rounds.args) == 1 and not calls
+    return known and numbers[0] * sum(numbers[1:]) < SHORT
+
+
 def _in_callback(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a loop that does not end, or that sleeps, in what the timer calls."""
     source, callback = suspect.source, suspect.source.callback
@@ -37,7 +52,7 @@ def _in_callback(suspect: Suspect) -> RecognisedMistake | None:
         return None
     for function in (callback, *(method for _, method in calls_of_methods(source, callback))):
         loop = endless_loop(source, function)
-        if loop is not None:
+        if loop is not None and not _is_short(source, loop):
             found = suspect.finding("callback_repeats", loop, name=_word(loop))
             return replace(found, variant="sleep" if sleeps_in(source, loop) else "")
     return None
@@ -99,7 +114,7 @@ def _constructor(suspect: Suspect) -> RecognisedMistake | None:
     for loop, call in [(direct, None)] + [
         (endless_loop(source, method), call) for call, method in calls_of_methods(source, init)
     ]:
-        if loop is None:
+        if loop is None or _is_short(source, loop):
             continue
         found = suspect.finding("constructor_repeats", loop, name=_word(loop))
         if source.timers:

@@ -251,6 +251,8 @@ def _under_guard(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
 def _needs_program(module: Module, block: list[ast.stmt], statement: ast.stmt) -> bool:
     """Whether a statement of the guard needs ROS, what the file defines, or a name of its block."""
     own = {name for s in block for name in targets_of(s)}
+    imported = [s for s in block if isinstance(s, ast.Import | ast.ImportFrom)]
+    own |= {(a.asname or a.name).partition(".")[0] for s in imported for a in s.names}
     own |= {n.name for n in module.tree.body if isinstance(n, Function | ast.ClassDef)}
     value = getattr(statement, "value", None)
     parts = list(ast.walk(value)) if isinstance(value, ast.expr) else []

@@ -128,11 +128,21 @@ KINDS = (
         ),
         msg("Write super().__init__('{wanted}')."),
         links.NODES,
+        whys={
+            "other": msg(
+                "A node named {wanted} is there, but the lines carry the name of another node: it is the "
+                "logger of that node with which they are logged."
+            )
+        },
         fixes={
+            "other": msg(
+                "Find where the node of that name is made, and where its logger is used. Log the lines with "
+                "the logger of {wanted}: self.get_logger() in a method of its class."
+            ),
             "named": msg(
                 "super().__init__() passes the right name. Look for what gives the node another one: "
                 "the arguments of rclpy.init, another object, or a file that is not saved."
-            )
+            ),
         },
         fixed_by=(node_life.name,),
         examples=(
@@ -145,6 +155,17 @@ KINDS = (
             example(
                 "node_name_capital",
                 Replace(NODE, "'my_first_node'", "'My_first_node'"),
+                fails="run.node_name",
+            ),
+            example(
+                "logger_that_another_node_gives",
+                Replace(
+                    NODE,
+                    "    node = MyFirstNode()\n",
+                    "    node = MyFirstNode()\n    other = Node('helper')\n"
+                    "    node.out = other.get_logger()\n",
+                ),
+                Replace(NODE, "self.get_logger()", "self.out"),
                 fails="run.node_name",
             ),
             example(

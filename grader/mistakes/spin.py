@@ -12,16 +12,23 @@ from grader.mistakes.example import NODE, SILENT, example
 from grader.mistakes.fixes import lines, node_executor, node_life, node_order
 from grader.mistakes.hidden import hides
 from grader.mistakes.kind import Family
+from grader.mistakes.other_end import (
+    ENDED_BY,
+    EXITS,
+    ends_before,
+    ends_elsewhere,
+    spins_below,
+    stays_true,
+)
 from grader.mistakes.placeholders import placeholder_values
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.stop_in_branch import in_branch
 from grader.package.edit.tree import Edit, Replace, Write
-from grader.package.source.counter import targets_of
 from grader.package.source.endless import Loop, idle_loop
 from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
-from grader.package.source.place import statement_at
+from grader.package.source.place import block_of, statement_at
 from grader.package.source.spinning_loop import (
     condition_of,
     loop_around,
@@ -29,6 +36,7 @@ from grader.package.source.spinning_loop import (
     other_work,
     until_ros_ends,
 )
+from grader.package.source.spinning_threads import lines_of, spinning_threads
 from grader.package.source.until_ctrl_c import parts_until_ctrl_c
 from grader.report.model import Where
 
@@ -36,7 +44,6 @@ TWICE = "generator already executing|Executor is already spinning"
 ENDED = ("loop", "condition")  # variants of a loop that ended before Ctrl+C
 SPUN = ("spin", "rclpy.spin", "rclpy.spin_once")
 ERRORS = ("Error", "Exception")
-EXITS = ("exit", "quit", "sys.exit", "os._exit")
 SPIN = msg("rclpy.spin(node) waits and calls the callbacks when they are due, until Ctrl+C.")
 
 
@@ -74,23 +81,16 @@ def _by_loop(suspect: Suspect) -> RecognisedMistake | None:
 
 def _once(suspect: Suspect) -> RecognisedMistake | None:
     """Look for spin_once, in a loop that may end before Ctrl+C or in none."""
-    found = _first_once(suspect)
-    if found is None or found.where is None or found.variant not in ("loop", "condition"):
+    found, source = _first_once(suspect), suspect.source
+    if found is None or ends_before(source) or spins_below(source):
+        return None
+    if found.where is None or found.variant not in ("loop", "condition"):
         return found
-    module = suspect.source.module_at(found.where.file)
+    module = source.module_at(found.where.file)
     at = [n for n in module.nodes if isinstance(n, ast.Call) and n.lineno == found.where.line]
-    loops = [loop for call in at if (loop := loop_around(suspect.source, call)) is not None]
-    by_ros = bool(loops) and until_ros_ends(loops[0])
-    return None if by_ros and _ends_elsewhere(suspect.source) else found
-
-
-def _ends_elsewhere(source: NodeSource) -> bool:
-    """Whether something that runs before Ctrl+C shuts ROS down or ends the program."""
-    early = parts_until_ctrl_c(source)
-    return any(
-        call in early and (name in EXITS or last_part(name) in node_order.CLEANUP)
-        for call, name in source.calls
-    )
+    loops = [loop for call in at if (loop := loop_around(source, call)) is not None]
+    goes_on = bool(loops) and (until_ros_ends(loops[0]) or stays_true(source, loops[0]))
+    return None if goes_on and ends_elsewhere(source) else found
 
 
 def _first_once(suspect: Suspect) -> RecognisedMistake | None:
@@ -160,46 +160,23 @@ def _of_executor(suspect: Suspect, call: ast.Call, wanted: str) -> RecognisedMis
     return replace(found, variant="executor")
 
 
-def _threads_that_spin(source: NodeSource) -> list[ast.Call]:
-    return [
-        call
-        for call in source.calls_of("Thread")
-        for word in call.keywords
-        if word.arg == "target" and last_part(dotted(word.value)) == "spin"
-    ]
-
-
-def _uses_of(source: NodeSource, thread: ast.Call) -> list[int]:
-    """Return the other lines that use the variable of a thread."""
-    module = source.module_of(thread)
-    statement = statement_at(module, thread.lineno)
-    names = set(targets_of(statement)) if statement is not None else set()
-    function = source.function_around(thread) or module.tree
-    uses = {n.lineno for n in ast.walk(function) if isinstance(n, ast.expr) and dotted(n) in names}
-    return sorted(uses - {thread.lineno})
-
-
 def _spun_twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """Look for a thread that spins beside a call of spin."""
     del match
     source = raised.source
-    threads, spins = _threads_that_spin(source), source.calls_of("spin")
+    threads = spinning_threads(source)
+    inside = {part for thread in threads for part in thread.parts}
+    spins = [call for call in source.calls_of("spin") if call not in inside]
     if len(threads) != 1 or len(spins) != 1:
         return None
-    rows = ", ".join(map(str, _uses_of(source, threads[0])))
-    spun, other = _given(threads[0]), dotted(spins[0].args[0]) if spins[0].args else ""
+    thread = threads[0].call
+    rows = ", ".join(map(str, sorted(lines_of(source, thread) - {thread.lineno})))
+    spun, other = threads[0].given, dotted(spins[0].args[0]) if spins[0].args else ""
     if spun and other and spun != other:
-        return _two_at_once(raised, threads[0], spins[0], (spun, other), rows)
+        return _two_at_once(raised, thread, spins[0], (spun, other), rows)
     params = {"line": str(spins[0].lineno), "lines": rows}
-    found = raised.finding("spun_twice", at=threads[0], params=params)
+    found = raised.finding("spun_twice", at=thread, params=params)
     return replace(found, variant="used" if rows else "")
-
-
-def _given(thread: ast.Call) -> str:
-    """Return the name of the only thing that a thread passes to the function that it runs."""
-    given = next((word.value for word in thread.keywords if word.arg == "args"), None)
-    alone = isinstance(given, ast.Tuple | ast.List) and len(given.elts) == 1
-    return dotted(given.elts[0]) if alone and isinstance(given, ast.Tuple | ast.List) else ""
 
 
 def _two_at_once(
@@ -284,7 +261,7 @@ def _under_guard(suspect: Suspect) -> RecognisedMistake | None:
 def _missing(suspect: Suspect) -> RecognisedMistake | None:
     if _spins(suspect):
         return _under_guard(suspect)
-    if suspect.source.calls_of("spin_once"):
+    if suspect.source.calls_of("spin_once") or _is_passed_on(suspect.source):
         return None
     for call, name in suspect.source.calls:
         before, _, method = name.rpartition(".")
@@ -292,6 +269,17 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
             found = suspect.finding("spin_missing", call, name=before)
             return replace(found, variant="executor")
     return _unnamed(suspect) or suspect.finding("spin_missing", suspect.place_of_function)
+
+
+def _is_passed_on(source: NodeSource) -> bool:
+    """Whether spin itself is given to something that may call it: a Process, a Timer, a partial."""
+    threads = source.calls_of("Thread")
+    return any(
+        isinstance(given, ast.Attribute) and given.attr == "spin"
+        for call, _ in source.calls
+        if call not in threads
+        for given in (*call.args, *(word.value for word in call.keywords))
+    )
 
 
 def _unnamed(suspect: Suspect) -> RecognisedMistake | None:
@@ -368,14 +356,23 @@ def _with_class(
     """Return a loop with sleep; a node without a class of its own has no method and no __init__."""
     if suspect.source.node_class is not None:
         around = suspect.source.function_around(loop)
+        beside = spinning_threads(suspect.source)
+        inside = {part for thread in beside for part in thread.parts}
         spins = suspect.source.calls_of("spin", within=suspect.function or ast.Pass())
-        threads = _threads_that_spin(suspect.source)
+        spins, threads = [c for c in spins if c not in inside], [thread.call for thread in beside]
         if len(threads) == 1 and not spins:
-            rows = [threads[0].lineno, *_uses_of(suspect.source, threads[0])]
-            lines = ", ".join(map(str, rows))
+            lines = ", ".join(map(str, sorted(lines_of(suspect.source, threads[0]))))
             return replace(found, variant="threaded", words={**found.words, "lines": lines})
-        if not spins or around is None or around is suspect.function:
+        if around is None:
             return found
+        if around is suspect.function:
+            below = [spin for spin in spins if spin.lineno > (loop.end_lineno or loop.lineno)]
+            words = {**found.words, "line": str(below[0].lineno) if below else ""}
+            return replace(found, variant="spun" if below else "", words=words)
+        if not spins:
+            words = {**found.words, "name": around.name}
+            called = not around.name.startswith("__")
+            return replace(found, variant="elsewhere", words=words) if called else found
         variant = "beside" if _in_thread(suspect.source, around) else "above"
         return replace(found, variant=variant, words={**found.words, "name": around.name})
     word = "while" if isinstance(loop, ast.While) else "for"
@@ -440,11 +437,13 @@ def _loop_of_calls(suspect: Suspect) -> RecognisedMistake | None:
 def _loop_above(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a loop that only waits, above the line that spins."""
     loop = idle_loop(suspect.source, suspect.function) if suspect.function else None
-    body = suspect.function.body if suspect.function is not None else []
+    body = list(node_order.always_run(suspect.function.body if suspect.function else []))
     spins = [s for s in body if last_part(node_executor.called(s)) == "spin"]
     below = [s for s in spins if loop is not None and s.lineno > loop.lineno]
-    if loop is None or not below:
+    if loop is None or loop not in body or not below:
         return None
+    if len(block_of(suspect.source.module_of(loop), loop)) == 1:
+        return None  # (its block would be empty)
     found = suspect.finding("spin_missing", loop, line=str(below[0].lineno))
     return replace(found, variant="loop_above")
 
@@ -473,7 +472,9 @@ def _exits(suspect: Suspect) -> RecognisedMistake | None:
         called = dotted(node.func) if isinstance(node, ast.Call) else ""
         if isinstance(node, ast.Call) and any(isinstance(arg, ast.Call) for arg in node.args):
             continue  # sys.exit(main())
-        if raised.startswith(("SystemExit", "KeyboardInterrupt")) or called in EXITS:
+        if raised.startswith(ENDED_BY) or called in EXITS:
+            if _above_spin(suspect, node):
+                continue
             module = suspect.source.module_of(node)
             found = suspect.finding("exits", node, name=called or raised)
             handlers = [n for n in module.around(node) if isinstance(n, ast.ExceptHandler)]
@@ -487,8 +488,19 @@ def _exits(suspect: Suspect) -> RecognisedMistake | None:
             branch = in_branch(suspect.source, module, statement)
             if branch is not None:
                 return replace(found, variant=branch[0], words={**found.words, **branch[1]})
+            if not alone and statement is not None and len(block_of(module, statement)) == 1:
+                return replace(found, variant="alone")
             return replace(found, variant="if" if alone else "")
     return after_error
+
+
+def _above_spin(suspect: Suspect, node: ast.Raise | ast.Call) -> bool:
+    """Whether an end stands above spin in the entry function, and the timer's lines came: it did not run."""
+    source, main = suspect.source, suspect.source.main
+    spins = source.calls_of("spin", within=main) if main is not None else []
+    if not (spins and suspect.lines and source.timers) or source.function_around(node) is not main:
+        return False
+    return node.lineno < spins[0].lineno
 
 
 def _after_error(
@@ -614,6 +626,17 @@ KINDS = (
                 "waits: the timer keeps the time."
             ),
             "function": INTO_FUNCTION,
+            "spun": msg(
+                "Put what the loop does into a method, without the sleep, if it is not in one already. Call "
+                "the method with a timer that __init__ creates: self.create_timer({period}, "
+                "self.{callback}), and delete the loop: line {line} spins the node."
+            ),
+            "elsewhere": msg(
+                "Put what the loop in {name} does into a method, without the sleep, if it is not in one "
+                "already. Call the method with a timer that __init__ creates: self.create_timer({period}, "
+                "self.{callback}). Then delete the loop, and write rclpy.spin({node}) in {function} instead "
+                "of what calls or starts {name} now."
+            ),
             "threaded": msg(
                 "Put what the loop does into a method, without the sleep, if it is not in one already. "
                 "Call the method with a timer that __init__ creates: self.create_timer({period}, self.{callback}). Then write "
@@ -640,6 +663,22 @@ KINDS = (
                 ),
                 Replace(
                     NODE, "self.get_logger().info", "delay(1000)\n        self.get_logger().info"
+                ),
+                fails="run.spins",
+            ),
+            example(
+                "sleep_loop_above_spin",
+                *_loop(LOOPS.replace("    except", "        rclpy.spin(node)\n    except")),
+                fails="run.spins",
+            ),
+            example(
+                "sleep_loop_in_a_method_that_main_calls",
+                *_loop(SPINS.replace("rclpy.spin(node)", "node.run()")),
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def run(self):\n        while rclpy.ok():\n            self.timer_callback()\n"
+                    "            time.sleep(1.0)\n\n    def timer_callback",
                 ),
                 fails="run.spins",
             ),
@@ -1057,6 +1096,7 @@ KINDS = (
         },
         fixes={
             "if": msg("Delete this line and the if above it."),
+            "alone": msg("Write pass instead of this line."),
             "in_except": msg(
                 "Write raise instead of this line, and run the node again: the traceback then names the "
                 "error and the line that raises it. Correct that line."

@@ -30,8 +30,9 @@ LONGEST = 60  # characters of a condition in a text
 def _not_reached(suspect: Suspect) -> RecognisedMistake | None:
     source = suspect.source
     spins = source.calls_of(*SPINS) or [c for c, _ in source.calls if called_name(c) in SPINS]
-    found = unreached(source, spins)
-    if found is None:
+    once = [] if spins else source.calls_of("spin_once")
+    found = unreached(source, spins or once)
+    if found is None or (once and found.obstacle != "exits"):
         return None
     if isinstance(found.at, ast.ExceptHandler):
         return _in_except(suspect, found, found.at)
@@ -163,7 +164,8 @@ def _into_try(case: Case) -> Files | None:
 def _unblocked(case: Case) -> Files | None:
     """Remove the condition around the line that spins, or the call that ends the program."""
     node = case.node
-    found = unreached(node, node.calls_of(*SPINS)) if node is not None else None
+    spins = node.calls_of(*SPINS) or node.calls_of("spin_once") if node is not None else []
+    found = unreached(node, spins) if node is not None else None
     if found is None or found.at.lineno != case.finding.line:
         return None
     if found.obstacle == "exits":

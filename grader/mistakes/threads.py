@@ -16,6 +16,7 @@ from grader.package.edit.tree import Replace
 from grader.package.source.imported import full_name
 from grader.package.source.module import Module
 from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.node import NodeSource
 from grader.package.source.place import function_at, statement_at
 from grader.package.source.threads import own_threads
 
@@ -23,6 +24,8 @@ from grader.package.source.threads import own_threads
 def _thread(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a thread that runs a method of the node which logs in a loop."""
     source = suspect.source
+    if not _reaches_spin(source):
+        return None
     for thread in own_threads(source):
         if source.methods.get(thread.target.name) is thread.target and thread.logs(source):
             loop = "while" if isinstance(thread.loop, ast.While) else "for"
@@ -31,6 +34,14 @@ def _thread(suspect: Suspect) -> RecognisedMistake | None:
             variant = "daemon" if thread.daemon or _may_end(thread.loop) else ""
             return replace(found, variant=variant, words=words)
     return None
+
+
+def _reaches_spin(source: NodeSource) -> bool:
+    """Whether the program spins, and waits in __init__ for no thread that has no end."""
+    init = source.methods.get("__init__")
+    joins = source.calls_of("join", within=init) if init is not None else []
+    waits = [join for join in joins if not join.args and not join.keywords]
+    return bool(source.calls_of("spin", "spin_once", "spin_until_future_complete")) and not waits
 
 
 def _thread_alone(suspect: Suspect) -> RecognisedMistake | None:
@@ -54,7 +65,8 @@ def _lasts(suspect: Suspect) -> RecognisedMistake | None:
 
 def _goes_on(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a thread that keeps the program running."""
-    for thread in own_threads(suspect.source):
+    reaches = _reaches_spin(suspect.source)
+    for thread in own_threads(suspect.source) if reaches else []:
         if not thread.daemon:
             return suspect.finding("thread_goes_on", thread.call, name=thread.target.name)
     return None

@@ -7,7 +7,7 @@ import re
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
-from grader.mistakes import links
+from grader.mistakes import links, spin_in_thread
 from grader.mistakes.example import (
     CACHED_PROPERTY_IMPORTED,
     LOG_LINE,
@@ -22,7 +22,6 @@ from grader.mistakes.fixes import (
     node_executor,
     node_life,
     node_main,
-    node_order,
     node_rename,
     node_setup,
 )
@@ -119,7 +118,9 @@ def _executor_without_node(suspect: Suspect) -> RecognisedMistake | None:
         found = suspect.finding("executor_without_node", late.spin, name=owner, line=rows)
         return replace(found, variant="late")
     given = {
-        name.rpartition(".")[0] for _, name in suspect.source.calls if name.endswith(".add_node")
+        dotted(n.value)
+        for n in suspect.source.all_nodes
+        if isinstance(n, ast.Attribute) and n.attr == "add_node"
     }
     for call, name in suspect.source.calls:
         before, _, method = name.rpartition(".")
@@ -407,50 +408,6 @@ def _main_twice(suspect: Suspect) -> RecognisedMistake | None:
     return suspect.finding("main_twice", same[-1], name=function.name, line=same[0].lineno)
 
 
-def _daemon(suspect: Suspect) -> RecognisedMistake | None:
-    """Look for a thread that spins, while the function comes to its end or cleans up."""
-    threads = [call for call, name in suspect.source.calls if last_part(name) == "Thread"]
-    for call in threads:
-        given = {keyword.arg: keyword.value for keyword in call.keywords}
-        target, daemon = given.get("target"), given.get("daemon")
-        spins = target is not None and last_part(dotted(target)) in SPINS
-        own = _function_named(suspect, target) if target is not None else None
-        own_spins = own is not None and any(last_part(n) in SPINS for _, n in calls_in(own))
-        if any(last_part(name) == "join" for _, name in suspect.source.calls):
-            return None
-        is_daemon = isinstance(daemon, ast.Constant) and daemon.value is True
-        later = [
-            name
-            for other, name in suspect.source.calls
-            if last_part(name) in node_order.CLEANUP and other.lineno > call.lineno
-        ]
-        if own is not None and own_spins and (is_daemon or later):
-            found = suspect.finding("spin_in_daemon", call)
-            words = {**found.words, "name": own.name, "line": str(own.lineno)}
-            if target is not None and dotted(target) != own.name:
-                words["called"] = f"{dotted(target)}()"
-                return replace(found, words=words, variant="own_method")
-            return replace(found, words=words, variant="own")
-        if spins and (is_daemon or later):
-            found = suspect.finding("spin_in_daemon", call)
-            if not is_daemon:
-                words = {**found.words, "called": f"{later[0]}()"}
-                return replace(found, words=words, variant="cleaned_up")
-            owner = dotted(target).rpartition(".")[0] if target is not None else ""
-            if owner not in executors(suspect):
-                return found
-            return replace(found, words={**found.words, "name": owner}, variant="executor")
-    return None
-
-
-def _function_named(suspect: Suspect, target: ast.expr) -> Function | None:
-    """Return the only function or method of the files that a thread runs."""
-    name = last_part(dotted(target))
-    functions = [n for n in suspect.source.all_nodes if isinstance(n, Function)]
-    named = [function for function in functions if function.name == name]
-    return named[0] if len(named) == 1 else None
-
-
 def _hides_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """Look for a variable that gets the name of its class in the function that makes the object."""
     name, module, node_name = match["name"], raised.module, raised.assignment.node_name
@@ -651,25 +608,30 @@ KINDS = (
     _node(
         "spin_in_daemon",
         "spin",
-        msg("A thread spins the node, and nothing waits for it"),
+        msg("A thread spins the node, and nothing waits for its end"),
         msg("When {function} comes to its end, the program ends, and its daemon threads with it."),
         msg("Call rclpy.spin({node}) in {function} itself, without the thread."),
         whys={
             "own": OWN_SPINS,
             "own_method": OWN_SPINS,
+            "limited": msg(
+                "{waits} in line {row} waits for the thread for a limited time only. Then {function} goes on to "
+                "its end, and the node ends."
+            ),
             "cleaned_up": msg(
                 "A thread runs beside {function}, which does not wait for it: {function} goes on to "
                 "{called}, and the node ends."
             ),
         },
         fixes={
+            "limited": msg("Write {written} instead of the lines of the thread (lines: {lines})."),
             "executor": msg("Call {name}.spin() in {function} itself, without the thread."),
             "own": msg("Call {name}({node}) in {function} itself, without the thread."),
             "own_method": msg(
                 "Write {called} instead of the line that starts the thread: then the program waits there."
             ),
         },
-        behind=dict.fromkeys(("run.exits_at_once", "run.ended_early"), _daemon),
+        behind=dict.fromkeys(("run.exits_at_once", "run.ended_early"), spin_in_thread.daemon),
         examples=(
             example(
                 "spin_in_daemon",
@@ -680,6 +642,20 @@ KINDS = (
                     "    threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()\n",
                 ),
                 fails="run.starts",
+            ),
+            example(
+                "join_of_the_spinning_thread_has_a_limit",
+                Replace(NODE, "import rclpy\nfrom", "import threading\n\nimport rclpy\nfrom"),
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n    except",
+                    "        thread = threading.Thread(target=rclpy.spin, args=(node,), daemon=True)\n"
+                    "        thread.start()\n"
+                    "        thread.join(timeout=2.0)\n"
+                    "    except",
+                ),
+                fails="run.output",
+                blocks=("run.interrupt",),
             ),
             example(
                 "own_function_that_spins_in_a_daemon",

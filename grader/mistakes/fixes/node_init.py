@@ -61,7 +61,8 @@ def made_on_import(source: NodeSource) -> tuple[ast.stmt, ast.Call | None] | Non
         s for s in source.entry.tree.body if isinstance(s, ast.Assign | ast.Expr | ast.AnnAssign)
     ]
     calls = [(s, call) for s in outside for call, _ in calls_in(s)]
-    made = [s for s, call in calls if source.is_node_class(call.func) or dotted(call.func) in PLAIN]
+    names = {*PLAIN, *_makers(source)}
+    made = [s for s, call in calls if source.is_node_class(call.func) or dotted(call.func) in names]
     inits = source.calls_of("init")
     if len(made) != 1 or any(source.function_around(call) is None for call in inits):
         return None
@@ -69,6 +70,18 @@ def made_on_import(source: NodeSource) -> tuple[ast.stmt, ast.Call | None] | Non
     having = {f.name for call in inits if (f := source.function_around(call)) not in (None, main)}
     own = own or [call for call, name in calls_in(main) if name in having]
     return made[0], own[0] if len(own) == 1 else None
+
+
+def _makers(source: NodeSource) -> set[str]:
+    """Return the functions of the entry's file, beside main, that make the node."""
+    return {
+        function.name
+        for function in source.entry.tree.body
+        if isinstance(function, ast.FunctionDef)
+        and function is not source.main
+        and not source.calls_of("init", within=function)
+        and any(source.is_node_class(call.func) for call, _ in calls_in(function))
+    }
 
 
 def made_in_module(source: NodeSource) -> tuple[ast.stmt, ast.stmt] | None:

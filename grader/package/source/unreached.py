@@ -113,6 +113,10 @@ def _is_named(source: NodeSource, function: Function) -> bool:
             return True  # (getattr)
         if any(last_part(name) == function.name for name in targets_of(node)):
             return True
+    around = source.module_of(function).parents.get(function)
+    inherits = isinstance(around, ast.ClassDef) and any(dotted(b) != "object" for b in around.bases)
+    if function.name == "run" and inherits:
+        return True  # (start() of a Thread calls it)
     decorated = any(dotted(d) not in PLAIN for d in function.decorator_list)
     special = function.name.startswith("__") or decorated
     return special or function.name in ("destroy_node",)

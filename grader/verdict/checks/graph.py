@@ -49,7 +49,9 @@ def node_name(use: Use[NodeName]) -> Passed:
     if not names:
         raise Inconclusive(say("the ROS graph could not be read"))
     listed = ", ".join(names)
+    right = "named"
     if any(node.name == wanted for node in run.nodes):
+        right = "other"
         listed = say("the lines come from {name}", name=run.counting)
     if wanted != f"/{use.evidence.assignment.node_name}":
         raise _missing(wanted, wanted, listed, use)
@@ -59,7 +61,7 @@ def node_name(use: Use[NodeName]) -> Passed:
         expected=wanted,
         actual=with_difference(listed, close, wanted),
         where=use.call(),
-        variant="named" if _is_passed(use, wanted) else "",
+        variant=right if _is_passed(use, wanted) else "",
         params={"name": names[0].lstrip("/")},
         words={"wanted": wanted.lstrip("/")},
     )
