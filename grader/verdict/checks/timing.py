@@ -117,9 +117,6 @@ def _line_by_line(evidence: Evidence, wanted: float) -> Passed:
             follows=count if len(events) == 1 and _has_failed(evidence, count) else "",
         )
     on_time = [event for event in events if event.due is not None]
-    at_one = watch.period is None and len({event.due for event in on_time}) == 1
-    if at_one and evidence.has_failed(count):
-        raise Blocked(by=count)  # one instant has no period
     stopped = len(on_time) > 1 and abs((watch.period or wanted) - wanted) < 0.001
     if not watch.early and (not watch.missing or stopped):  # log.counts reports a stop
         slow = _kept_apart(evidence, on_time, wanted)
