@@ -968,7 +968,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.one_digit": {"name": "chr(48 + self.counter)", "written": "str(self.counter)"},
     "node.number_changed": {"name": "self.counter + 1", "written": "self.counter"},
     "node.level_set": {"name": "set_level", "level": "WARN"},
-    "node.callback_repeats": {"name": "while"},
+    "node.callback_repeats": {"name": "while", "code": "self.timer.cancel()", "line": "14"},
     "node.constructor_repeats": {"name": "while", "method": "run", "line": "12"},
     "node.second_node_spun": {"name": "node", "line": "12"},
     "node.timer_again": {
@@ -984,7 +984,13 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.timer_after_spin": {"name": "node.start()", "line": "12"},
     "node.thread_for_timer": {"name": "run", "loop": "while", "line": "12"},
     "node.thread_goes_on": {"name": "run"},
-    "node.asyncio_used": {"name": "asyncio.sleep(…)", "method": "on_timer", "lines": "18"},
+    "node.asyncio_used": {
+        "name": "asyncio.sleep(…)",
+        "method": "on_timer",
+        "lines": "18",
+        "code": "self.timer.cancel()",
+        "line": "14",
+    },
     "node.timer_hides_method": {"name": "on_timer"},
     "node.not_overridden": {
         "name": "def onCycle",

@@ -12,6 +12,7 @@ from grader.mistakes.example import DEAD, LOG_LINE, NODE, SILENT, STEP_LINE, exa
 from grader.mistakes.fixes import node_loops
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.mistakes.timer import cancel_in
 from grader.package.edit.tree import Replace
 from grader.package.source.endless import Loop, calls_of_methods, endless_loop, sleeps_in
 from grader.package.source.names import calls_in, dotted, last_part
@@ -54,6 +55,11 @@ def _in_callback(suspect: Suspect) -> RecognisedMistake | None:
         loop = endless_loop(source, function)
         if loop is not None and not _is_short(source, loop):
             found = suspect.finding("callback_repeats", loop, name=_word(loop))
+            stop = cancel_in(source, function)
+            if stop is not None and stop.lineno < loop.lineno:
+                code = shown(ast.unparse(stop))
+                words = {**found.words, "code": code, "line": stop.lineno}
+                return replace(found, variant="cancelled", words=words)
             return replace(found, variant="sleep" if sleeps_in(source, loop) else "")
     return None
 
@@ -198,16 +204,25 @@ KINDS = (
         ),
         msg("Delete this {name}, and indent its lines as far as the {name} is indented now."),
         whys={
+            "cancelled": msg(
+                "The timer calls {callback} only once: {code} (line {line}) stops it. While the loop runs, "
+                "{callback} does not return, and ROS can call nothing else of the node, such as what wakes "
+                "a rate."
+            ),
             "flood": msg(
                 "This loop does not wait, and logs without end. While it runs, the callback does "
                 "not return, and the timer cannot call it again."
-            )
+            ),
         },
         fixes={
             "sleep": msg(
                 "Delete this {name} and the sleep in it, and indent its other lines as far as the "
                 "{name} is indented now: the timer repeats them already."
-            )
+            ),
+            "cancelled": msg(
+                "Delete {code} (line {line}), this {name}, and what waits in it, and indent its other lines "
+                "as far as the {name} is indented now. Then the timer repeats them."
+            ),
         },
         behind={
             "run.never_spins": _in_callback,
@@ -222,6 +237,20 @@ KINDS = (
                 "while_and_sleep_in_callback",
                 IMPORT,
                 WHILE_OK,
+                fails="run.spins",
+            ),
+            example(
+                "callback_stops_its_timer_and_loops",
+                IMPORT,
+                Replace(
+                    NODE, "        self.create_timer(", "        self.timer_ = self.create_timer("
+                ),
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    "        self.timer_.cancel()\n"
+                    f"        while rclpy.ok():\n    {LOG_LINE}    {STEP_LINE}            sleep(1.0)\n",
+                ),
                 fails="run.spins",
             ),
             example(

@@ -33,7 +33,7 @@ def _rates(suspect: Suspect) -> RecognisedMistake | None:
             around = suspect.source.module_of(call).around(call)
             loops = [part for part in around if isinstance(part, ast.While | ast.For)]
             if not loops:
-                return replace(found, variant="threads" if several else "alone")
+                return _without_loop(suspect, found, call, several=several)
             if several:
                 return None  # (another thread can spin while the loop waits)
             spun = _spun(suspect, before)
@@ -41,6 +41,32 @@ def _rates(suspect: Suspect) -> RecognisedMistake | None:
                 spun = next(iter(sorted(suspect.source.node_variables)), "node")
             found = replace(found, words={**found.words, "node": spun})
             return _in_loop(suspect, found, loops[0])
+    return None
+
+
+def _without_loop(
+    suspect: Suspect, found: RecognisedMistake, call: ast.Call, *, several: bool
+) -> RecognisedMistake | None:
+    """Return the finding of a rate in a method that a timer calls, or a loop of the entry function."""
+    source = suspect.source
+    if source.timers:
+        return replace(found, variant="threads" if several else "alone")
+    function = source.function_around(call)
+    loops = [n for n in ast.walk(source.main or ast.Module([], [])) if isinstance(n, ast.While)]
+    for loop in loops if function is not None else []:
+        for made, name in calls_in(loop):
+            owner, _, method = name.rpartition(".")
+            if function is source.methods.get(method) and owner in source.node_variables:
+                rows = {call.lineno, *_rows_of_rates(source)}
+                words: dict[str, Value] = {
+                    **found.words,
+                    "method": method,
+                    "node": owner,
+                    "line": ", ".join(map(str, sorted(rows))),
+                    "at": loop.lineno,
+                    "written": ast.unparse(made),
+                }
+                return replace(found, variant="looped", words=words)
     return None
 
 
@@ -175,6 +201,11 @@ KINDS = (
                 "Delete the loop and the rate (lines {line}), and keep what the loop does once. "
                 "The timer already calls {method} in each period."
             ),
+            "looped": msg(
+                "Delete the rate (lines {line}). Write self.create_timer({period}, self.{method}) in "
+                "__init__: the timer calls it again and again. Write rclpy.spin({node}) in {function} in "
+                "the place of the loop (line {at})."
+            ),
             "method": MAIN_CALLS,
             "method_spun": msg(
                 "Delete the loop and the rate (lines {line}), and keep what the loop does once: "
@@ -259,6 +290,23 @@ KINDS = (
                 also={"run.output": "node.rate_sleep"},
                 blocks=("run.period",),
                 note="as in ROS 1: main calls the loop, and nothing spins",
+            ),
+            example(
+                "rate_sleeps_in_a_method_of_mains_loop",
+                Replace(NODE, "        self.create_timer(1.0, self.timer_callback)\n", ""),
+                Replace(
+                    NODE,
+                    "        self.counter_ = 0\n",
+                    "        self.counter_ = 0\n        self.rate_ = self.create_rate(1.0)\n",
+                ),
+                Replace(NODE, LOG_LINE, f"        self.rate_.sleep()\n{LOG_LINE}"),
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n",
+                    "        while rclpy.ok():\n            node.timer_callback()\n",
+                ),
+                fails="run.spins",
+                blocks=("run.output", "run.logger", "run.period"),
             ),
             example(
                 "rate_sleeps_before_spin",

@@ -7,11 +7,13 @@ import re
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
+from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.example import LOG_LINE, NODE, STEP_LINE, example
 from grader.mistakes.fixes import node_threads
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.mistakes.timer import cancel_in
 from grader.package.edit.tree import Replace
 from grader.package.source.imported import full_name
 from grader.package.source.module import Module
@@ -99,6 +101,10 @@ def _asyncio(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
             elsewhere = set(ast.walk(function)) - set(ast.walk(statement))
             if not variant and any(isinstance(n, ast.Await) for n in elsewhere):
                 variant = "kept"
+            stop = cancel_in(raised.source, function)
+            if variant == "loop" and stop is not None:
+                words |= {"code": shown(ast.unparse(stop)), "line": stop.lineno}
+                variant = "loop_cancelled"
             return replace(found, variant=variant, words=words)
     return None
 
@@ -223,7 +229,18 @@ KINDS = (
             "Delete this line, and write def {method} without async. import asyncio is not needed "
             "any more."
         ),
+        whys={
+            "loop_cancelled": msg(
+                "{name} needs an event loop of asyncio. rclpy.spin is none: it calls an async callback, "
+                "but it runs nothing of asyncio. A timer that is not cancelled waits from one call to the "
+                "next."
+            ),
+        },
         fixes={
+            "loop_cancelled": msg(
+                "Delete the loop around this line, this line, and {code} (line {line}). Write def {method} "
+                "without async. Then the timer calls {method} again and again."
+            ),
             "loop": msg(
                 "Delete the loop around this line and this line, and write def {method} without "
                 "async. A timer calls a method again and again: self.create_timer({period}, "
@@ -252,6 +269,23 @@ KINDS = (
         raised={r"RuntimeError: no running event loop": _asyncio},
         fixed_by=(node_threads.without_asyncio,),
         examples=(
+            example(
+                "asyncio_sleep_after_the_timer_is_stopped",
+                Replace(NODE, "import rclpy\nfrom", "import asyncio\nimport rclpy\nfrom"),
+                Replace(
+                    NODE, "        self.create_timer(", "        self.timer_ = self.create_timer("
+                ),
+                Replace(NODE, "    def timer_callback", "    async def timer_callback"),
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    "        self.timer_.cancel()\n"
+                    f"        while rclpy.ok():\n    {LOG_LINE}    {STEP_LINE}"
+                    "            await asyncio.sleep(1.0)\n",
+                ),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
             example(
                 "asyncio_sleep_beside_another_await",
                 Replace(NODE, "import rclpy\nfrom", "import asyncio\nimport rclpy\nfrom"),

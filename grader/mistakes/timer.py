@@ -175,6 +175,17 @@ def _logs(source: NodeSource, callback: Function) -> bool:
     return any(source.logs(m) or source.prints(m) for m in (callback, *inner))
 
 
+def cancel_in(source: NodeSource, function: Function) -> ast.Call | None:
+    """Return the call in a function, outside of its conditions, that cancels a timer for good."""
+    module = source.module_of(function)
+    for call, name in calls_in(function):
+        statement = module.parents.get(call)
+        alone = isinstance(statement, ast.Expr) and statement in function.body
+        if alone and name.endswith(".cancel") and _is_of_timer(source, call, name):
+            return call
+    return None
+
+
 def _is_of_timer(source: NodeSource, call: ast.Call, name: str) -> bool:
     """Whether a call of cancel() stops a timer, as far as its names tell."""
     owner = name.rpartition(".")[0]

@@ -32,6 +32,7 @@ SLOW_BARRIER = 0.2  # seconds of wall time; after a slower barrier a log record 
 UNANSWERED = 5  # unanswered barriers in a row after which the node counts as stuck
 TRIES, TRY_SECONDS = 12, 0.5  # barriers and wall time after which a tick is missing
 REAL = 0.97  # of real time: what keeps lines a whole period apart leaves out each second one
+QUICK_STEP = 0.1  # seconds of wall time for a step after which a callback has not slept
 MADE_UP = 0.05  # seconds of wall time by which a clock in real time may be late and make up for it
 GRID = 20  # steps per period while the actual period is measured
 MEASURED = 12  # periods of ROS time in which the actual period is measured
@@ -246,7 +247,7 @@ class VirtualClock:
 
     def _find_period(self, watch: Watch, on_event: Callable[[Event], None]) -> None:
         """Measure the period in small steps; if it is right, check the phase to 1 ms."""
-        step = self._grid_step
+        step, began = self._grid_step, time.monotonic()
         before = {id(event) for event in watch.before_start}
         seen: list[float] = [e.virtual for e in watch.counted if id(e) not in before]
         stop = self._at + MEASURED * self._period
@@ -273,7 +274,8 @@ class VirtualClock:
         if len(instants) > 1:
             gaps = [b - a for a, b in zip(instants, instants[1:])]
             watch.period = statistics.median(gaps)
-            if watch.period <= step / SECOND * 1.01 and step > MILLISECOND:
+            quick = time.monotonic() - began < QUICK_STEP * len(lines)  # (a sleep is not)
+            if quick and watch.period <= step / SECOND * 1.01 and step > MILLISECOND:
                 watch.period = self._shorter(watch)
             tolerance = step / SECOND * 1.01
             if all(abs(gap - self._output.period) <= tolerance for gap in gaps) and len(fresh) > 2:
