@@ -54,6 +54,8 @@ MOST_VALUES = 3
 """The most pieces of code whose values a text shows."""
 LEAVES = ast.Return | ast.Raise | ast.Continue | ast.Break | ast.Pass
 LEAST_LINES = 6
+ENOUGH_LINES = 10
+"""The lines, each at another instant, after which a node that is too slow for a short run counts too."""
 LONGEST = 90  # characters of a piece of code that a text shows
 TEXT, STEP = 5, 6
 """How far a node gets that logs the right text, and that has the right step but not the start."""
@@ -279,7 +281,8 @@ def _told(tried: _Tried, base: _Tried) -> tuple[Step, ...]:
 
 def level(run: ShortRun, output: Output) -> int:
     """Return how far a node gets: 0 if it ends before it waits, up to `WHOLE`."""
-    if not run.lives and run.ended != "waits":
+    slow = run.ended == "killed" and len({at for at, _, _ in run.lines}) >= ENOUGH_LINES
+    if not run.lives and run.ended != "waits" and not slow:
         return 1 if run.steps else 0
     number = number_reader(output)
     counted = [(at, n) for at, _, text in run.lines if (n := number(text)) is not None]

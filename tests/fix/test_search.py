@@ -64,6 +64,8 @@ LEVELS = [
     (replace(counting(), slept=True), NEARLY),
     (run_of(*((k + 1.1, f"Hello time: {k}") for k in range(8))), NEARLY),
     (replace(counting(), ended="RecursionError 7"), 1),
+    (replace(counting(), ended="killed"), 1),
+    (run_of(*((k + 1, f"Hello time: {k}") for k in range(10)), ended="killed"), WHOLE),
     (run_of((0, "ready"), *((k + 1, f"Hello time: {k}") for k in range(8))), WHOLE),
 ]
 

@@ -498,3 +498,18 @@ def test_an_object_with_a_second_name_is_copied() -> None:
     assert [one.change.written for one in found] == ["copy.copy(self.data)"]
     assert found[0].text.startswith("from __future__ import annotations\nimport copy\n")
     assert "self.old = copy.copy(self.data)\n" in found[0].text
+
+
+def test_an_order_does_not_become_an_equality() -> None:
+    text = NODE.replace(
+        "self.counter_ += 1", "if self.counter_ >= 0:\n            self.counter_ += 1"
+    )
+    written = {one.change.written for one in changes(text) if ">=" in one.change.name}
+    assert {"self.counter_ > 0", "self.counter_ <= 0"} <= written
+    assert not [code for code in written if "==" in code or "!=" in code]
+
+
+def test_a_difference_of_times_becomes_seconds() -> None:
+    text = NODE.replace("self.counter_ += 1", "if now - self.then > 1.0:\n            pass")
+    found = [one.change.written for one in changes(text) if one.change.sort == "seconds"]
+    assert "(now - self.then).nanoseconds / 1e9" in found

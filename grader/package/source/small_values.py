@@ -38,6 +38,7 @@ BITS = ast.LShift | ast.RShift | ast.Pow
 SUMS: tuple[type[ast.AST], ...] = (ast.Add, ast.Sub)
 SUMMED = ast.Add | ast.Sub | ast.Mult | ast.Div
 COMPARED: tuple[type[ast.AST], ...] = (ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq)
+EQUAL: tuple[type[ast.AST], ...] = (ast.Eq, ast.NotEq)
 OTHER: dict[type[ast.AST], str] = {
     ast.In: "not in",
     ast.NotIn: "in",
@@ -141,6 +142,8 @@ def _of_objects(module: Module, source: NodeSource, goal: Goal) -> Found:
             code = f"{module.text.code(node)}.value"
         elif isinstance(node, ast.Attribute) and node.attr == "nanoseconds":
             code = f"{module.text.code(node)} / 1e9"
+        elif isinstance(node, ast.BinOp) and isinstance(node.op, ast.Sub):
+            code = f"({module.text.code(node)}).nanoseconds / 1e9"
         elif isinstance(node, ast.Attribute) and last_part(dotted(node.value)) == "Type":
             for other in TYPES:
                 if other != node.attr:
@@ -226,7 +229,8 @@ def _compared(module: Module, node: ast.Compare) -> Found:
         yield 3, between(module, node, node.left, right, OTHER[written])
         return
     for kind in COMPARED:
-        if kind is not written:
+        loses = written not in EQUAL and kind in EQUAL  # (an order says more)
+        if kind is not written and not loses:
             cost = 2 if {written, kind} in NEAR else 4
             yield cost, between(module, node, node.left, right, SIGNS[kind])
 
