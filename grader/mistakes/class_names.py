@@ -80,7 +80,8 @@ def _base_stops(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
         return None
     if raised.source.super_init is None or not is_of_node(raised, match):
         return None
-    classes = {n.name: n for n in raised.source.own_nodes if isinstance(n, ast.ClassDef)}
+    nodes = [n for module in raised.source.known_modules for n in module.nodes]
+    classes = {n.name: n for n in nodes if isinstance(n, ast.ClassDef)}
     for base in own.bases:
         found = classes.get(last_part(dotted(base)))
         if found is None:

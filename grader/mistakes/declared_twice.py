@@ -28,6 +28,11 @@ def _again(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         if c.args and isinstance(c.args[0], ast.Constant) and c.args[0].value == name
     ]
     here = [c for c in calls if raised.line in lines_of(c)]
+    listed = [n for n in module.nodes if isinstance(n, ast.Constant) and n.value == name]
+    if not calls and name in OF_EACH and len(listed) == 1:
+        params = {"name": name, "line": str(listed[0].lineno)}
+        found = raised.finding("declared_twice", params=params)
+        return replace(found, words={**found.words, "parameter": name}, variant="each_listed")
     if len(here) != 1 or not module.has(here[0]):
         return None
     if name not in OF_EACH and len(calls) < 2:
@@ -56,11 +61,14 @@ KINDS = (
         msg("A parameter is declared that the node has already"),
         msg("Line {line} has declared {parameter} already. A parameter is declared once."),
         msg("Delete this line."),
-        whys={"each": EACH, "each_used": EACH},
+        whys={"each": EACH, "each_used": EACH, "each_listed": EACH},
         fixes={
             "each": msg(
                 "Delete this line. The value of {parameter} is given when the node is started: "
                 "--ros-args -p {parameter}:=true"
+            ),
+            "each_listed": msg(
+                "Take {parameter} out of what this line declares: delete it in line {line}."
             ),
             "used": READ,
             "each_used": READ,

@@ -9,7 +9,7 @@ from dataclasses import replace
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.source.counter import logged_counter, parts_of_callback
 from grader.package.source.module import Function
-from grader.package.source.names import dotted, last_part
+from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 
 NEVER_RUN = ("unused", "call_it")
@@ -35,6 +35,8 @@ def counted_elsewhere(suspect: Suspect) -> RecognisedMistake | None:
         around = source.function_around(node)
         if around is None or around.name in ("__init__", callback.name):
             continue
+        if any(last_part(name) == callback.name for _, name in calls_in(around)):
+            return None  # (it adds for each line: only the order can be wrong)
         if around is suspect.function or not _calls(source.calls, around):
             found = suspect.finding("counts_elsewhere", node, name=logged[1])
             if target.partition(".")[0] in source.node_variables:

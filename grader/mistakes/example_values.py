@@ -968,6 +968,18 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.one_digit": {"name": "chr(48 + self.counter)", "written": "str(self.counter)"},
     "node.number_changed": {"name": "self.counter + 1", "written": "self.counter"},
     "node.level_set": {"name": "set_level", "level": "WARN"},
+    "node.init_runs_again": {
+        "name": "Counter()",
+        "line": "21",
+        "written": "self.value = 0",
+        "type": "Counter",
+    },
+    "node.endless_generator": {
+        "name": "steps",
+        "line": "14",
+        "written": "self.steps()",
+        "code": "step",
+    },
     "node.callback_repeats": {"name": "while", "code": "self.timer.cancel()", "line": "14"},
     "node.constructor_repeats": {"name": "while", "method": "run", "line": "12"},
     "node.second_node_spun": {"name": "node", "line": "12"},

@@ -39,6 +39,20 @@ def _copied(suspect: Suspect) -> RecognisedMistake | None:
     return replace(mistake, words=words)
 
 
+def _flag_copied(suspect: Suspect) -> RecognisedMistake | None:
+    """The same of a name that a condition asks for."""
+    found = _copied(suspect)
+    name = str(found.params.get("name", "")) if found is not None else ""
+    tests = [
+        n.test
+        for module in suspect.source.modules
+        for n in module.nodes
+        if isinstance(n, ast.If | ast.While)
+    ]
+    asked = {n.id for test in tests for n in ast.walk(test) if isinstance(n, ast.Name)}
+    return found if name in asked else None
+
+
 def _names(suspect: Suspect) -> Iterator[tuple[ast.stmt, OwnImport, Module, ast.stmt]]:
     """Yield the imports of a name that a log call can read, and where its module changes it."""
     source = suspect.source
@@ -78,7 +92,7 @@ KINDS = (
             "Write {text} below the imports, and {written} instead of {name} where it is read: then its "
             "value is read from that module each time. Take {name} out of this import."
         ),
-        behind={"run.constant_counter": _copied},
+        behind={"run.constant_counter": _copied, "run.no_lines": _flag_copied},
         fixed_by=(node_imports.read_in_module,),
         examples=(
             example(

@@ -7,6 +7,7 @@ import re
 from dataclasses import replace
 
 from grader.base.i18n.message import Value, msg
+from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.elsewhere import counted_at_other_times, counted_elsewhere
 from grader.mistakes.example import (
@@ -60,6 +61,9 @@ def _yields(suspect: Suspect) -> RecognisedMistake | None:
     module = suspect.source.module_of(found)
     loop = next((n for n in module.around(found) if isinstance(n, ast.While)), None)
     mistake = suspect.finding("callback_yields", found)
+    if loop is None and isinstance(found, ast.Yield) and isinstance(found.value, ast.Call):
+        code = shown(module.text.code(found.value))
+        return replace(mistake, params={"value": code}, variant="value")
     if loop is None:
         return mistake
     params = {"row": loop.lineno}
@@ -69,7 +73,13 @@ def _yields(suspect: Suspect) -> RecognisedMistake | None:
 
 
 def _plain_callback(case: Case) -> Files | None:
-    """Delete the yield, and the `while True` around it."""
+    """Delete the yield, and the `while True` around it; a call behind the yield stays."""
+    module = case.module
+    if module is not None and "value" in case.finding.params:
+        for node in module.nodes:
+            value = node.value if isinstance(node, ast.Expr) else None
+            if isinstance(value, ast.Yield) and value.value and value.lineno == case.finding.line:
+                return case.changed(module, module.text.swap(value, module.text.code(value.value)))
     files, row = lines.deleted(case), case.finding.params.get("row")
     if files is None or row is None:
         return files
@@ -457,10 +467,11 @@ KINDS = (
         msg("A function with yield is a generator: calling it runs none of its lines."),
         msg("Remove the yield: the timer waits for you."),
         fixes={
+            "value": msg("Delete the word yield in this line, and keep what follows it."),
             "loop": msg(
                 "Remove the yield and the while in line {line}: indent the lines of the while as far as "
                 "it is indented now. The timer calls {callback} again for the next step."
-            )
+            ),
         },
         behind={"run.no_lines": _yields},
         fixed_by=(_plain_callback,),

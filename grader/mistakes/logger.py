@@ -804,8 +804,7 @@ KINDS = (
         msg("One line of code logs with several levels"),
         msg(
             "rclpy keeps the level of each line of code that calls the logger, and refuses another level from "
-            "the same line. Line {line} logs with different levels: in a loop, or in a function that gets the "
-            "level."
+            "the same line. Line {line} logs with more than one level."
         ),
         msg(
             "Write a call of its own for each level, such as .info(…) under one branch of an if and .warn(…) "

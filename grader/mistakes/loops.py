@@ -14,6 +14,7 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.mistakes.timer import cancel_in
 from grader.package.edit.tree import Replace
+from grader.package.source.counter import parts_of_callback
 from grader.package.source.endless import Loop, calls_of_methods, endless_loop, sleeps_in
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
@@ -74,6 +75,37 @@ def _waits_for_an_answer(suspect: Suspect) -> RecognisedMistake | None:
                 future = module.text.code(call.func.value)
                 return suspect.finding("answer_waited", call, name=future)
     return None
+
+
+def _through_a_generator(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a for of the callback that asks an endless generator for all its values."""
+    source = suspect.source
+    methods = {**source.module.functions, **source.methods}
+    for loop in (n for part in parts_of_callback(source) for n in ast.walk(part)):
+        call = loop.iter if isinstance(loop, ast.For) else None
+        made = methods.get(last_part(dotted(call.func))) if isinstance(call, ast.Call) else None
+        if made is None or call is None or not isinstance(loop, ast.For):
+            continue
+        endless = [n for n in ast.walk(made) if isinstance(n, ast.While) and _is_endless(n)]
+        if endless and any(isinstance(n, ast.Yield) for n in ast.walk(endless[0])):
+            if any(isinstance(n, ast.Break | ast.Return) for n in ast.walk(loop)):
+                continue
+            text = source.module_of(loop).text
+            found = suspect.finding("endless_generator", loop, name=made.name)
+            words = {
+                **found.words,
+                "line": endless[0].lineno,
+                "written": text.code(call),
+                "code": text.code(loop.target),
+            }
+            return replace(found, words=words)
+    return None
+
+
+def _is_endless(loop: ast.While) -> bool:
+    always = isinstance(loop.test, ast.Constant) and bool(loop.test.value)
+    leaves = any(isinstance(n, ast.Break | ast.Return) for n in ast.walk(loop))
+    return (always or dotted(loop.test) == "rclpy.ok()") and not leaves
 
 
 def _sleeps_in_callback(suspect: Suspect) -> RecognisedMistake | None:
@@ -191,6 +223,42 @@ KINDS = (
                 ),
                 fails="run.output",
                 blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "endless_generator",
+        "callback",
+        msg("The callback runs through a generator that has no end"),
+        msg(
+            "for asks {name} for one value after the other until there is none left. The loop in line {line} "
+            "has no end, so this for has none either, and {callback} does not return."
+        ),
+        msg(
+            "Make the generator once: write self.values_ = {written} in __init__. In {callback}, write "
+            "{code} = next(self.values_) instead of this for line, and indent its lines one step less."
+        ),
+        behind=dict.fromkeys(
+            ("run.too_much_output", "run.twice", "run.never_spins", "run.no_lines", "run.stops"),
+            _through_a_generator,
+        ),
+        examples=(
+            example(
+                "callback_runs_through_a_generator",
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def lines(self):\n        while True:\n"
+                    "            yield 'Hello time: ' + str(self.counter_)\n"
+                    "            self.counter_ += 1\n\n    def timer_callback",
+                ),
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    "        for line in self.lines():\n            self.get_logger().info(line)\n",
+                ),
+                fails="run.output",
+                blocks=("run.spins", "run.logger", "run.period", "run.interrupt"),
             ),
         ),
     ),

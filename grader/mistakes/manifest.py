@@ -799,6 +799,10 @@ KINDS = (
                 "has: <export><build_type>ament_python</build_type></export>. Then build again."
             ),
             "renamed": msg("Write <{tag}> instead of <{close}>, and the same in its end tag."),
+            "condition": msg(
+                "With this condition, the tag does not count. Delete the condition, then build again: "
+                "<build_type>ament_python</build_type>"
+            ),
             "commented": msg(
                 "<build_type> is in the comment that begins in this line. Delete the <!-- before it "
                 "and the --> behind it, so that it counts. Then build again."

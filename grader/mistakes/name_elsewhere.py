@@ -19,7 +19,7 @@ from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function, Module
-from grader.package.source.names import dotted, last_part, own_name
+from grader.package.source.names import calls_in, dotted, last_part, own_name
 from grader.package.source.node import read_module
 from grader.package.source.place import function_at
 from grader.package.source.scopes import (
@@ -191,7 +191,8 @@ def _as_attribute(
     parts = [n for n in ast.walk(setting[0]) if isinstance(n, ast.Name) and n.id == name]
     words = {"written": new, "lines": _lines(parts)}
     declared = declarations(module, name)
-    if declared and owner.name != "__init__":
+    called = [own_name(c.func) for c, _ in calls_in(setting[0])]
+    if declared and owner.name != "__init__" and owner.name not in called:
         return None
     if declared:
         return "global_attribute", {**words, "rows": _lines(declared)}

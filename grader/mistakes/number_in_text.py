@@ -12,13 +12,13 @@ from grader.base.i18n.message import Value, joined, msg, say
 from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.counted import counter_in, text_added
-from grader.mistakes.example import DEAD, NODE, example
+from grader.mistakes.example import DEAD, LOG_LINE, NODE, STEP_LINE, example
 from grader.mistakes.fixes import lines, node_log, node_words
 from grader.mistakes.kind import Family
 from grader.mistakes.made_by import lines_that_make, statements_that_make
 from grader.mistakes.placeholders import placeholder_values
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
-from grader.mistakes.worked_out import INSTEAD, change_of
+from grader.mistakes.worked_out import DIVISION, INSTEAD, change_of
 from grader.package.edit.text import SourceText
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import parts_of_callback, starts_of, targets_of
@@ -26,6 +26,7 @@ from grader.package.source.names import called_name, dotted
 from grader.package.source.number_forms import number_forms, widths_in
 from grader.package.source.place import function_at, place_of, statement_at
 from grader.package.source.readable import is_readable
+from grader.package.source.small_values import between
 from grader.report.model import Where
 
 MOST_CODE = 80  # characters of a piece of code that a text shows
@@ -569,11 +570,29 @@ def _form_unknown(suspect: Suspect) -> RecognisedMistake:
     origin = _only_float(suspect)
     if origin is not None:
         return origin
+    divided = _only_division(suspect)
+    if divided is not None:
+        return divided
     found = suspect.finding("number_format", _place_of_text(suspect))
     made = lines_that_make(suspect.source, suspect.place)
     if made is None:
         return found
     return replace(found, words={**found.words, "lines": made}, variant="lines")
+
+
+def _only_division(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the only / in the lines that make what is logged."""
+    nodes = [n for s in statements_that_make(suspect.source, suspect.place) for n in ast.walk(s)]
+    found = [n for n in nodes if isinstance(n, ast.BinOp) and isinstance(n.op, ast.Div)]
+    if len(set(found)) != 1 or not re.search(r"\d\.\d", suspect.text):
+        return None
+    change = between(
+        suspect.source.module_of(found[0]), found[0], found[0].left, found[0].right, "//"
+    )
+    name, written = shown(change.name), shown(change.written)
+    return replace(
+        suspect.finding("number_format", found[0], name=name, written=written), variant="division"
+    )
 
 
 def _only_float(suspect: Suspect) -> RecognisedMistake | None:
@@ -1099,6 +1118,7 @@ KINDS = (
             "text is put together. Change that, so that an integer is logged."
         ),
         whys={
+            "division": DIVISION,
             "step": FLOAT_STEP,
             "step_and_more": FLOAT_STEP,
             "start": FLOAT_START,
@@ -1113,6 +1133,7 @@ KINDS = (
         },
         fixes={
             "origin": INSTEAD,
+            "division": INSTEAD,
             "step": msg("Write {written} instead of {name}: the counter counts the lines."),
             "start": ONE_PIECE,
             "form": ONE_PIECE,
@@ -1132,6 +1153,20 @@ KINDS = (
         behind={"run.wrong_text": _number_format, "run.wrong_start": _padded},
         fixed_by=(node_log.plain_form, lines.written, node_log.plain_number),
         examples=(
+            example(
+                "cycles_divided",
+                Replace(NODE, "self.counter_ = 0", "self.cycle_ = 0"),
+                Replace(NODE, "create_timer(1.0", "create_timer(0.25"),
+                Replace(
+                    NODE,
+                    LOG_LINE + STEP_LINE,
+                    "        self.cycle_ += 1\n"
+                    "        if self.cycle_ % 4 == 0:\n"
+                    "            number = self.cycle_ / 4 - 1\n"
+                    "            self.get_logger().info('Hello time: ' + str(number))\n",
+                ),
+                fails="run.output",
+            ),
             example(
                 "float_in_a_constant_of_the_class",
                 Replace(NODE, "    def __init__", "    FIRST = 0.0\n\n    def __init__"),

@@ -388,7 +388,8 @@ def _hides_property(raised: Raised, match: re.Match[str]) -> RecognisedMistake |
         return _own_method(raised, own, own.name)
     for name in node_objects.PROPERTIES if raised.inside else ():
         method = raised.source.methods.get(name)
-        if method is not None and not method.decorator_list:
+        decorators = [dotted(one) for one in method.decorator_list] if method is not None else []
+        if method is not None and decorators in ([], ["property"]):
             return _own_method(raised, method, name)
     return None
 

@@ -494,12 +494,17 @@ KINDS = (
                 "The first argument of create_timer is the period in seconds. Here it is the value "
                 "of {code}."
             ),
+            "late": msg(
+                "The __init__ of the base class creates the timer (line {at}), with the value that {code} has "
+                "then. This line sets {code} later, which does not change the timer."
+            ),
         },
         fixes={
             "named": msg("Write {value} = {period}."),
             "several": msg(
                 "Let the program create this timer only once, with the period {period}."
             ),
+            "late": msg("Move this line above super().__init__(…) in line {above}."),
             "there": msg(
                 "create_timer has the right period: leave it as it is. Log a line at the beginning "
                 "of {callback} and one at its end, and compare their times. If {callback} begins "

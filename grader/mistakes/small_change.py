@@ -21,6 +21,18 @@ KINDS = (
             "long": msg(
                 "The grader ran the node with this line changed, and then this check passes."
             ),
+            "several": msg(
+                "One change alone does not help. The grader ran the node with these changes together, and "
+                "then this check passes."
+            ),
+            "word": msg(
+                "The grader ran the node with another text than {name} in this line, and then this check "
+                "passes."
+            ),
+            "end_of_list": msg(
+                "pop() takes the last item of a list, and pop(0) the first. The grader ran the node with "
+                "{written} instead of {name} in this line, and then this check passes."
+            ),
             "seconds": msg(
                 "ROS counts periods in seconds. The grader ran the node with {written} instead of "
                 "{name} in this line, and then this check passes."
@@ -205,7 +217,8 @@ KINDS = (
             ),
             "long": msg("Make the change below."),
             "condition": msg(
-                "Delete the line {name}, and indent the lines of its block one step less."
+                "If these lines are meant to run each time, delete the line {name}, and indent the lines of "
+                "its block one step less. If not, correct the condition: log the values that it asks for."
             ),
             "else": msg(
                 "Delete the line {name} with the lines below it, and keep the lines of its else, "
@@ -218,20 +231,35 @@ KINDS = (
             "given_back": msg(
                 "Return the changed number at the end of the function, and write {written} instead of {name}."
             ),
-            "loop": msg("Delete the line {name}, and indent the lines of its block one step less."),
+            "loop": msg(
+                "If the lines of this loop are meant to run once, delete the line {name}, and indent them one "
+                "step less. If not, log what changes from one turn of the loop to the next, and correct that."
+            ),
             "with": msg("Delete the line {name}, and indent the lines of its block one step less."),
             "out": msg("Move this line out of the block of {form}, to below it."),
             "moved": msg("Move this line above {written}."),
             "before_spin": msg("Move this line above {written}."),
             "moved_down": msg("Move this line below {written}."),
-            "deleted": msg("Delete this line."),
+            "deleted": msg(
+                "Delete this line if the program does not need it. If it does, find out what this line "
+                "changes for the lines that are logged, and correct that."
+            ),
             "moved_lines": msg("Move all lines of {name} above {written}."),
             "base": msg(
                 "Write Node instead of {name}, and at the top of the file: from rclpy.node import Node"
             ),
             "slept": msg("Delete this line: the timer waits, and not the callback."),
-            "deleted_lines": msg("Delete the lines that the change below takes away."),
-            "emptied": msg("Write pass instead of this line."),
+            "deleted_lines": msg(
+                "Delete the lines that the change below takes away, if the program does not need them. If it "
+                "does, find out what they change for the lines that are logged, and correct that."
+            ),
+            "word": msg(
+                "Find out what {name} is used for in this line. With {written}, for example, the check passes."
+            ),
+            "emptied": msg(
+                "Find out when this line runs, and what it changes for the lines that are logged. Then "
+                "correct that, or delete it if the program does not need it."
+            ),
             "below": msg("Write {written} below this line."),
             "above": msg("Write {written} above this line."),
             "own": msg("Write {written} instead of {name} wherever the change below does."),

@@ -17,6 +17,10 @@ from grader.package.source.one_change import changes, logged_lines, wanted_lines
 
 LONGEST = 200  # characters of a piece of code that a text shows
 INSTEAD = msg("Write {written} instead of {name}.")
+DIVISION = msg(
+    "/ gives a float, also of two integers, and a float is written with a decimal point. // gives an "
+    "integer."
+)
 
 
 def change_of(suspect: Suspect, *sorts: str) -> Change | None:
@@ -49,6 +53,16 @@ def worked_out(slug: str, *sorts: str, variant: str = "") -> FromSource:
         return replace(mistake, words=words, variant=shown)
 
     return found
+
+
+def _operation(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for an operation that changes the number; of integers, / gives a float."""
+    found = worked_out("number_changed", "operation")(suspect)
+    if found is None:
+        return None
+    name, written = (str(found.params[key]) for key in ("name", "written"))
+    divided = "//" in written and name == written.replace("//", "/")
+    return replace(found, variant="division") if divided else found
 
 
 def _joined(suspect: Suspect) -> RecognisedMistake | None:
@@ -153,13 +167,14 @@ KINDS = (
     _node(
         "number_changed",
         "counter",
-        msg("The line shows the result of an operation, not the counter"),
+        msg("An operation gives another number than the line has to show"),
         msg("{name} does not give the number that the line has to show."),
         INSTEAD,
+        whys={"division": DIVISION},
         behind={
-            "run.wrong_start": worked_out("number_changed", "operation"),
-            "run.wrong_step": worked_out("number_changed", "operation"),
-            "run.wrong_text": worked_out("number_changed", "operation"),
+            "run.wrong_start": _operation,
+            "run.wrong_step": _operation,
+            "run.wrong_text": _operation,
         },
         fixed_by=(node_worked_out.change("operation"),),
         examples=(

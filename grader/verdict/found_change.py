@@ -27,15 +27,19 @@ OWN_REASON = (
         "bits",
         "power",
         "copied",
+        "end_of_list",
+        "word",
     ),
 )
 """The sorts of changes that only their own reason explains."""
 CERTAIN = (
     *("called", "not_called", "argument", "kept", "asked_for"),
     *("yields", "returned", "falsy", "inexact", "unkept", "gives_itself"),
-    *("given_back", "unit", "field", "before_spin", "bits", "power", "copied"),
+    *("given_back", "unit", "field", "before_spin", "bits", "power", "copied", "end_of_list"),
 )
 """The sorts of changes that hardly help by chance: a rule of Python is their reason."""
+CAUTIOUS = ("deleted", "emptied", "loop", "condition", "word")
+"""The sorts of changes that show a place, but can take away what the program is meant to do."""
 MOVED = ("moved", "moved_down", "before_spin")
 ELSEWHERE = 10**6
 """The distance of a change in another file."""
@@ -110,6 +114,11 @@ class FoundChange:
     def is_simple(self) -> bool:
         """Whether another diagnosis of its line can explain it, or none is needed."""
         return self.counts and len(self.steps) == 1 and self.steps[0].sort not in OWN_REASON
+
+    @property
+    def is_cautious(self) -> bool:
+        """Whether it only shows where the mistake is: another change may be meant."""
+        return len(self.steps) == 1 and self.steps[0].sort in CAUTIOUS
 
     @property
     def is_certain(self) -> bool:

@@ -306,7 +306,7 @@ def recognised(change: FoundChange) -> RecognisedMistake:
         kind=KIND if change.counts else FIRST,
         params={"name": step.name, "written": step.written},
         words={"form": step.form},
-        variant=_variant(step),
+        variant="several" if len(change.steps) > 1 and change.counts else _variant(step),
         where=Where(file=step.path, line=step.line),
     )
 

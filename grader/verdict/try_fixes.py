@@ -47,7 +47,7 @@ VAGUE = {
     *("run.wrong_period", "run.never_spins"),
 }
 """What was seen that has many causes: its text alone helps little."""
-CAUSED_ELSEWHERE = ("node.text_not_a_number",)
+CAUSED_ELSEWHERE = ("node.text_not_a_number", "node.severity_changed")
 """The mistakes of a line whose cause is a value from another one: a change of the line hides it."""
 MEASURED = "node.measures_time"
 REWRITTEN = (MEASURED, "node.period_tiny", "node.log_if", "node.return_early")
@@ -164,7 +164,8 @@ def _with_first(
             seen = [] if result.consequence_of else value_texts(change)
             more = [*seen, *(other if change.counts else [])]
             advice = [*result.advice, *map(translate, more)]
-            update = {"fix": fix, "patch": patch_text(old, new), "advice": advice}
+            patch = "" if change.is_cautious else patch_text(old, new)
+            update = {"fix": fix, "patch": patch, "advice": advice}
             return result.model_copy(update=update)
     return None
 

@@ -226,8 +226,18 @@ def test_a_change_after_which_only_the_text_is_right_is_told_as_that(tmp_path: P
 
 
 def test_two_changes_are_told_with_their_lines(tmp_path: Path) -> None:
-    result, _ = found_with(UNKNOWN, tmp_path, [change(14, "value", "deleted")], "solution")
-    assert result.fix == "Line 14: Write new instead of old. Line 14: Delete this line."
+    result, _ = found_with(UNKNOWN, tmp_path, [change(14, "value", "moved")], "solution")
+    assert result.fix == "Line 14: Write new instead of old. Line 14: Move this line above new."
+    assert "these changes together" in result.rationale
+    assert result.patch
+
+
+def test_a_change_that_takes_something_away_shows_the_place_alone(tmp_path: Path) -> None:
+    result, _ = found_with(UNKNOWN, tmp_path, [change(14, "deleted")], "solution")
+    assert result.where is not None
+    assert result.where.line == 14
+    assert "if the program does not need it" in result.fix
+    assert result.patch == ""
 
 
 def test_long_code_is_left_to_the_change(tmp_path: Path) -> None:

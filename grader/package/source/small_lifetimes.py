@@ -193,4 +193,20 @@ def _copied(module: Module, source: NodeSource, goal: Goal) -> Found:
             yield 3, Change("copied", value, text.code(value), new, splices)
 
 
-SORTS: tuple[Sort, ...] = (_kept, _given_back, _copied, _asked_for, _plain, _once)
+def _ends_of_lists(module: Module, source: NodeSource, goal: Goal) -> Found:
+    """Yield the other end of a list in the calls of pop()."""
+    del source, goal
+    text = module.text
+    for node in module.nodes:
+        if isinstance(node, ast.Call) and called_name(node) == "pop" and not node.keywords:
+            first = node.args[0] if len(node.args) == 1 else None
+            if not node.args:
+                new = f"{text.code(node.func)}(0)"
+            elif isinstance(first, ast.Constant) and first.value == 0:
+                new = f"{text.code(node.func)}()"
+            else:
+                continue
+            yield 1, of_piece(module, "end_of_list", node, new)
+
+
+SORTS: tuple[Sort, ...] = (_kept, _given_back, _copied, _ends_of_lists, _asked_for, _plain, _once)

@@ -95,8 +95,9 @@ def _numbers(module: Module, source: NodeSource, goal: Goal) -> Found:
             yield 2, of_piece(module, "value", node, repr(SHOWN[0]))
         elif isinstance(value, str) and value.isidentifier():
             for other in dict.fromkeys(_words(module)):
-                cost = 4 if nearest(value, [other]) else 6
-                yield cost, of_piece(module, "value", node, repr(other))
+                close = bool(nearest(value, [other]))
+                sort = "value" if close else "word"
+                yield 4 if close else 6, of_piece(module, sort, node, repr(other))
 
 
 def _of_units(module: Module, source: NodeSource, goal: Goal) -> Found:
@@ -358,8 +359,9 @@ def _logged(module: Module, source: NodeSource, goal: Goal) -> Found:
             code = module.text.code(function.value)
             yield 1, of_piece(module, "value", function, f"{code}.info")
             continue
-        if not _is_like(call.args[0], goal):
-            continue
+        names = {dotted(n) for n in ast.walk(call.args[0]) if is_name(n)}
+        if not _is_like(call.args[0], goal) or names - {*counters_of(source), *BUILTINS, "self"}:
+            continue  # (a text that is worked out is meant to be)
         for name in counters_of(source):
             if not set(text) & set("'{}\\"):
                 new = f"f'{goal.before}{{{name}}}{goal.after}'"

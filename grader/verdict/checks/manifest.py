@@ -392,6 +392,10 @@ def _check_build_type_place(manifest: Manifest) -> None:
         if element.within not in TAGS and nearest("export", [element.within], cutoff=0.75):
             continue  # the name of the tag around it is wrong
         outside = say("<build_type> is outside of <export>")
+        if element.within != "package":
+            outside = say(
+                "<build_type> is in <{within}>, and not directly in <export>", within=element.within
+            )
         exports = manifest.all("export")
         variant = "outside_too" if there else "into" if exports else "outside"
         if element.within != "package" and not exports:
@@ -405,6 +409,11 @@ def _check_build_type(evidence: Evidence, manifest: Manifest) -> None:
     if not elements:
         _check_tag_name(manifest, "build_type", within="export")
         export, missing = manifest.first("export"), say("there is no <build_type>")
+        if left_out := manifest.all("build_type", within="export"):
+            named = min(left_out, key=lambda element: element.text != "ament_python")
+            condition = shown(named.attributes.get("condition", ""))
+            never = say("the condition {condition} is not true in ROS 2", condition=condition)
+            raise _build_type(named, never, "condition")
         if comment := _line_of_comment(evidence, "build_type"):
             found = Element("build_type", "", comment, "", {})
             raise _build_type(found, missing, "commented")

@@ -133,7 +133,7 @@ def _ended(evidence: Evidence) -> Outcome:
     return Failed(
         "run.exits_at_once",
         expected=say("the node runs until Ctrl+C"),
-        actual=say("it ended by itself at once, with status {status}", status=str(run.status)),
+        actual=say("it ended by itself, with status {status}", status=str(run.status)),
         where=place_of(source, own[0]) if source and own else node_file(evidence),
         variant="spins" if own else "elsewhere" if spins else "",
         words=words(evidence),
@@ -172,7 +172,7 @@ def _others_start(evidence: Evidence) -> None:
             actual=say("{node} stopped on startup with {error}", node=program.node, error=error)
             if error
             else say(
-                "{node} ended by itself at once, with status {status}",
+                "{node} ended by itself, with status {status}",
                 node=program.node,
                 status=str(program.status),
             ),

@@ -16,7 +16,7 @@ from grader.base.i18n.message import Value, say
 from grader.mistakes.fixes.node_pace import throttled
 from grader.mistakes.fixes.node_timer import value_of
 from grader.package.source.counter import targets_of
-from grader.package.source.names import dotted
+from grader.package.source.names import calls_in, dotted
 from grader.package.source.node import NodeSource
 from grader.package.source.period import (
     Origin,
@@ -329,6 +329,9 @@ def told_of_period(source: NodeSource, wanted: float) -> Told:
     origin = wrong_number(source, timer.period, wanted) if len(timers) == 1 else None
     if origin is not None:
         return _told_of_origin(source, origin, wanted)
+    late = _set_late(source, timer, wanted)
+    if late is not None:
+        return late
     if _is_made_again(source, timer):
         return Told(place_of(source, timer.call), "several")
     known = seconds_of(source, timer.period) if timer.period is not None else None
@@ -372,10 +375,34 @@ def _told_of_origin(source: NodeSource, origin: Origin, wanted: float) -> Told:
     return Told(where, "rate" if origin.power < 0 and origin.seconds < 1 else "calculated", known)
 
 
+def _set_late(source: NodeSource, timer: Timer, wanted: float) -> Told | None:
+    """Return what to say of a period that a class sets after the __init__ of its base made the timer."""
+    name = dotted(timer.period) if timer.period is not None else ""
+    for statement in source.own_nodes:
+        if not isinstance(statement, ast.Assign) or name not in targets_of(statement):
+            continue
+        function = source.function_around(statement)
+        if function is None or function is timer.function or function.name != "__init__":
+            continue
+        first = [call for call, called in calls_in(function) if called == "super().__init__"]
+        if not first or first[0].lineno > statement.lineno:
+            continue
+        if is_right(number_in(statement.value), wanted):
+            words: dict[str, Value] = {
+                "code": name,
+                "line": statement.lineno,
+                "at": timer.call.lineno,
+                "above": first[0].lineno,
+            }
+            return Told(place_of(source, statement), "late", words)
+    return None
+
+
 def _is_made_again(source: NodeSource, timer: Timer) -> bool:
     """Whether there can be several timers: several calls, or one in a loop or in a callback."""
     around = list(source.module_of(timer.call).around(timer.call))
     looped = any(isinstance(part, ast.For | ast.While) for part in around)
     name = timer.function.name if timer.function is not None else ""
-    called = len(source.calls_of(name)) > 1 or name in {t.method for t in source.timers}
+    several = name != "__init__" and len(source.calls_of(name)) > 1
+    called = several or name in {t.method for t in source.timers}
     return len(timers_of_lines(source)) > 1 or looped or bool(name and called)
