@@ -8,6 +8,7 @@ from types import MappingProxyType
 from grader.mistakes import (
     actions,
     after_with,
+    alarm,
     any_change,
     arguments,
     async_main,
@@ -248,6 +249,7 @@ CATALOGUE: Mapping[str, Kind] = MappingProxyType(
             nth_call,
             pace,
             rate,
+            alarm,
             imported_number,
             callback_of_timer,
             timer_period,

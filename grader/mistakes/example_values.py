@@ -968,6 +968,18 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.one_digit": {"name": "chr(48 + self.counter)", "written": "str(self.counter)"},
     "node.number_changed": {"name": "self.counter + 1", "written": "self.counter"},
     "node.level_set": {"name": "set_level", "level": "WARN"},
+    "node.inner_node_not_spun": {
+        "name": "self.clock",
+        "type": "Clock",
+        "node": "node",
+        "attribute": "clock",
+    },
+    "node.alarm_for_timer": {
+        "name": "signal.alarm",
+        "method": "on_alarm",
+        "lines": "12, 13",
+        "written": "number, frame",
+    },
     "node.init_runs_again": {
         "name": "Counter()",
         "line": "21",

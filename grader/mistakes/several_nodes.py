@@ -110,6 +110,35 @@ def _never_added(suspect: Suspect) -> RecognisedMistake | None:
     return suspect.finding("never_added", call, name=given[again], written=missing)
 
 
+def _inner_node(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a node with a timer that the node makes for itself, and that nothing spins."""
+    source = suspect.source
+    classes = {c.name: c for module in source.known_modules for c in module.classes}
+    given = {
+        last_part(dotted(arg))
+        for module in source.known_modules
+        for call in module.nodes
+        if isinstance(call, ast.Call)
+        and last_part(dotted(call.func)) in (*SPINS, "add_node", "spin_once")
+        for arg in call.args
+    }
+    for node in source.own_nodes:
+        if not isinstance(node, ast.Assign):
+            continue
+        made = classes.get(_made(node.value))
+        names = [name for name in targets_of(node) if name.startswith("self.")]
+        if made is None or not names or "Node" not in [last_part(dotted(b)) for b in made.bases]:
+            continue
+        timed = any(last_part(name) == "create_timer" for _, name in calls_in(made))
+        own = last_part(names[0])
+        if timed and own not in given and source.node_class is not made:
+            variable = min(source.node_variables, default="node")
+            found = suspect.finding("inner_node_not_spun", node, name=names[0])
+            words = {**found.words, "type": made.name, "node": variable, "attribute": own}
+            return replace(found, words=words)
+    return None
+
+
 def _is_handed_on(source: NodeSource, name: str) -> bool:
     """Whether a variable is used other than for its methods and attributes."""
     for node in source.all_nodes:
@@ -275,6 +304,44 @@ KINDS = (
                     NODE,
                     "        rclpy.spin(node)\n",
                     "        for each in [OtherNode(), node]:\n            rclpy.spin(each)\n",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+        ),
+    ),
+    _node(
+        "inner_node_not_spun",
+        "spin",
+        msg("A node that the node makes is not spun"),
+        msg(
+            "{type} is a node of its own, with a timer of its own. rclpy.spin calls the callbacks of the "
+            "node that it gets and of no other, so the timer of {name} is never due."
+        ),
+        msg(
+            "Spin both nodes. In {function}, write instead of rclpy.spin({node}): executor = "
+            "rclpy.executors.SingleThreadedExecutor(), then executor.add_node({node}), "
+            "executor.add_node({node}.{attribute}) and executor.spin(), each in a line of its own. Write "
+            "import rclpy.executors at the top of the file."
+        ),
+        links.EXECUTORS,
+        behind={"run.no_lines": _inner_node},
+        examples=(
+            example(
+                "timer_in_a_node_that_is_not_spun",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "class Ticker(Node):\n"
+                    "    def __init__(self, callback):\n"
+                    "        super().__init__('ticker')\n"
+                    "        self.create_timer(1.0, callback)\n\n\n"
+                    "class MyFirstNode",
+                ),
+                Replace(
+                    NODE,
+                    "        self.create_timer(1.0, self.timer_callback)\n",
+                    "        self.ticker_ = Ticker(self.timer_callback)\n",
                 ),
                 fails="run.output",
                 blocks=SILENT,
