@@ -207,8 +207,8 @@ KINDS = (
             "not return, ROS can call no other one, and the timer cannot call this one again."
         ),
         msg(
-            "Remove this line, and what uses its result, from the callback: it must return without "
-            "waiting, and the timer calls it again."
+            "Delete this line: a callback must return without waiting, and the timer calls it again. If a "
+            "line below needs what this line waits for, log the counter there instead."
         ),
         fixes={
             "queue": msg(

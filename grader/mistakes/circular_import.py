@@ -33,7 +33,8 @@ KINDS = (
                 "nothing that imports it."
             ),
             "third": msg(
-                "Delete this import of {path}: only one of the two files can import the other. "
+                "Delete this import of {path}, and {name} where {there} uses it, also as the type of an "
+                "argument: only one of the two files can import the other. "
                 "Give the functions of {there} what they need as arguments, or move what both "
                 "files need to a third file."
             ),

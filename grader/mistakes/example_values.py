@@ -980,6 +980,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
         "lines": "12, 13",
         "written": "number, frame",
     },
+    "node.plain_alternative": {
+        "name": "self.get_parameter_or('speed', 0.5)",
+        "written": "self.declare_parameter('speed', 0.5)",
+        "code": "0.5",
+    },
     "node.init_runs_again": {
         "name": "Counter()",
         "line": "21",

@@ -454,7 +454,7 @@ KINDS = (
     _node(
         "own_module_alone",
         "start",
-        msg("A file of your own package is imported by a wrong name"),
+        msg("Python does not find a file of your own package under this name"),
         msg(
             "ros2 run starts the installed package. Python knows the files in it only as {package}."
             "name, also from a file in the same folder."
@@ -462,6 +462,10 @@ KINDS = (
         msg("Write {written} instead of {name}."),
         links.PACKAGE,
         whys={
+            "elsewhere": msg(
+                "The build installs the folder {package} with its files, and {there} is outside of it. "
+                "Python knows the files in it only as {package}.name."
+            ),
             "class": msg(
                 "The folder {package} and its files are different modules: a class or a function is "
                 "in the file that defines it."

@@ -39,10 +39,12 @@ NO_SETTER = (
     r"|can't set attribute '(?P<old>\w{1,120})'|(?P<only>handle) cannot be modified after"
 )
 IN_NODE = (
-    r"AttributeError: '(?:int|float|str|list|dict|Timer|Publisher|NoneType)' object has no attribute "
+    r"AttributeError: '\w{1,120}' object has no attribute "
     r"'(?:add_node|append|remove|handle|get_child|now|clock|wake)'"
     r"|'(?!RcutilsLogger)\w{1,120}' object is not callable$"
 )
+BUILTINS = ("int", "float", "str", "list", "dict", "Timer", "Publisher", "NoneType")
+"""The types of what a class sets most often."""
 OF_NODE = (
     *("executor", "_executor", "_timers", "_clients", "_publishers", "_subscriptions", "_services"),
     *("_logger", "_clock", "_handle", "_context", "_parameters", "_default_callback_group"),
@@ -356,6 +358,11 @@ def _taken_inside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
         for part in ast.walk(statement_at(raised.module, raised.line) or raised.module.tree)
     }
     called = match.string.endswith("is not callable")
+    own = re.search(r"AttributeError: '(\w{1,120})' object", match.string)
+    if own is not None and own[1] not in (*BUILTINS, *raised.source.known_classes) and not called:
+        helpers = {c.name for module in raised.source.known_modules for c in module.classes}
+        if own[1] not in helpers:
+            return None
     for part in raised.source.own_nodes:
         name = own_name(part) if isinstance(part, ast.Attribute) else ""
         if not isinstance(part, ast.Attribute) or not isinstance(part.ctx, ast.Store):

@@ -316,7 +316,7 @@ KINDS = (
         msg("A node that the node makes is not spun"),
         msg(
             "{type} is a node of its own, with a timer of its own. rclpy.spin calls the callbacks of the "
-            "node that it gets and of no other, so the timer of {name} is never due."
+            "node that it gets and of no other, so nothing calls the callback of that timer."
         ),
         msg(
             "Spin both nodes. In {function}, write instead of rclpy.spin({node}): executor = "

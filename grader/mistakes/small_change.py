@@ -50,6 +50,10 @@ KINDS = (
                 "One second is 1000 milliseconds, 1000000 microseconds or 1000000000 nanoseconds. The grader "
                 "ran the node with {written} instead of {name} in this line, and then this check passes."
             ),
+            "digits": msg(
+                "{name} is a text, also if it has only digits: nothing can be added to it as to a number. The "
+                "grader ran the node with {written}, and then this check passes."
+            ),
             "bits": msg(
                 "~, & and | work on the bits of a number: ~True is -2, which counts as true, and & comes before "
                 "==. In a condition, not, and, or are meant. The grader ran the node with {written} instead of "

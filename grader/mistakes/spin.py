@@ -26,6 +26,7 @@ from grader.mistakes.stop_in_branch import in_branch
 from grader.package.edit.tree import Edit, Replace, Write
 from grader.package.source.endless import Loop, idle_loop
 from grader.package.source.module import Function
+from grader.package.source.names import SPINS as SPIN_CALLS
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of, statement_at
@@ -263,6 +264,12 @@ def _missing(suspect: Suspect) -> RecognisedMistake | None:
         return _under_guard(suspect)
     if suspect.source.calls_of("spin_once") or _is_passed_on(suspect.source):
         return None
+    beside = (n for module in suspect.source.beside for n in module.nodes)
+    if any(
+        isinstance(n, ast.Attribute | ast.Name) and last_part(dotted(n)) in SPIN_CALLS
+        for n in beside
+    ):
+        return None  # (another file of the package spins, in a way that is not known here)
     for call, name in suspect.source.calls:
         before, _, method = name.rpartition(".")
         if method == "add_node" and before in executors(suspect):

@@ -156,6 +156,10 @@ def _stop_of_timer(suspect: Suspect, *endings: str, logs: bool = True) -> Recogn
     resets = [n for n in statements if isinstance(n, ast.Attribute) and n.attr == "reset"]
     if resets:
         return None  # (the () is missing behind what starts the timer again)
+    if not logs and any(name.endswith(".reset") for _, name in source.calls):
+        return None  # (a line starts it again)
+    if logs and _reset(suspect) is not None:
+        return None  # (what starts it again and again is the reason)
     for call, name in source.calls:
         if not name.endswith(endings) or call not in early or not _is_of_timer(source, call, name):
             continue

@@ -28,6 +28,7 @@ OWN_REASON = (
         "power",
         "copied",
         "end_of_list",
+        "digits",
         "word",
     ),
 )
@@ -35,7 +36,17 @@ OWN_REASON = (
 CERTAIN = (
     *("called", "not_called", "argument", "kept", "asked_for"),
     *("yields", "returned", "falsy", "inexact", "unkept", "gives_itself"),
-    *("given_back", "unit", "field", "before_spin", "bits", "power", "copied", "end_of_list"),
+    *(
+        "given_back",
+        "unit",
+        "field",
+        "before_spin",
+        "bits",
+        "power",
+        "copied",
+        "end_of_list",
+        "digits",
+    ),
 )
 """The sorts of changes that hardly help by chance: a rule of Python is their reason."""
 CAUTIOUS = ("deleted", "emptied", "loop", "condition", "word")

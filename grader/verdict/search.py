@@ -57,6 +57,8 @@ LEAST_LINES = 6
 ENOUGH_LINES = 10
 """The lines, each at another instant, after which a node that is too slow for a short run counts too."""
 LONGEST = 90  # characters of a piece of code that a text shows
+OF_PERIOD = ("seconds", "unit")
+"""The sorts of changes that give another period: they have to give the right one."""
 TEXT, STEP = 5, 6
 """How far a node gets that logs the right text, and that has the right step but not the start."""
 
@@ -117,6 +119,7 @@ class _Search:
         if base.level >= WHOLE:
             return []  # (what is wrong does not show in so short a run)
         good = [one for one in tried if one.level >= NEARLY and one.level > base.level]
+        good = [one for one in good if one.level == WHOLE or one.steps[-1].sort not in OF_PERIOD]
         if not good:
             good = self._twice(base, tried)
         if not good and base.level < TEXT:

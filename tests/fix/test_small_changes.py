@@ -513,3 +513,16 @@ def test_a_difference_of_times_becomes_seconds() -> None:
     text = NODE.replace("self.counter_ += 1", "if now - self.then > 1.0:\n            pass")
     found = [one.change.written for one in changes(text) if one.change.sort == "seconds"]
     assert "(now - self.then).nanoseconds / 1e9" in found
+
+
+def test_digits_in_quotes_become_a_number_and_a_changed_text_is_kept() -> None:
+    text = NODE.replace("self.counter_ = 0", "self.counter_ = '0'\n        name.replace('a', 'b')")
+    found = {one.change.sort: one.change.written for one in changes(text)}
+    assert found["digits"] == "0"
+    assert found["unkept"] == "name = name.replace('a', 'b')"
+
+
+def test_a_list_is_read_from_its_other_end() -> None:
+    text = NODE.replace("self.counter_ += 1", "self.items.pop()")
+    found = [one.change for one in changes(text) if one.change.sort == "end_of_list"]
+    assert [(one.name, one.written) for one in found] == [("self.items.pop()", "self.items.pop(0)")]

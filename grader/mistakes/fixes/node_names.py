@@ -11,7 +11,7 @@ from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.counter import names_given, targets_of
 from grader.package.source.module import Module
-from grader.package.source.names import dotted, own_name
+from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import NodeSource
 from grader.package.source.scopes import bindings
 
@@ -116,6 +116,10 @@ def counter(case: Case) -> Files | None:
     logged = {name.partition(".")[0] for name in logged} - {"get_logger"}
     if len(logged) != 1 or _is_set(node, min(logged)) or not counts(node, min(logged)):
         return None
+    own = node.node_class
+    bases = [last_part(dotted(base)) for base in own.bases] if own is not None else []
+    if min(logged).startswith("__") and bases != ["Node"]:
+        return None  # (a base class can have the private name)
     name, text = min(logged), node.module.text
     for statement in init.body:
         target = statement.targets[0] if isinstance(statement, ast.Assign) else None

@@ -19,6 +19,7 @@ SHOWN = ("info", "warn", "warning", "error", "fatal")
 HIDDEN = ("debug", "DEBUG")
 OF_C = re.compile(r"%(?:z|l|ll|h)?[ud](?<!%d)")
 """Formats of a number that printf has and Python does not."""
+DIGITS = re.compile(r"-?\d{1,9}(?:\.\d{1,9})?")
 FIELDS = ("integer_value", "double_value", "string_value", "bool_value")
 """The fields of a ParameterValue: one has the value, and the others are 0, empty or false."""
 TYPES = ("INTEGER", "DOUBLE", "STRING", "BOOL")
@@ -34,6 +35,8 @@ SIGNS: dict[type[ast.AST], str] = {
     ast.Gt: ">",
     ast.GtE: ">=",
 }
+OF_TEXT = ("replace", "strip", "lstrip", "rstrip", "upper", "lower", "title", "capitalize", "zfill")
+"""Methods of a text that return another text."""
 BITS = ast.LShift | ast.RShift | ast.Pow
 SUMS: tuple[type[ast.AST], ...] = (ast.Add, ast.Sub)
 SUMMED = ast.Add | ast.Sub | ast.Mult | ast.Div
@@ -91,13 +94,24 @@ def _numbers(module: Module, source: NodeSource, goal: Goal) -> Found:
                 cost = _cost(value, number, goal)
                 sort = "seconds" if cost == UNIT else "value"
                 yield cost, of_piece(module, sort, node, str(number))
-        elif isinstance(value, str) and value in HIDDEN:
-            yield 2, of_piece(module, "value", node, repr(SHOWN[0]))
-        elif isinstance(value, str) and value.isidentifier():
-            for other in dict.fromkeys(_words(module)):
-                close = bool(nearest(value, [other]))
-                sort = "value" if close else "word"
-                yield 4 if close else 6, of_piece(module, sort, node, repr(other))
+        elif isinstance(value, str):
+            yield from _other_words(module, node, value)
+
+
+def _other_words(module: Module, node: ast.Constant, value: str) -> Found:
+    """Yield numbers, levels and names in the place of a text that is one."""
+    around = module.parents.get(node)
+    if DIGITS.fullmatch(value):
+        yield 1, of_piece(module, "digits", node, value)
+    elif value in HIDDEN:
+        yield 2, of_piece(module, "value", node, repr(SHOWN[0]))
+    elif isinstance(around, ast.Dict) and node in around.keys:
+        return  # (another key could replace one that is there)
+    elif value.isidentifier():
+        for other in dict.fromkeys(_words(module)):
+            close = bool(nearest(value, [other]))
+            sort = "value" if close else "word"
+            yield 4 if close else 6, of_piece(module, sort, node, repr(other))
 
 
 def _of_units(module: Module, source: NodeSource, goal: Goal) -> Found:
@@ -254,7 +268,12 @@ def _unkept(module: Module, source: NodeSource, goal: Goal) -> Found:
     text = module.text
     for node in module.nodes:
         value = node.value if isinstance(node, ast.Expr) else None
-        if isinstance(value, ast.BinOp) and is_name(value.left) and isinstance(value.op, SUMS):
+        if isinstance(value, ast.Call) and isinstance(value.func, ast.Attribute):
+            owner = value.func.value
+            if value.func.attr in OF_TEXT and is_name(owner):
+                new = f"{text.code(owner)} = {text.code(value)}"
+                yield 1, of_piece(module, "unkept", value, new)
+        elif isinstance(value, ast.BinOp) and is_name(value.left) and isinstance(value.op, SUMS):
             new = f"{text.code(value.left)} = {text.code(value)}"
             yield 1, of_piece(module, "unkept", value, new)
         elif isinstance(value, ast.UnaryOp) and isinstance(value.operand, ast.UnaryOp):

@@ -117,6 +117,9 @@ def _line_by_line(evidence: Evidence, wanted: float) -> Passed:
             follows=count if len(events) == 1 and _has_failed(evidence, count) else "",
         )
     on_time = [event for event in events if event.due is not None]
+    at_one = len(on_time) > 1 and len({event.due for event in on_time}) == 1
+    if at_one and watch.missing and watch.period is None and evidence.has_failed(count):
+        raise Blocked(by=count)  # several lines at one instant, and none after it
     stopped = len(on_time) > 1 and abs((watch.period or wanted) - wanted) < 0.001
     if not watch.early and (not watch.missing or stopped):  # log.counts reports a stop
         slow = _kept_apart(evidence, on_time, wanted)
