@@ -30,6 +30,8 @@ def test_the_graph_names_what_does_not_fit(talk: Talk, ros_env: dict[str, str]) 
                 names(g) == {"/talker", "/listener", "/sensor", "/reader"}
                 and topic(g, "/scan").get("misfits")
                 and len(topic(g, "/words").get("subscriptions", ())) == 1
+                and topic(g, "/words").get("publishers")
+                and g["services"]  # (the parts of the graph become known one after the other)
             ),
         )
         assert topic(graph, "/words")["misfits"] == []
