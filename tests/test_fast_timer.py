@@ -10,7 +10,7 @@ import pytest
 
 from grader.base.unheard import unheard
 from grader.package.intake.model import SourceFile
-from grader.package.source.fastest_timer import fastest_timer, knows_all_periods
+from grader.package.source.timer_periods import TimerPeriods, timer_periods
 from grader.run import session
 from grader.run.clock import GRID, VirtualClock
 from grader.run.observer import SECOND, Observer, Watch
@@ -111,7 +111,7 @@ def test_the_period_of_a_wrong_node_is_measured(period: float, every: int) -> No
     ],
 )
 def test_the_source_says_the_shortest_period(text: str, seconds: float | None) -> None:
-    found = fastest_timer([SourceFile(NODE, "file", data=text.encode())])
+    found = timer_periods([SourceFile(NODE, "file", data=text.encode())]).fastest
     assert found == (None if seconds is None else pytest.approx(seconds))
 
 
@@ -120,7 +120,7 @@ def test_a_period_can_be_in_another_module() -> None:
         SourceFile(NODE, "file", data=b"self.create_timer(config.PERIOD, self.tick)\n"),
         SourceFile("my_robot_controller/config.py", "file", data=b"PERIOD = 0.01\n"),
     ]
-    assert fastest_timer(files) == pytest.approx(0.01)
+    assert timer_periods(files).fastest == pytest.approx(0.01)
 
 
 @pytest.mark.parametrize(
@@ -133,7 +133,7 @@ def test_a_period_can_be_in_another_module() -> None:
     ],
 )
 def test_it_is_known_whether_the_source_says_all_periods(text: str, known: bool) -> None:
-    assert knows_all_periods([SourceFile(NODE, "file", data=text.encode())]) is known
+    assert timer_periods([SourceFile(NODE, "file", data=text.encode())]).are_known is known
 
 
 @pytest.mark.parametrize(
@@ -162,7 +162,7 @@ def test_a_session_goes_in_steps_of_the_fastest_timer(
 
     opened = runs()
     monkeypatch.setattr(session, "observe", observed)
-    opened._fastest = fastest
+    opened._periods = TimerPeriods((fastest,))
     opened.run(unheard)
     assert [found for found, _ in asked] == [fine]
     assert asked[0][1] == pytest.approx(grid)

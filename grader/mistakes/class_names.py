@@ -80,10 +80,8 @@ def _base_stops(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
         return None
     if raised.source.super_init is None or not is_of_node(raised, match):
         return None
-    nodes = [n for module in raised.source.known_modules for n in module.nodes]
-    classes = {n.name: n for n in nodes if isinstance(n, ast.ClassDef)}
     for base in own.bases:
-        found = classes.get(last_part(dotted(base)))
+        found = raised.source.classes_by_name.get(last_part(dotted(base)))
         if found is None:
             return None  # (Node or another class of ROS comes first)
         inits = [n for n in found.body if isinstance(n, Function) and n.name == "__init__"]

@@ -87,10 +87,9 @@ def _is_limit(source: NodeSource, test: ast.expr) -> bool:
     logged = logged_counter(source)
     names = [n for n in ast.walk(test) if isinstance(n, ast.Name | ast.Attribute) and dotted(n)]
     outer = {dotted(n) for n in names} - {"self"}
-    compares = isinstance(test, ast.Compare) and not any(
-        isinstance(n, ast.Call) for n in ast.walk(test)
-    )
-    if not isinstance(test, ast.Compare) or not compares or logged is None:
+    if not isinstance(test, ast.Compare) or logged is None:
+        return False
+    if any(isinstance(n, ast.Call) for n in ast.walk(test)):
         return False
     return outer == {logged[1]} and _comes_true(test, logged[1])
 

@@ -988,8 +988,6 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.init_runs_again": {
         "name": "Counter()",
         "line": "21",
-        "written": "self.value = 0",
-        "type": "Counter",
     },
     "node.endless_generator": {
         "name": "steps",

@@ -76,10 +76,10 @@ def _plain_callback(case: Case) -> Files | None:
     """Delete the yield, and the `while True` around it; a call behind the yield stays."""
     module = case.module
     if module is not None and "value" in case.finding.params:
-        for node in module.nodes:
-            value = node.value if isinstance(node, ast.Expr) else None
-            if isinstance(value, ast.Yield) and value.value and value.lineno == case.finding.line:
-                return case.changed(module, module.text.swap(value, module.text.code(value.value)))
+        statement = statement_at(module, case.finding.line)
+        value = statement.value if isinstance(statement, ast.Expr) else None
+        if isinstance(value, ast.Yield) and value.value:
+            return case.changed(module, module.text.swap(value, module.text.code(value.value)))
     files, row = lines.deleted(case), case.finding.params.get("row")
     if files is None or row is None:
         return files

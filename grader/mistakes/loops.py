@@ -15,7 +15,7 @@ from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.mistakes.timer import cancel_in
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import parts_of_callback
-from grader.package.source.endless import Loop, calls_of_methods, endless_loop, sleeps_in
+from grader.package.source.endless import Loop, calls_of_methods, endless_loop, goes_on, sleeps_in
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.place import statement_at
@@ -86,7 +86,7 @@ def _through_a_generator(suspect: Suspect) -> RecognisedMistake | None:
         made = methods.get(last_part(dotted(call.func))) if isinstance(call, ast.Call) else None
         if made is None or call is None or not isinstance(loop, ast.For):
             continue
-        endless = [n for n in ast.walk(made) if isinstance(n, ast.While) and _is_endless(n)]
+        endless = [n for n in ast.walk(made) if isinstance(n, ast.While) and goes_on(n)]
         if endless and any(isinstance(n, ast.Yield) for n in ast.walk(endless[0])):
             if any(isinstance(n, ast.Break | ast.Return) for n in ast.walk(loop)):
                 continue
@@ -100,12 +100,6 @@ def _through_a_generator(suspect: Suspect) -> RecognisedMistake | None:
             }
             return replace(found, words=words)
     return None
-
-
-def _is_endless(loop: ast.While) -> bool:
-    always = isinstance(loop.test, ast.Constant) and bool(loop.test.value)
-    leaves = any(isinstance(n, ast.Break | ast.Return) for n in ast.walk(loop))
-    return (always or dotted(loop.test) == "rclpy.ok()") and not leaves
 
 
 def _sleeps_in_callback(suspect: Suspect) -> RecognisedMistake | None:

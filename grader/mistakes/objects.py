@@ -359,10 +359,8 @@ def _taken_inside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     }
     called = match.string.endswith("is not callable")
     own = re.search(r"AttributeError: '(\w{1,120})' object", match.string)
-    if own is not None and own[1] not in (*BUILTINS, *raised.source.known_classes) and not called:
-        helpers = {c.name for module in raised.source.known_modules for c in module.classes}
-        if own[1] not in helpers:
-            return None
+    if own is not None and own[1] not in (*BUILTINS, *raised.source.classes_by_name):
+        return None
     for part in raised.source.own_nodes:
         name = own_name(part) if isinstance(part, ast.Attribute) else ""
         if not isinstance(part, ast.Attribute) or not isinstance(part.ctx, ast.Store):

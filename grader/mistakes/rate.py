@@ -54,7 +54,7 @@ def _without_loop(
     function = source.function_around(call)
     loops = [n for n in ast.walk(source.main or ast.Module([], [])) if isinstance(n, ast.While)]
     for loop in loops if function is not None else []:
-        for made, name in calls_in(loop):
+        for _, name in calls_in(loop):
             owner, _, method = name.rpartition(".")
             if function is source.methods.get(method) and owner in source.node_variables:
                 rows = {call.lineno, *_rows_of_rates(source)}
@@ -64,7 +64,6 @@ def _without_loop(
                     "node": owner,
                     "line": ", ".join(map(str, sorted(rows))),
                     "at": loop.lineno,
-                    "written": ast.unparse(made),
                 }
                 return replace(found, variant="looped", words=words)
     return None

@@ -113,19 +113,17 @@ def _never_added(suspect: Suspect) -> RecognisedMistake | None:
 def _inner_node(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a node with a timer that the node makes for itself, and that nothing spins."""
     source = suspect.source
-    classes = {c.name: c for module in source.known_modules for c in module.classes}
     given = {
         last_part(dotted(arg))
         for module in source.known_modules
         for call in module.nodes
-        if isinstance(call, ast.Call)
-        and last_part(dotted(call.func)) in (*SPINS, "add_node", "spin_once")
+        if isinstance(call, ast.Call) and last_part(dotted(call.func)) in (*SPINS, "add_node")
         for arg in call.args
     }
     for node in source.own_nodes:
         if not isinstance(node, ast.Assign):
             continue
-        made = classes.get(_made(node.value))
+        made = source.classes_by_name.get(_made(node.value))
         names = [name for name in targets_of(node) if name.startswith("self.")]
         if made is None or not names or "Node" not in [last_part(dotted(b)) for b in made.bases]:
             continue

@@ -17,7 +17,7 @@ from grader.mistakes.timer import cancel_in
 from grader.package.edit.tree import Replace
 from grader.package.source.imported import full_name
 from grader.package.source.module import Module
-from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.names import SPINS, calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.place import function_at, statement_at
 from grader.package.source.threads import own_threads
@@ -43,7 +43,7 @@ def _reaches_spin(source: NodeSource) -> bool:
     init = source.methods.get("__init__")
     joins = source.calls_of("join", within=init) if init is not None else []
     waits = [join for join in joins if not join.args and not join.keywords]
-    return bool(source.calls_of("spin", "spin_once", "spin_until_future_complete")) and not waits
+    return bool(source.calls_of(*SPINS)) and not waits
 
 
 def _thread_alone(suspect: Suspect) -> RecognisedMistake | None:
@@ -101,8 +101,8 @@ def _asyncio(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
             elsewhere = set(ast.walk(function)) - set(ast.walk(statement))
             if not variant and any(isinstance(n, ast.Await) for n in elsewhere):
                 variant = "kept"
-            stop = cancel_in(raised.source, function)
-            if variant == "loop" and stop is not None:
+            stop = cancel_in(raised.source, function) if variant == "loop" else None
+            if stop is not None:
                 words |= {"code": shown(ast.unparse(stop)), "line": stop.lineno}
                 variant = "loop_cancelled"
             return replace(found, variant=variant, words=words)

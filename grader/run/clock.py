@@ -81,7 +81,8 @@ class VirtualClock:
         """Watch `more_ticks` beyond the announced ones, the last not before `stay_until`.
 
         A period has `grid` steps where the clock goes in `fine` steps, as it does before the last
-        `fine_ticks` in any case, and where a period is measured. With `real_time` ROS time runs in `fine` steps and as fast as the wall clock.
+        `fine_ticks` in any case, and where a period is measured. With `real_time` ROS time runs in
+        `fine` steps and as fast as the wall clock.
         """
         self._fine = fine or real_time
         self._real_time = real_time
@@ -161,7 +162,7 @@ class VirtualClock:
                 lap = None
                 if not self._stay(watch):
                     return False
-            early = self._go_to(due - MILLISECOND, fine=self._fine or k >= self._fine_from)
+            early = self._go_to(due - MILLISECOND, fine=k >= self._fine_from)
             if lap is not None:
                 watch.held.append(lap.own_seconds())
             lap = None if self._fine else Lap(self._pids)
@@ -210,13 +211,13 @@ class VirtualClock:
         node = observer.terminal.processes()
         return {*node, *observer.probe.pipe.processes(), os.getpid()} if node else set()
 
-    def _go_to(self, at: int, *, fine: bool | None = None) -> list[Event]:
+    def _go_to(self, at: int, *, fine: bool = False) -> list[Event]:
         """Set the clock to an instant, in one step or, if `fine`, in many.
 
         A node with faster timers loses some of their ticks when the clock jumps.
         """
         events: list[Event] = []
-        if self._fine if fine is None else fine:
+        if self._fine or fine:
             step = self._grid_step
             for between in range(self._at - self._at % step + step, at, step):
                 if not self._over():

@@ -15,10 +15,10 @@ from grader.course.assignment import Assignment
 from grader.course.scenario import RunPlan
 from grader.package.source.command_line import reads_command_line
 from grader.package.source.ends_after import counts_to, ends_after
-from grader.package.source.fastest_timer import fastest_timer, knows_all_periods
 from grader.package.source.real_time import reads_real_time
 from grader.package.source.remarks import Remark, remarks_on
 from grader.package.source.ros_time import waits_for_ros_time
+from grader.package.source.timer_periods import TimerPeriods, timer_periods
 from grader.package.submission import Submission
 from grader.run.clock import GRID
 from grader.run.conduct import conduct
@@ -72,8 +72,7 @@ class Session:
         self._reads_real_time = False
         self._reads_command_line = False
         self._waits_for_ros_time = False
-        self._fastest: float | None = None  # period of a timer
-        self._fine_ticks = 0
+        self._periods = TimerPeriods()
         self._unforeseen = Unforeseen(more_ticks=0, stay_seconds=0, draw=1)
         self._built = b""  # the workspace after the build, for a plain run or another scenario
         self._planned = False  # whether a run of a scenario was made
@@ -103,8 +102,7 @@ class Session:
         self._reads_real_time = reads_real_time(submission.files)
         self._reads_command_line = reads_command_line(submission.files)
         self._waits_for_ros_time = waits_for_ros_time(submission.files)
-        self._fastest = fastest_timer(submission.files)
-        self._fine_ticks = 0 if knows_all_periods(submission.files) else FINE_TICKS
+        self._periods = timer_periods(submission.files)
         could_end = any(remark.kind in ("ends", "hides") for remark in self._remarks)
         self._unforeseen = unforeseen(
             submission.sha256,
@@ -207,7 +205,7 @@ class Session:
             named,
             fine=fine,
             grid=self._grid,
-            fine_ticks=self._fine_ticks,
+            fine_ticks=0 if self._periods.are_known else FINE_TICKS,
             real_time=real_time,
             plain=plain,
             more_ticks=self._unforeseen.more_ticks,
@@ -245,7 +243,8 @@ class Session:
     @property
     def _has_faster_timer(self) -> bool:
         """Whether a timer of the node is faster than the lines."""
-        return self._fastest is not None and self._fastest < self.assignment.output.period
+        fastest = self._periods.fastest
+        return fastest is not None and fastest < self.assignment.output.period
 
     @property
     def _grid(self) -> float:
@@ -254,9 +253,10 @@ class Session:
         A timer fires once in a step, however long that is; the fastest steps are of 1 ms.
         """
         period = self.assignment.output.period
-        if self._fastest is None or self._fastest >= period / GRID:
+        fastest = self._periods.fastest
+        if fastest is None or fastest >= period / GRID:
             return GRID
-        return min(period / self._fastest, period * FASTEST)
+        return min(period / fastest, period * FASTEST)
 
     def _stands_still(self, run: Run) -> bool:
         """Whether a node never answered, still runs, and has at most one line of a count.

@@ -11,42 +11,19 @@ from grader.report.model import Where
 NEARLY, WHOLE = 8, 9
 """How far a node gets that counts, and that counts in the right period without a sleep."""
 FAR = 2  # lines, from which a change is of another place
+BY_RULE = (
+    *("kept", "asked_for", "yields", "returned", "falsy", "inexact", "unit", "field"),
+    *("bits", "power", "copied", "end_of_list", "digits"),
+)
+"""The sorts of changes for each of which one rule of Python is the reason."""
 OWN_REASON = (
     *("emptied", "moved_lines", "renamed", "out", "condition", "loop", "with", "else"),
-    *(
-        "once",
-        "once_init",
-        "kept",
-        "asked_for",
-        "yields",
-        "returned",
-        "falsy",
-        "inexact",
-        "unit",
-        "field",
-        "bits",
-        "power",
-        "copied",
-        "end_of_list",
-        "digits",
-        "word",
-    ),
+    *("once", "once_init", "word", *BY_RULE),
 )
 """The sorts of changes that only their own reason explains."""
 CERTAIN = (
-    *("called", "not_called", "argument", "kept", "asked_for"),
-    *("yields", "returned", "falsy", "inexact", "unkept", "gives_itself"),
-    *(
-        "given_back",
-        "unit",
-        "field",
-        "before_spin",
-        "bits",
-        "power",
-        "copied",
-        "end_of_list",
-        "digits",
-    ),
+    *("called", "not_called", "argument", "unkept", "gives_itself", "given_back", "before_spin"),
+    *BY_RULE,
 )
 """The sorts of changes that hardly help by chance: a rule of Python is their reason."""
 CAUTIOUS = ("deleted", "emptied", "loop", "condition", "word")

@@ -52,6 +52,7 @@ CAUSED_ELSEWHERE = ("node.text_not_a_number", "node.severity_changed")
 MEASURED = "node.measures_time"
 REWRITTEN = (MEASURED, "node.period_tiny", "node.log_if", "node.return_early")
 """The mistakes whose fix writes the program in another way: a certain change of it comes first."""
+FURTHER = say("The change also corrects what would fail next.")
 SLIGHT = 2
 """The highest cost of a change of a mistake's own line that a certain change elsewhere does not replace."""
 EVERYWHERE = {*keyword.kwlist, "self", "rclpy", "node", "Node", "main", "init", "info"}
@@ -67,17 +68,13 @@ def with_tried_fix(result: CheckResult, evidence: Evidence, translate: Translato
     if found.consequence_of or not found.id.startswith(RUNS):
         return found
     rewritten = root is not None and root.id in REWRITTEN
-    if found.patch and (rewritten or _needs_more(found, result)):
+    if found.patch and (rewritten or _needs_more(found, translate)):
+        measured = root if root is not None and root.id == MEASURED else None
         sure = [
             one
             for one in _found_changes(evidence)
             if one.is_certain
-            or (
-                root is not None
-                and root.id == MEASURED
-                and one.cost <= SLIGHT
-                and _fits(one, found, root)
-            )
+            or (measured is not None and one.cost <= SLIGHT and _fits(one, found, measured))
         ]
         return _with_first(sure, result, evidence, translate, replaces=True) or found
     if found.patch:
@@ -85,9 +82,9 @@ def with_tried_fix(result: CheckResult, evidence: Evidence, translate: Translato
     return _with_small_change(found, evidence, translate) or found
 
 
-def _needs_more(found: CheckResult, result: CheckResult) -> bool:
+def _needs_more(found: CheckResult, translate: Translator) -> bool:
     """Whether the usual fix of what was only seen helps only together with further fixes."""
-    return _root(found) is None and len(found.advice) > len(result.advice)
+    return _root(found) is None and translate(FURTHER) in found.advice
 
 
 def _with_small_change(
@@ -259,7 +256,7 @@ def _with_change(
     """Return a result with its fix, and with those that the check needs after it, if that is known."""
     patch, rest = patch_text(old, whole), []
     if whole is not new and not result.consequence_of:
-        rest = [translate(say("The change also corrects what would fail next."))]
+        rest = [translate(FURTHER)]
     return result.model_copy(update={"patch": patch, "advice": [*result.advice, *rest]})
 
 

@@ -12,7 +12,7 @@ import pytest
 from grader.base.i18n.translator import Translator
 from grader.base.unheard import unheard
 from grader.package.submission import Submission
-from grader.report.model import CheckResult, Where
+from grader.report.model import CheckResult, Report, Where
 from grader.run.session import Session
 from grader.run.variants import KILLED, ShortRun, Watched, run_variants
 from grader.sandbox.choose import open_sandbox
@@ -304,6 +304,13 @@ def package_with(node: str, folder: Path) -> Path:
     return root
 
 
+def searched(root: Path, kept: list[Judged] | None = None) -> Report:
+    """Return the report of a real verdict that looks for changes; `kept` gets what was judged."""
+    order = replace(marking.order(root), tries_fixes=True)
+    keep = kept.append if kept is not None else None
+    return mark(marking.taken_in(root), order, unheard, keep=keep)
+
+
 MASKED = LATE.replace("        node.begin()\n", "").replace(
     "self.counter_ += 1", "self.counter_ = (self.counter_ + 1) & 7"
 )
@@ -314,8 +321,7 @@ MASKED = MASKED.replace("= 0\n", "= 0\n        self.begin()\n")
 def test_the_change_of_a_real_verdict_lets_the_package_pass(tmp_path: Path) -> None:
     root = package_with(MASKED, tmp_path)
     kept: list[Judged] = []
-    order = replace(marking.order(root), tries_fixes=True)
-    report = mark(marking.taken_in(root), order, unheard, keep=kept.append)
+    report = searched(root, kept)
     check = next(check for check in report.checks if check.status == "failed")
     assert ids(check)[0] == "node.small_change"
     again = replay(kept[0].recording, kept[0].submission, marking.ASSIGNMENT)
@@ -383,8 +389,7 @@ WAITS = (
 @pytest.mark.full
 def test_a_change_that_only_skips_a_loop_is_not_told(tmp_path: Path) -> None:
     root = package_with(WAITS, tmp_path)
-    order = replace(marking.order(root), tries_fixes=True)
-    report = mark(marking.taken_in(root), order, unheard)
+    report = searched(root)
     check = next(check for check in report.checks if check.status == "failed")
     assert check.where is not None
     assert "instead of" not in check.fix
@@ -412,8 +417,7 @@ BITWISE = (
 def test_a_condition_is_corrected_after_which_its_block_still_runs(tmp_path: Path) -> None:
     """The calls 2, 4, … of the timer log: a clock that jumps from second to second sees no fault."""
     root = package_with(BITWISE, tmp_path)
-    order = replace(marking.order(root), tries_fixes=True)
-    report = mark(marking.taken_in(root), order, unheard)
+    report = searched(root)
     (check,) = [check for check in report.checks if check.status == "failed"]
     assert check.id == "run.period"
     assert "work on the bits of a number" in check.rationale

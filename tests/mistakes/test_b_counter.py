@@ -13,15 +13,9 @@ from grader.report.model import Where
 from tests.marking import ASSIGNMENT
 from tests.mistakes.other_forms import LOG, RIGHT, START, STEP, TIMER, changed
 from tests.mistakes.test_from_source import FILE, line_of, look, node_in, raised
+from tests.mistakes.test_spun_and_ended import texts
 
 INT_AND_STR = "TypeError: unsupported operand type(s) for +=: 'int' and 'str'"
-
-
-def texts(found: RecognisedMistake | None) -> tuple[str, str]:
-    """Return the reason and the fix."""
-    assert found is not None
-    kind, words = CATALOGUE[found.kind], {**found.params, **found.words}
-    return str(kind.rationale(words, found.variant)), str(kind.fix_text(words, found.variant))
 
 
 def kind_at(error: str, text: str, part: str) -> str:

@@ -6,6 +6,7 @@ import pytest
 
 from grader.mistakes.recognise import behind_symptom
 from grader.mistakes.recognised import RecognisedMistake, Suspect
+from grader.package.source.threads import own_threads
 from tests.marking import ASSIGNMENT
 from tests.mistakes.other_forms import RIGHT, TIMER, changed
 from tests.mistakes.test_from_source import line_of, look, node_in, raised
@@ -414,3 +415,12 @@ def test_an_import_under_the_guard_moves_with_the_line_that_needs_it(
     line = line_of(text, "self.counter_ = START")
     fix = texts(raised("NameError: name 'START' is not defined", text, line))[1]
     assert ("the lines of that block that it needs" in fix) is moves
+
+
+@pytest.mark.parametrize("daemon", ["t.daemon = True", "t.setDaemon(True)", "pass"])
+@pytest.mark.parametrize("given", ["target=self.run", "None, self.run"])
+def test_a_thread_with_a_loop_is_seen_in_each_form(given: str, daemon: str) -> None:
+    start = f"        t = Thread({given})\n        {daemon}\n        t.start()\n"
+    text = changed(RIGHT, THREADING, RUNS, (NO_TIMER[0], start))
+    (thread,) = own_threads(node_in(text))
+    assert thread.daemon is (daemon != "pass")

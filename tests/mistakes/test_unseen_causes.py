@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.recognise import behind_error, behind_symptom
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.source.node import NodeSource, read_node
@@ -12,6 +11,7 @@ from grader.report.model import Where
 from grader.verdict.checks.timing import told_of_period
 from tests.marking import ASSIGNMENT
 from tests.mistakes.other_forms import RIGHT, TIMER, changed
+from tests.mistakes.test_spun_and_ended import texts
 
 FOLDER = "my_robot_controller"
 NODE = f"{FOLDER}/my_first_node.py"
@@ -42,11 +42,6 @@ def at_error(error: str, text: str, code: str, **others: str) -> RecognisedMista
 
 def named(found: RecognisedMistake | None) -> str:
     return "" if found is None else f"{found.kind}/{found.variant}"
-
-
-def fix(found: RecognisedMistake | None) -> str:
-    assert found is not None
-    return str(CATALOGUE[found.kind].fix_text({**found.params, **found.words}, found.variant))
 
 
 def test_a_base_in_another_file_ends_the_chain_of_init() -> None:
@@ -80,7 +75,7 @@ def test_use_sim_time_is_taken_out_of_the_names_that_a_loop_declares() -> None:
     found = at_error(error, text, "self.declare_parameter(name")
     assert named(found) == "node.declared_twice/each_listed"
     row = next(n for n, line in enumerate(text.split("\n"), 1) if "'use_sim_time'" in line)
-    assert fix(found).endswith(f"delete it in line {row}.")
+    assert texts(found)[1].endswith(f"delete it in line {row}.")
     other = error.replace("use_sim_time", "speed")
     assert (
         named(at_error(other, text, "self.declare_parameter(name"))
@@ -146,7 +141,7 @@ def test_a_global_of_another_method_than_init_becomes_an_attribute() -> None:
     ).replace("self.counter_", "counter_")
     found = at_error("NameError: name 'counter_' is not defined", text, "get_logger")
     assert named(found) == "node.name_local/global_attribute"
-    assert "delete global counter_" in fix(found)
+    assert "delete global counter_" in texts(found)[1]
 
 
 def test_a_method_of_the_base_that_makes_the_timer_is_called_twice() -> None:
@@ -159,4 +154,4 @@ def test_a_method_of_the_base_that_makes_the_timer_is_called_twice() -> None:
     found = look("run.twice", text)
     assert named(found) == "node.two_timers/called_line"
     first = text.split("\n").index("        self.start()") + 1
-    assert fix(found) == f"Delete this line: line {first} calls start."
+    assert texts(found)[1] == f"Delete this line: line {first} calls start."

@@ -12,7 +12,7 @@ from grader.package.source.module import Function, Module
 from grader.package.source.names import called_name, dotted, parameters_of
 from grader.package.source.node import LOG_METHODS, NodeSource
 from grader.package.source.place import first_row, owns_lines
-from grader.package.source.small_values import BUILTINS, Found, Goal, Sort, is_name
+from grader.package.source.small_values import BUILTINS, Found, Goal, Sort, imported, is_name
 
 LAZY = ("map", "filter", "zip", "iter", "enumerate", "range", "reversed")
 """Builtins that make an object which is used up."""
@@ -179,16 +179,14 @@ def _copied(module: Module, source: NodeSource, goal: Goal) -> Found:
     """Yield copies of the objects that an assignment, or an append, gives a second name."""
     del source, goal
     text = module.text
-    imports = [s for s in module.tree.body if isinstance(s, ast.Import | ast.ImportFrom)]
-    imports = [s for s in imports if getattr(s, "module", "") != "__future__"]
-    for node in module.nodes if imports else ():
+    line = imported(module, "import copy")
+    for node in module.nodes:
         call = node.value if isinstance(node, ast.Expr) else None
         value = node.value if isinstance(node, ast.Assign) else None
         if isinstance(call, ast.Call) and called_name(call) == "append" and len(call.args) == 1:
             value = call.args[0]
-        if value is not None and is_name(value):
+        if value is not None and is_name(value) and line is not None:
             new = f"copy.copy({text.code(value)})"
-            line = text.before(imports[0].lineno, "import copy")
             splices = (line, text.swap(value, new))
             yield 3, Change("copied", value, text.code(value), new, splices)
 

@@ -14,6 +14,12 @@ from grader.package.source.small_values import Found, Goal, Sort, between
 
 DIGITS = 6
 """The digits after the point to which a sum of floats is rounded."""
+BITWISE = (
+    ("bits", ast.BitAnd, "and"),
+    ("bits", ast.BitOr, "or"),
+    ("power", ast.BitXor, "**"),
+)
+"""The operators that work on bits, and what beginners mean by them, by the sort of the change."""
 REACHED = (ast.Eq, ast.GtE, ast.Gt, ast.NotEq, ast.LtE, ast.Lt)
 
 
@@ -113,10 +119,4 @@ def _bits(module: Module, source: NodeSource, goal: Goal) -> Found:
                     yield 1, replace(between(module, node, node.left, node.right, sign), sort=sort)
 
 
-BITWISE = (
-    ("bits", ast.BitAnd, "and"),
-    ("bits", ast.BitOr, "or"),
-    ("power", ast.BitXor, "**"),
-)
-"""Sorts of changes: the operators that work on bits, and what beginners mean by them."""
 SORTS: tuple[Sort, ...] = (_falsy, _inexact, _whole, _bits)

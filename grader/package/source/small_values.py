@@ -19,7 +19,8 @@ SHOWN = ("info", "warn", "warning", "error", "fatal")
 HIDDEN = ("debug", "DEBUG")
 OF_C = re.compile(r"%(?:z|l|ll|h)?[ud](?<!%d)")
 """Formats of a number that printf has and Python does not."""
-DIGITS = re.compile(r"-?\d{1,9}(?:\.\d{1,9})?")
+NUMBER = re.compile(r"-?\d{1,9}(?:\.\d{1,9})?")
+"""A text that is a number."""
 FIELDS = ("integer_value", "double_value", "string_value", "bool_value")
 """The fields of a ParameterValue: one has the value, and the others are 0, empty or false."""
 TYPES = ("INTEGER", "DOUBLE", "STRING", "BOOL")
@@ -101,7 +102,7 @@ def _numbers(module: Module, source: NodeSource, goal: Goal) -> Found:
 def _other_words(module: Module, node: ast.Constant, value: str) -> Found:
     """Yield numbers, levels and names in the place of a text that is one."""
     around = module.parents.get(node)
-    if DIGITS.fullmatch(value):
+    if NUMBER.fullmatch(value):
         yield 1, of_piece(module, "digits", node, value)
     elif value in HIDDEN:
         yield 2, of_piece(module, "value", node, repr(SHOWN[0]))
@@ -287,14 +288,19 @@ def _bases(module: Module, source: NodeSource, goal: Goal) -> Found:
     """Yield the classes with rclpy's Node as their base, and its import."""
     del source, goal
     text = module.text
-    imports = [s for s in module.tree.body if isinstance(s, ast.Import | ast.ImportFrom)]
+    line = imported(module, "from rclpy.node import Node")
     for found in module.classes:
-        for base in found.bases if imports else ():
-            if text.code(base) == "Node":
-                continue
-            line = text.before(imports[0].lineno, "from rclpy.node import Node")
-            splices = (line, text.swap(base, "Node"))
-            yield 4, Change("base", base, text.code(base), "Node", splices)
+        for base in found.bases if line is not None else ():
+            if text.code(base) != "Node" and line is not None:
+                splices = (line, text.swap(base, "Node"))
+                yield 4, Change("base", base, text.code(base), "Node", splices)
+
+
+def imported(module: Module, row: str) -> Splice | None:
+    """Return the splice that puts an import above the first one; None if a file has none."""
+    imports = [s for s in module.tree.body if isinstance(s, ast.Import | ast.ImportFrom)]
+    first = [s.lineno for s in imports if getattr(s, "module", "") != "__future__"]
+    return module.text.before(first[0], row) if first else None
 
 
 def between(module: Module, whole: ast.expr, left: ast.expr, right: ast.expr, sign: str) -> Change:

@@ -8,10 +8,7 @@ from dataclasses import dataclass
 from grader.package.source.module import Function
 from grader.package.source.names import SPINS, calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
-from grader.package.source.threads import variables_of
-
-PLACES = {"target": 1, "args": 3}
-"""The places of the arguments of Thread that are given without their names."""
+from grader.package.source.threads import argument, is_daemon, variables_of
 
 
 @dataclass(frozen=True)
@@ -75,36 +72,11 @@ def lines_of(source: NodeSource, thread: ast.Call) -> set[int]:
     return {thread.lineno, *(use.lineno for use in uses)}
 
 
-def argument(call: ast.Call, name: str) -> ast.expr | None:
-    """Return an argument of Thread, given by its name or by its place."""
-    for word in call.keywords:
-        if word.arg == name:
-            return word.value
-    place = PLACES[name]
-    starred = any(isinstance(given, ast.Starred) for given in call.args)
-    return call.args[place] if len(call.args) > place and not starred else None
-
-
 def function_named(source: NodeSource, target: ast.expr) -> Function | None:
     """Return the only function or method of the files that a thread runs."""
     name = last_part(dotted(target))
     named = [n for n in source.all_nodes if isinstance(n, Function) and n.name == name]
     return named[0] if len(named) == 1 else None
-
-
-def is_daemon(source: NodeSource, call: ast.Call) -> bool:
-    """Whether a thread is a daemon: made as one, or set to be one later."""
-    if any(word.arg == "daemon" and _is_true(word.value) for word in call.keywords):
-        return True
-    names = variables_of(source, call)
-    set_true = {
-        dotted(target)
-        for node in source.all_nodes
-        if isinstance(node, ast.Assign) and _is_true(node.value)
-        for target in node.targets
-    }
-    called = {name for made, name in source.calls if made.args and _is_true(made.args[0])}
-    return any(f"{name}.daemon" in set_true or f"{name}.setDaemon" in called for name in names)
 
 
 def _spins(target: ast.expr) -> bool:
@@ -117,7 +89,3 @@ def _spins(target: ast.expr) -> bool:
 
 def _calls_spin(part: ast.AST) -> bool:
     return any(last_part(name) in SPINS for _, name in calls_in(part))
-
-
-def _is_true(value: ast.expr) -> bool:
-    return isinstance(value, ast.Constant) and value.value is True

@@ -16,10 +16,11 @@ from grader.mistakes.slips import description, words_of
 from grader.package.edit.text import read_source
 from grader.package.source.broken_python import Slip
 from grader.package.source.documents import code_cells, document_of
-from grader.package.source.module import parse_module
 from grader.package.source.names import misnamed_init, module_name
 from grader.package.source.newer_python import SINCE, first_difference, with_older_quotes
+from grader.package.source.node_modules import node_modules
 from grader.package.source.numbers_above import numbers_above
+from grader.package.source.own_imports import imports_of
 from grader.package.source.pasted import WHOLE_LINES, Pasted, pasted_in
 from grader.package.source.python import SHEBANG, PythonFault, has_no_code, parse_python
 from grader.package.source.setup_scripts import scripts_line
@@ -101,18 +102,16 @@ def node_file(evidence: Evidence) -> Passed:
 
 def _hidden_by_folder(evidence: Evidence, path: str, folder: str) -> Failed:
     """Return the failure of a node's file beside a folder with its name, from which code may import."""
-    name = module_name(path)
-    words = {"path": path, "folder": folder, "other": f"{name.rpartition('.')[2]}_parts"}
-    uses: list[str] = []
-    for file in evidence.submission.files:
-        if file.path.endswith(".py") and not file.path.startswith(f"{folder}/"):
-            try:
-                module = parse_module(file.path, file.data)
-            except (PythonFault, RecursionError, MemoryError):
-                continue
-            imports = [n for n in module.nodes if isinstance(n, ast.Import | ast.ImportFrom)]
-            lines = sorted({n.lineno for n in imports if _imports_from(n, name)})
-            uses += [f"{file.path}:{line}" for line in lines]
+    words = {"path": path, "folder": folder, "other": f"{folder.rpartition('/')[2]}_parts"}
+    inside = {f.path for f in evidence.submission.files if f.path.startswith(f"{folder}/")}
+    inside -= {f"{folder}/__init__.py"}  # (its name is that of the node's file too)
+    uses = [
+        f"{module.path}:{node.lineno}"
+        for module in node_modules(evidence.submission.files)
+        for node in module.nodes
+        if isinstance(node, ast.stmt) and not module.path.startswith(f"{folder}/")
+        if any(inside & {*found.paths} for found in imports_of(node, module.path))
+    ]
     return Failed(
         "source.hidden_by_folder",
         expected=say("a file {path} that Python imports", path=path),
@@ -121,16 +120,6 @@ def _hidden_by_folder(evidence: Evidence, path: str, folder: str) -> Failed:
         variant="imported" if uses else "",
         words={**words, "lines": ", ".join(uses[:MOST_ADVICE])},
     )
-
-
-def _imports_from(node: ast.Import | ast.ImportFrom, package: str) -> bool:
-    """Whether a statement imports a module of a package, by its whole name or a relative one."""
-    if isinstance(node, ast.Import):
-        return any(alias.name.startswith(f"{package}.") for alias in node.names)
-    if not node.module:
-        return False
-    full = node.module if not node.level else f"{package.rpartition('.')[0]}.{node.module}"
-    return full.startswith(f"{package}.")
 
 
 def _older_python(path: str, text: str) -> None:

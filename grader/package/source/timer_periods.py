@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import operator
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 
 from grader.package.intake.model import SourceFile
 from grader.package.source.counter import targets_of
@@ -22,20 +23,26 @@ OPERATORS: Mapping[type[ast.operator], Callable[[float, float], float]] = {
 }
 
 
-def fastest_timer(files: Sequence[SourceFile]) -> float | None:
-    """Return the shortest period (s, above 0) of a timer; None if no period is known."""
-    known = (seconds for seconds in _periods(files) if seconds is not None and seconds > 0)
-    return min(known, default=None)
+@dataclass(frozen=True)
+class TimerPeriods:
+    """The period (s) of each timer; None where the source does not say it."""
+
+    seconds: tuple[float | None, ...] = ()
+
+    @property
+    def fastest(self) -> float | None:
+        """The shortest period above 0; None if no period is known."""
+        known = (seconds for seconds in self.seconds if seconds is not None and seconds > 0)
+        return min(known, default=None)
+
+    @property
+    def are_known(self) -> bool:
+        """Whether there is a timer, and the period of each is known."""
+        return bool(self.seconds) and None not in self.seconds
 
 
-def knows_all_periods(files: Sequence[SourceFile]) -> bool:
-    """Whether the source has a timer, and says the period of each of its timers."""
-    periods = _periods(files)
-    return bool(periods) and None not in periods
-
-
-def _periods(files: Sequence[SourceFile]) -> list[float | None]:
-    """Return the period (s) of each timer; None if it is not known.
+def timer_periods(files: Sequence[SourceFile]) -> TimerPeriods:
+    """Return the periods of the timers in the files.
 
     A name stands for its value if the package sets it once. Files that cannot be read count as none.
     """
@@ -54,7 +61,7 @@ def _periods(files: Sequence[SourceFile]) -> list[float | None]:
         return None if value is None else _number(value, values, MOST_STEPS)
 
     hertz = [number(rate) for rate in rates]
-    return [number(period) for period in timers] + [1 / rate if rate else None for rate in hertz]
+    return TimerPeriods((*map(number, timers), *(1 / rate if rate else None for rate in hertz)))
 
 
 def _frequency_of(call: ast.Call) -> ast.expr | None:
