@@ -194,7 +194,7 @@ POINTS_ATTACKS: tuple[Package, ...] = (
     hostile("erases_its_lines",
             Replace(NODE, f"        {STEP}\n",
                     f"        {STEP}\n        print('\\x1b[1A\\x1b[2K', end='', flush=True)\n"),
-            failed={"run.output": "run.erased"}, skipped=TICKS),
+            failed={"run.output": "node.clears_terminal"}, skipped=TICKS),
     hostile("records_of_ten_megabytes", imports("threading"),
             made("    def flood():\n        while True:\n"
                   "            node.get_logger().info('x' * 10_000_000)\n\n"

@@ -14,6 +14,7 @@ from grader.package.source.module import Function, Module, is_text
 from grader.package.source.names import calls_in, dotted, last_part, own_name
 from grader.package.source.node import LOG_METHODS, NodeSource
 from grader.package.source.place import block_of, function_at
+from grader.package.source.scopes import scope_of
 
 QUICK = ("print", "str", "format", "ok", "int", "get_logger", "get_logger()", *LOG_METHODS)
 """What a loop may call that does not wait."""
@@ -176,6 +177,8 @@ def printing_loop(source: NodeSource) -> ast.While | None:
     for loop in ast.walk(source.main) if source.main is not None else ():
         if not isinstance(loop, ast.While) or not goes_on(loop) or not prints_in(source, loop):
             continue
+        if scope_of(source.module_of(loop), loop) is not source.main:
+            continue  # (a thread may run a function inside)
         quick = all(_is_quick(source, name) for _, name in calls_in(loop))
         ends = any(isinstance(n, ast.Raise | ast.Await | ast.Try) for n in ast.walk(loop))
         if quick and not ends:
