@@ -856,7 +856,7 @@ KINDS = (
         ),
         msg(
             "colcon runs setup.py to install the package into the workspace's install folder, "
-            "the only place where ros2 run looks. It must reach the call of setup(): a "
+            "where ros2 run looks for it. It must reach the call of setup(): a "
             "sys.exit() before or in that call ends it without a message."
         ),
         fixes={
@@ -907,7 +907,7 @@ KINDS = (
         whys={
             "function": msg(
                 "colcon runs setup.py to install the package into the workspace's install folder, "
-                "the only place where ros2 run looks. The lines of a function run only if it is "
+                "where ros2 run looks for it. The lines of a function run only if it is "
                 "called."
             ),
             "named": msg(
@@ -1055,7 +1055,7 @@ KINDS = (
         ),
         msg(
             "colcon runs setup.py to install the package into the workspace's install folder, "
-            "the only place where ros2 run looks. A setup.py that loops or waits never "
+            "where ros2 run looks for it. A setup.py that loops or waits never "
             "finishes."
         ),
         fixes={

@@ -11,7 +11,7 @@ ENCODINGS = {
         "In VS Code, click the encoding (UTF-8) at the bottom right. Choose 'Reopen with "
         "Encoding' first, and the encoding in which the text is readable, such as 'Western "
         "(Windows 1252)' or 'Korean (EUC-KR)'. Then click it again, and choose 'Save with "
-        "Encoding' and 'UTF-8'. If you save before you reopen, the text is lost."
+        "Encoding' and 'UTF-8'. If you save before you reopen, these letters are lost."
     ),
     "declared": msg(
         "The file is UTF-8, but line {line} declares the encoding {found}. Delete that line: "
@@ -21,7 +21,7 @@ ENCODINGS = {
         "In VS Code, click the encoding (UTF-8) at the bottom right. Choose 'Reopen with "
         "Encoding' first, and 'Korean (EUC-KR)': the text is readable again. Then click it "
         "again, and choose 'Save with Encoding' and 'UTF-8'. If you save before you "
-        "reopen, the text is lost. Korean text itself is fine in a UTF-8 file."
+        "reopen, these letters are lost. Korean text itself is fine in a UTF-8 file."
     ),
     "saved": msg(
         "Save the file as UTF-8. In VS Code: click the encoding at the bottom right, then "

@@ -674,6 +674,11 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.cleanup_in_loop": {"name": "node.destroy_node()", "line": "22", "loop": "while"},
     "node.class_ended": {"name": "tick", "function": "text_of", "line": "15"},
+    "node.not_reached": {"name": "self.ready", "log": "line 17", "place": "line 14"},
+    "node.several_timers": {
+        "count": 2,
+        "places": "line 12 (called from line 9); line 12 (called from line 15)",
+    },
     "node.small_change": {"name": "self.n & 7", "written": "self.n", "form": "if self.n:"},
     "node.any_change": {"name": "self.n = 1 - self.n", "written": "self.n += 1"},
     "node.environment": {"name": "os.environ['PERIOD']", "variable": "PERIOD"},

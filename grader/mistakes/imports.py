@@ -28,6 +28,8 @@ MODULES = (
 )
 OTHER_CLIENTS = ("rclcpp", "rospy", "roscpp", "ros2", "ros", "ros2py", "rclpy2")
 """Names under which beginners look for the Python client library: those of C++ and of ROS 1."""
+OF_WINDOWS = ("winsound", "msvcrt", "winreg", "nt")
+"""Modules that Python has on Windows only."""
 OTHER_PACKAGES = (
     *("turtlesim", "turtlesim_msgs", "nav_msgs", "tf2_ros", "tf2_msgs", "visualization_msgs"),
     *("trajectory_msgs", "shape_msgs", "stereo_msgs", "diagnostic_msgs", "example_interfaces"),
@@ -160,9 +162,13 @@ def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         close = ""
     if head in OTHER_CLIENTS:
         close = "" if unused and raised.source.uses_ros else f"rclpy{dot}{tail}"
+    if head in OF_WINDOWS:
+        close = ""
     found = raised.finding("import_misspelt", name=name, close=close)
     if head in (*OTHER_PACKAGES, *LIBRARIES) and not unused:
         return replace(found, variant="not_installed")
+    if head in OF_WINDOWS:
+        return replace(found, variant="windows")
     return replace(found, variant="unused") if unused and not close else found
 
 
@@ -690,16 +696,21 @@ KINDS = (
                 "Write the node without {name}: the exercise does not need it. Delete this line, and replace "
                 "what uses {name} in other lines."
             ),
+            "windows": msg("Delete this line, and what uses {name} in other lines."),
             "class": msg(
                 "Write: {written}. After a plain import, only modules can be named; a class comes "
                 "after from … import."
             ),
         },
         whys={
+            "windows": msg(
+                "Python has {name} on Windows only. Python ends the program at an import of a module that it "
+                "does not find."
+            ),
             "not_installed": msg(
                 "{name} is a package of its own, and it is not installed where this node was run. Python ends "
                 "the program at an import of a module that it does not find."
-            )
+            ),
         },
         seen=r"ModuleNotFoundError: No module named '(?P<name>(?!rclpy')\w{1,120})'",
         raised={r"No module named '(?P<name>[\w.]{1,200})'": _no_module},

@@ -723,7 +723,7 @@ KINDS = (
     _node(
         "counts_elsewhere",
         "counter",
-        msg("The counter is increased outside of the callback"),
+        msg("The counter is not increased where the line is logged"),
         msg("The timer calls {callback} once for each line. Code elsewhere runs at other times."),
         msg("Move the += into {callback}, below the line that logs."),
         whys={

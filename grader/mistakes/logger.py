@@ -536,7 +536,7 @@ KINDS = (
     _node(
         "logger_arguments",
         "logger",
-        msg("The logger gets more than one string"),
+        msg("The logger gets more than one value"),
         msg("info() takes one string. print() takes several with commas, the logger does not."),
         msg("Make one string of them: {sum}, or an f-string."),
         links.LOGGING,

@@ -34,8 +34,7 @@ NUMBER_ALONE = re.compile(r"(?:^|\]: )-?\d{1,20}\s*$", re.MULTILINE)
 FLOAT_STEP = msg("An integer and a number with a decimal point make one with a point.")
 FLOAT_START = msg("{form} is a number with a decimal point, so each sum with it is one too.")
 OTHER_FORM = msg(
-    "{form} sets the form in which the number is written. Without it, Python writes the plain "
-    "integer."
+    "{form} sets the form in which the number is written, and the line has to have the plain integer."
 )
 ONE_PIECE = INSTEAD
 MORE_PIECES = msg("Write {written} instead of {name}. Write also: {others}.")

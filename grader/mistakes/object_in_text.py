@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import NODE, example
+from grader.mistakes.example import LOG_LINE, NODE, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
@@ -28,6 +28,10 @@ SHOWN = re.compile(r"(?<!\w)(?P<name>[A-Z]\w{0,100})\((?P<field>\w{1,100})=[^,()
 WITH_ARGUMENTS = re.compile(r"(?<!\w)(?P<name>[A-Z]\w{0,100})\(.{0,200}\)")
 MEMBER = re.compile(r"(?<![\w.])(?P<name>[A-Za-z_]\w{0,100})\.(?P<member>[A-Za-z_]\w{0,100})")
 OF_ITEMS = re.compile(r"(?<!\w)(?P<name>Counter|OrderedDict|defaultdict|deque|array)\([\[{<]")
+MESSAGE = re.compile(
+    r"(?<![\w.])[a-z]\w{0,60}\.msg\.(?P<name>[A-Z]\w{0,60})\((?P<field>\w{1,60})=[^(,]{0,100}\)"
+)
+LIST = re.compile(r"\[(['\"]).{0,200}\1.{0,200}\]")
 BYTES = re.compile(r"(?<!\w)b(['\"]).{0,200}\1")
 OTHER_NAMES = ("tostring", "string", "str")
 """The names that other languages give to the method that makes a text of an object, without _."""
@@ -54,11 +58,81 @@ def _shown_object(suspect: Suspect) -> RecognisedMistake | None:
             mistake = _told(suspect, found["name"], variant)
             words = {**mistake.words, "field": found.groupdict().get("field") or ""}
             return replace(mistake, words=words)
+    if (message := MESSAGE.search(text)) is not None:
+        return _message(suspect, message["name"], message["field"])
+    if LIST.search(text) and (parts := _list(suspect)) is not None:
+        return parts
     if (held := OF_ITEMS.search(text)) is not None:
         return _told(suspect, held["name"], "items")
     if re.search(r"(?<![\w.])count\(-?\d{1,20}(?:, -?\d{1,20})?\)", text):
         return _told(suspect, "count", "count")
     return _told(suspect, "bytes", "bytes") if BYTES.search(text) else None
+
+
+def _message(suspect: Suspect, name: str, field: str) -> RecognisedMistake:
+    """The text has a message: name its field, at the only variable of the line that has one."""
+    mistake = suspect.finding("object_in_text", suspect.place, name=name)
+    mistake = replace(mistake, words={**mistake.words, "field": field, "class": name})
+    made = {
+        target
+        for part in suspect.source.all_nodes
+        if isinstance(part, ast.stmt)
+        and isinstance(value := getattr(part, "value", None), ast.Call)
+        and last_part(dotted(value.func)) == name
+        for target in targets_of(part)
+    }
+    shown = [(code, part) for code, part in _used(suspect) if code in made]
+    if len(shown) != 1:
+        return replace(mistake, variant="message")
+    code, part = shown[0]
+    found = suspect.finding("object_in_text", part, name=code, written=f"{code}.{field}")
+    words = {**found.words, "field": field, "class": name}
+    return replace(found, words=words, variant="of_message")
+
+
+def _used(suspect: Suspect) -> list[tuple[str, ast.expr]]:
+    """Return the variables and attributes in the statement that logs, with their code."""
+    place = suspect.place
+    module = suspect.source.module_at(place.file if place is not None else "")
+    statement = statement_at(module, place.line if place is not None else None)
+    parts = [
+        n
+        for n in (ast.walk(statement) if statement is not None else ())
+        if isinstance(n, ast.Name | ast.Attribute) and dotted(n)
+    ]
+    inner = {p for n in parts for p in ast.walk(n) if p is not n}
+    return [(dotted(n), n) for n in parts if n not in inner]
+
+
+def _list(suspect: Suspect) -> RecognisedMistake | None:
+    """The text has a list of texts, which a variable of the line got in square brackets."""
+    for code, part in _used(suspect):
+        module = suspect.source.module_of(part)
+        function = suspect.source.function_around(part)
+        values = [
+            n.value
+            for n in (ast.walk(function) if function is not None else ())
+            if isinstance(n, ast.Assign) and code in targets_of(n)
+        ]
+        if len(values) == 1 and isinstance(values[0], ast.List) and _are_texts(values[0]):
+            around = module.parents.get(part)
+            call = isinstance(around, ast.Call) and dotted(around.func) == "str"
+            at = around if call and isinstance(around, ast.Call) else part
+            name = module.text.code(at)
+            found = suspect.finding("object_in_text", at, name=name, written=f"''.join({code})")
+            words = {**found.words, "line": str(values[0].lineno)}
+            return replace(found, words=words, variant="list")
+    return None
+
+
+def _are_texts(found: ast.List) -> bool:
+    """Whether all items of a list are texts for certain."""
+    return bool(found.elts) and all(
+        isinstance(item, ast.JoinedStr)
+        or (isinstance(item, ast.Constant) and isinstance(item.value, str))
+        or (isinstance(item, ast.Call) and dotted(item.func) == "str")
+        for item in found.elts
+    )
 
 
 def _parameter(suspect: Suspect) -> RecognisedMistake | None:
@@ -193,6 +267,17 @@ KINDS = (
                 "An object of the type {class} has items. A text shows the type and all items with it."
             ),
             "bytes": msg("b'…' is how Python shows bytes in a text. They are not a text."),
+            **dict.fromkeys(
+                ("message", "of_message"),
+                msg(
+                    "A message of the type {class} is no number: its value is in its field {field}. A text "
+                    "shows the type and the fields with it."
+                ),
+            ),
+            "list": msg(
+                "Square brackets make a list (line {line}). A text shows a list with its brackets, with "
+                "the commas, and with the quotes of its texts."
+            ),
             "count": msg(
                 "An object of itertools.count is not a number. next() returns its next number."
             ),
@@ -215,7 +300,12 @@ KINDS = (
             "function": msg(
                 "Log what {name} returns: write () behind the name, with the values that it needs."
             ),
-            "called": msg("Write {written} instead of {name}."),
+            **dict.fromkeys(("called", "of_message"), msg("Write {written} instead of {name}.")),
+            "message": msg("Log only the field {field}: write .{field} behind the message."),
+            "list": msg(
+                "Write {written} instead of {name}: it makes one text of the parts. Or add the parts with + "
+                "instead of putting them into a list."
+            ),
             "member": msg("Write {written} instead of {name}."),
             "items": msg(
                 "Log only the item that is the number: write its key or its index in [] behind the object."
@@ -263,6 +353,23 @@ KINDS = (
                 ),
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = Counter(time=0)"),
                 Replace(NODE, "self.counter_ += 1", "self.counter_['time'] += 1"),
+                fails="run.output",
+            ),
+            example(
+                "message_in_text",
+                Replace(NODE, "import rclpy\n", "import rclpy\nfrom std_msgs.msg import Int32\n"),
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = Int32()"),
+                Replace(NODE, "self.counter_ += 1", "self.counter_.data += 1"),
+                fails="run.output",
+            ),
+            example(
+                "list_in_text",
+                Replace(
+                    NODE,
+                    LOG_LINE,
+                    "        text = ['Hello time: ', str(self.counter_)]\n"
+                    "        self.get_logger().info(str(text))\n",
+                ),
                 fails="run.output",
             ),
             example(

@@ -194,10 +194,8 @@ KINDS = (
         title=msg("setup.cfg installs executables where ros2 run does not look"),
         why=OTHER_PLACE,
         whys={
-            **dict.fromkeys(
-                ("key", "heading", "joined", "section", "swapped", "one_line"), TWO_SECTIONS
-            ),
-            **dict.fromkeys(("misspelt", "line"), OTHER_KEY),
+            **dict.fromkeys(("key", "heading", "joined", "section", "one_line"), TWO_SECTIONS),
+            **dict.fromkeys(("misspelt", "line", "swapped"), OTHER_KEY),
             "indented": msg(
                 "In setup.cfg, a line that begins with a space continues the line above. So this "
                 "line, and those below it, belong to the value above, and begin no section."

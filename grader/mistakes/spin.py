@@ -897,8 +897,13 @@ KINDS = (
             "run.exits_at_once": _once_only,
             "run.never_spins": _never_again,
             "run.ended_early": _once,
-            "run.stops": _by_loop,
-            "run.by_hand": _by_loop,
+            **dict.fromkeys(
+                (
+                    *("run.stops", "run.by_hand", "run.twice", "run.wrong_period"),
+                    *("run.too_much_output", "run.wrong_start"),
+                ),
+                _by_loop,
+            ),
         },
         fixed_by=(lines.written, node_life.spin),
         examples=(
@@ -907,6 +912,17 @@ KINDS = (
                 Replace(NODE, "rclpy.spin(node)", "rclpy.spin_once(node)"),
                 fails="run.starts",
                 note="one line on the wall clock; none under use_sim_time, because the first message on /clock is the only callback that it runs",
+            ),
+            example(
+                "spin_once_and_callback_in_a_loop",
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n",
+                    "        while rclpy.ok():\n            rclpy.spin_once(node, timeout_sec=0.1)\n"
+                    "            node.timer_callback()\n",
+                ),
+                fails="run.spins",
+                also={"run.period": "node.spin_once"},
             ),
         ),
     ),

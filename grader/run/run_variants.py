@@ -6,10 +6,12 @@ input is one JSON object: `module` and `function` to call, and `variants`, each 
 modules by their names; `until` is in nanoseconds of ROS time, `lines` the most lines, `each` and
 `seconds` the most wall time for one variant and for all, `jobs` how many run at once. `watched` has
 null for each variant, or the `file`, `first` and `last` line of a statement, and pieces of `code`
-whose values are asked for. The output is a JSON line for each variant that was run: its index, the
-`lines` (instant, logger, text), how it `ended`, the number of `steps` that ROS time made, whether
-the code `slept`, and for each piece of code its first `values`. What it says is no proof: the
-student's code runs in the same process.
+whose values are asked for. `traced` has the files whose lines are followed, and `conditions` are
+watched in them as well. The output is a JSON line
+for each variant that was run: its index, the `lines` (instant, logger, text), how it `ended`, the
+number of `steps` that ROS time made, whether the code `slept`, for each piece of code its first
+`values`, and the `trace` (see Traced). What it says is no proof: the student's code runs in the same
+process.
 """
 
 from __future__ import annotations
@@ -17,6 +19,7 @@ from __future__ import annotations
 import ast
 import builtins
 import contextlib
+import functools
 import importlib
 import importlib.abc
 import importlib.util
@@ -37,6 +40,8 @@ SECOND = 10**9
 SHOWN = 20  # the level of info()
 LONGEST = 300  # characters of a line
 MOST_VALUES = 3
+MOST_WAITED = 50  # steps in which a timer is due, and is not called
+MOST_PLACES = 6  # of a call stack
 LONGEST_VALUE = 30
 CPU_SECONDS = 0.4
 """The most CPU time of a variant: a run of many periods takes a quarter of it."""
@@ -106,7 +111,8 @@ class Watched:
     """Takes the values that code has each time just before a statement runs."""
 
     def __init__(self, file: str, first: int, last: int, code: Sequence[str]) -> None:
-        self._file, self._lines, self._code = file, range(first, last + 1), code
+        self.file, self.first, self._code = file, first, code
+        self._lines = range(first, last + 1)
         self.values: list[list[str]] = [[] for _ in code]
 
     def install(self) -> None:
@@ -115,7 +121,7 @@ class Watched:
         sys.settrace(self._called)
 
     def _called(self, frame: FrameType, event: str, _: Any) -> Any:
-        if event != "call" or not frame.f_code.co_filename.endswith(self._file):
+        if event != "call" or not frame.f_code.co_filename.endswith(self.file):
             return None
         inside = False
 
@@ -124,13 +130,14 @@ class Watched:
             if event == "line":
                 here = frame.f_lineno in self._lines
                 if here and not inside:
-                    self._take(frame)
+                    self.take(frame)
                 inside = here
             return line
 
         return line
 
-    def _take(self, frame: FrameType) -> None:
+    def take(self, frame: FrameType) -> None:
+        """Take the values that the code has in a frame."""
         for code, values in zip(self._code, self.values):
             if len(values) < MOST_VALUES:
                 with contextlib.suppress(
@@ -143,14 +150,154 @@ class Watched:
                         values.append(repr(value))
 
 
+class Traced:
+    """Follows which lines of some files run, and what becomes of the timers.
+
+    A place is a file and a line; those of a call stack begin with the innermost one.
+    """
+
+    def __init__(self, files: Sequence[str], conditions: Sequence[Watched]) -> None:
+        self._files = files
+        self._conditions = conditions
+        self._by_line = {(each.file, each.first): each for each in conditions}
+        self._lines: dict[str, dict[int, int]] = {file: {} for file in files}
+        self._timers: list[dict[str, Any]] = []
+        self._numbers: dict[int, int] = {}  # of timers, by their id()
+        self._kept: list[Any] = []  # timers, so that no other object gets the id of one
+        self._spun: set[int] = set()
+        self._active = threading.local()
+        self._logged: list[tuple[list[tuple[str, int]], int]] = []
+
+    def _file(self, frame: FrameType) -> str:
+        name = frame.f_code.co_filename
+        return next((file for file in self._files if name.endswith(f"/{file}") or name == file), "")
+
+    def _places(self, frame: FrameType | None) -> list[tuple[str, int]]:
+        found: list[tuple[str, int]] = []
+        while frame is not None and len(found) < MOST_PLACES:
+            if file := self._file(frame):
+                found.append((file, frame.f_lineno))
+            frame = frame.f_back
+        return found
+
+    def install(self) -> None:
+        """Follow all threads."""
+        from rclpy.executors import Executor  # noqa: PLC0415 - of the fork alone
+        from rclpy.node import Node  # noqa: PLC0415
+
+        create, destroy, add, traced = (
+            Node.create_timer,
+            Node.destroy_timer,
+            Executor.add_node,
+            self,
+        )
+
+        def create_timer(node: Any, period: Any, callback: Any, *args: Any, **named: Any) -> Any:
+            number = len(traced._timers)
+            seen = {
+                "made": traced._places(sys._getframe(1)),
+                "node": id(node),
+                "calls": 0,
+                "stopped": [],
+            }
+            traced._timers.append(seen)
+            timer = create(node, period, traced._counted(callback, number), *args, **named)
+            traced._numbers[id(timer)] = number
+            traced._kept.append(timer)
+            cancel = timer.cancel
+
+            def stopped() -> None:
+                traced._stopped(timer, sys._getframe(1))
+                cancel()
+
+            with contextlib.suppress(AttributeError):
+                timer.cancel = stopped
+            return timer
+
+        def destroy_timer(node: Any, timer: Any) -> Any:
+            traced._stopped(timer, sys._getframe(1))
+            return destroy(node, timer)
+
+        def add_node(executor: Any, node: Any) -> Any:
+            traced._spun.add(id(node))
+            return add(executor, node)
+
+        Node.create_timer = create_timer
+        Node.destroy_timer = destroy_timer
+        Executor.add_node = add_node
+        threading.settrace(self._called)
+        sys.settrace(self._called)
+
+    def _counted(self, callback: Any, number: int) -> Any:
+        """Return the callback as one whose calls are counted; itself if it is of an unusual form."""
+        if not inspect.isroutine(callback) or inspect.iscoroutinefunction(callback):
+            return callback
+
+        @functools.wraps(callback)
+        def called(*args: Any, **named: Any) -> Any:
+            self._timers[number]["calls"] += 1
+            before = getattr(self._active, "timer", -1)
+            self._active.timer = number
+            try:
+                return callback(*args, **named)
+            finally:
+                self._active.timer = before
+
+        return called
+
+    def _stopped(self, timer: Any, frame: FrameType) -> None:
+        number = self._numbers.get(id(timer), -1)
+        if number >= 0 and not self._timers[number]["stopped"]:
+            self._timers[number]["stopped"] = self._places(frame)
+
+    def _called(self, frame: FrameType, event: str, _: Any) -> Any:
+        file = self._file(frame) if event == "call" else ""
+        if not file:
+            return None
+        lines, by_line = self._lines[file], self._by_line
+
+        def line(frame: FrameType, event: str, _: Any) -> Any:
+            if event == "line":
+                lines[frame.f_lineno] = lines.get(frame.f_lineno, 0) + 1
+                if watched := by_line.get((file, frame.f_lineno)):
+                    watched.take(frame)
+            return line
+
+        return line
+
+    def logs(self, frame: FrameType) -> None:
+        """Note that a line is logged, and by which timer's callback."""
+        self._logged.append((self._places(frame), getattr(self._active, "timer", -1)))
+
+    def found(self) -> dict[str, Any]:
+        """Return what was seen: `lines` by file, `timers`, what was `logged`, where main `stands`."""
+        main = sys._current_frames().get(threading.main_thread().ident or 0)
+        timers = [{**seen, "node": seen["node"] in self._spun} for seen in self._timers]
+        return {
+            "lines": self._lines,
+            "timers": timers,
+            "logged": self._logged,
+            "stands": self._places(main),
+            "values": [each.values for each in self._conditions],
+        }
+
+
 class ShortRun:
     """One run of a variant, in a fork; `until` and `most` end it."""
 
-    def __init__(self, report: int, until: int, most: int, watched: Watched | None) -> None:
+    def __init__(
+        self,
+        report: int,
+        until: int,
+        most: int,
+        watched: Watched | None,
+        traced: Traced | None = None,
+    ) -> None:
         self._report, self._until, self._most = report, until, most
-        self._watched = watched
+        self._watched, self._traced = watched, traced
         self._begin = self._now = SECOND
         self._idle = False
+        self._waited = 0  # steps since a timer is due
         self._nodes: list[Any] = []
         self._lines: list[tuple[int, str, str]] = []
         self._steps = 0
@@ -173,6 +320,8 @@ class ShortRun:
         def log(severity: Any, name: Any, message: Any, *rest: Any) -> None:
             write(severity, name, message, *rest)
             if int(severity) >= SHOWN:
+                if run._traced is not None:
+                    run._traced.logs(sys._getframe(1))
                 run._lines.append((run._now - run._begin, str(name), str(message)[:LONGEST]))
             if len(run._lines) >= run._most:
                 run.end("lines")
@@ -194,12 +343,18 @@ class ShortRun:
         builtins.input = lambda *_: run.end("waits")
 
     def _step(self, most: int) -> None:
-        """Let ROS time go on to the next timer, by `most` at most if that is not negative."""
-        due = [most] if most >= 0 else []
+        """Let ROS time go on to the next timer, by `most` at most if that is not negative.
+
+        A timer that stays due is one that nothing calls: its node is not spun.
+        """
+        left = []
         for timer in (timer for node in self._nodes for timer in list(node.timers)):
             with contextlib.suppress(Exception):  # (the node may have destroyed it)
                 if not timer.is_canceled():
-                    due.append(max(0, timer.time_until_next_call()))
+                    left.append(max(0, timer.time_until_next_call()))
+        is_due = 0 in left and self._waited < MOST_WAITED
+        self._waited = self._waited + 1 if is_due else 0
+        due = [*([most] if most >= 0 else []), *(each for each in left if each or is_due)]
         if not due:
             self.end("waits")
         self._steps += 1
@@ -232,6 +387,7 @@ class ShortRun:
             "steps": self._steps,
             "slept": self._slept,
             "values": self._watched.values if self._watched is not None else [],
+            "trace": self._traced.found() if self._traced is not None else None,
         }
         with os.fdopen(self._report, "wb", closefd=False) as pipe:
             pipe.write(json.dumps(said).encode())
@@ -240,10 +396,13 @@ class ShortRun:
     def play(self, module: str, function: str) -> NoReturn:
         """Call the function of the module."""
         signal.signal(signal.SIGPROF, lambda *_: self.end("killed"))
-        seconds = CPU_SECONDS if self._watched is None else WATCHED_CPU_SECONDS
+        is_plain = self._watched is None and self._traced is None
+        seconds = CPU_SECONDS if is_plain else WATCHED_CPU_SECONDS
         signal.setitimer(signal.ITIMER_PROF, seconds)
         if self._watched is not None:
             self._watched.install()
+        if self._traced is not None:
+            self._traced.install()
         try:
             found: Any = importlib.import_module(module)
             for part in function.split("."):
@@ -297,7 +456,9 @@ def main() -> None:
                 os.close(out)
                 sys.meta_path.insert(0, Sources(texts))
                 watched = Watched(**asked["watched"][index]) if asked["watched"][index] else None
-                run = ShortRun(write, asked["until"], asked["lines"], watched)
+                conditions = [Watched(**each) for each in asked["conditions"]]
+                traced = Traced(asked["traced"], conditions) if asked["traced"] else None
+                run = ShortRun(write, asked["until"], asked["lines"], watched, traced)
                 run.install()
                 run.play(asked["module"], asked["function"])
             os.close(write)

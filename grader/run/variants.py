@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 from grader.sandbox.base import Sandbox
 
@@ -43,6 +45,46 @@ class ShortRun:
         return self.ended in ("lines", "time")
 
 
+Place = tuple[str, int]
+"""A file of the package, and a line."""
+Values = tuple[tuple[str, tuple[str, ...]], ...]
+"""Pieces of code, each with the values that it has first."""
+
+
+@dataclass(frozen=True)
+class TracedTimer:
+    """A timer of a traced run: where it was made and first stopped, innermost place first.
+
+    `calls` is how often its callback was called, `spun` whether an executor has its node.
+    """
+
+    made: tuple[Place, ...]
+    spun: bool
+    calls: int
+    stopped: tuple[Place, ...] = ()
+
+
+@dataclass(frozen=True)
+class Trace:
+    """What a short run of a node did: how often each line ran, its timers, and what was logged.
+
+    `logged` has for each line of the log the places of the call and the number of the timer whose
+    callback it came from, -1 if from none. `stands` is where the main thread was at the end. `values`
+    are those that pieces of code had first in a line.
+    """
+
+    ended: str
+    lines: Mapping[str, Mapping[int, int]]
+    timers: tuple[TracedTimer, ...] = ()
+    logged: tuple[tuple[tuple[Place, ...], int], ...] = ()
+    stands: tuple[Place, ...] = ()
+    values: tuple[tuple[Place, Values], ...] = ()
+
+    def count(self, path: str, line: int) -> int:
+        """Return how often a line ran."""
+        return self.lines.get(path, {}).get(line, 0)
+
+
 @dataclass(frozen=True)
 class Watched:
     """Code whose values are asked for just before a statement runs, the lines `first` to `last`."""
@@ -71,11 +113,53 @@ def run_variants(
     A variant is the new texts of modules by their names; `watched` is of the first variants. The
     workspace has been built.
     """
+    found: list[ShortRun | None] = [None] * len(variants)
+    watching = [*map(asdict, watched), *[None] * (len(variants) - len(watched))]
+    asked = {"variants": variants, "watched": watching, "traced": [], "conditions": []}
+    for said in _answers(sandbox, module, function, asked, period=period, seconds=seconds):
+        _take(said, found)
+    return found
+
+
+def trace_node(
+    sandbox: Sandbox,
+    module: str,
+    function: str,
+    files: Sequence[str],
+    *,
+    period: float,
+    seconds: float,
+    conditions: Sequence[Watched] = (),
+) -> Trace | None:
+    """Return what a node does, followed in these files; None if it was not run within `seconds`.
+
+    The workspace has been built.
+    """
     asked = {
+        "variants": [{}],
+        "watched": [None],
+        "traced": files,
+        "conditions": [*map(asdict, conditions)],
+    }
+    for said in _answers(sandbox, module, function, asked, period=period, seconds=seconds):
+        with suppress(ValueError, TypeError, LookupError, RecursionError):
+            return _trace(json.loads(said)["seen"], conditions)
+    return None
+
+
+def _answers(
+    sandbox: Sandbox,
+    module: str,
+    function: str,
+    more: Mapping[str, Any],
+    *,
+    period: float,
+    seconds: float,
+) -> list[str]:
+    asked = {
+        **more,
         "module": module,
         "function": function,
-        "variants": variants,
-        "watched": [*map(asdict, watched), *[None] * (len(variants) - len(watched))],
         "until": int((MOST_LINES + 5) * period * 1e9),
         "lines": MOST_LINES,
         "each": EACH_SECONDS,
@@ -89,10 +173,39 @@ def run_variants(
         seconds=seconds + START_SECONDS,
         output=MOST_BYTES,
     )
-    found: list[ShortRun | None] = [None] * len(variants)
-    for line in outcome.output.decode("utf-8", "replace").splitlines():
-        _take(line, found)
-    return found
+    return outcome.output.decode("utf-8", "replace").splitlines()
+
+
+def _trace(seen: Any, conditions: Sequence[Watched]) -> Trace:
+    """Read a trace, which may be anything: raises an error of Python if it has another form."""
+    found = seen["trace"]
+    timers = [
+        TracedTimer(
+            _places(one["made"]), bool(one["node"]), int(one["calls"]), _places(one["stopped"])
+        )
+        for one in found["timers"]
+    ]
+    return Trace(
+        str(seen["ended"]),
+        {
+            str(path): {int(line): int(count) for line, count in lines.items()}
+            for path, lines in found["lines"].items()
+        },
+        tuple(timers),
+        tuple((_places(places), int(timer)) for places, timer in found["logged"]),
+        _places(found["stands"]),
+        tuple(
+            (
+                (one.file, one.first),
+                tuple((code, tuple(map(str, each))) for code, each in zip(one.code, values)),
+            )
+            for one, values in zip(conditions, found["values"])
+        ),
+    )
+
+
+def _places(found: Any) -> tuple[Place, ...]:
+    return tuple((str(path), int(line)) for path, line in found)
 
 
 def _take(line: str, found: list[ShortRun | None]) -> None:

@@ -19,10 +19,13 @@ from grader.verdict.outcome import Inconclusive
 from grader.verdict.own_names import own_executable, with_own_names
 
 if TYPE_CHECKING:
+    from grader.run.variants import Trace
     from grader.verdict.found_change import FoundChange
 
 Search = Callable[["Evidence"], "list[FoundChange]"]
 """Looks for small changes of a package after which its node counts."""
+Follow = Callable[["Evidence"], "Trace | None"]
+"""Follows a short run of a package's node."""
 WithFix = Callable[[str, Submission], "AbstractContextManager[Evidence | None]"]
 """Opens the evidence of a fixed package; the text is the fix's SHA-256."""
 
@@ -36,7 +39,8 @@ class Evidence:
     the evidence of the package as it is after a fix, or of None; `tried` has what that showed, by
     the fix's SHA-256, and `untried` all results without a fix, once a fix was compared with them.
     `search` looks for small changes after which the node counts; `found_changes` has them (None: not
-    looked for).
+    looked for). `follow` follows a short run of the node; `trace` has what it showed, once it was
+    asked for.
     """
 
     def __init__(
@@ -49,6 +53,7 @@ class Evidence:
         run_of: Callable[[RunPlan], Run] | None = None,
         with_fix: WithFix | None = None,
         search: Search | None = None,
+        follow: Follow | None = None,
     ) -> None:
         self.asked = assignment
         self.assignment = with_own_names(assignment, submission)
@@ -65,6 +70,8 @@ class Evidence:
         self.run_failed: Inconclusive | None = None
         self.with_fix = with_fix
         self.search = search
+        self.follow = follow
+        self.trace: Trace | None = None
         self.found_changes: list[FoundChange] | None = None
         self.tried: dict[str, Evidence] = {}
         self.untried: dict[str, CheckResult] = {}

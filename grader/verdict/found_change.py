@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from grader.package.edit.files import Files
 from grader.report.model import Where
+from grader.run.variants import Values
 
 NEARLY, WHOLE = 8, 9
 """How far a node gets that counts, and that counts in the right period without a sleep."""
@@ -42,10 +43,6 @@ def rank_of(level: int, cost: int) -> int:
     if level < NEARLY:
         return (WHOLE - level) * 100 + cost
     return cost + SHORT * (WHOLE - level)
-
-
-Values = tuple[tuple[str, tuple[str, ...]], ...]
-"""Pieces of code, each with the values that it has first."""
 
 
 @dataclass(frozen=True)

@@ -25,12 +25,13 @@ from grader.sandbox.base import Sandbox
 from grader.sandbox.choose import open_sandbox
 from grader.verdict.compose import compose
 from grader.verdict.evaluate import AssignedCheck, evaluate_checks
-from grader.verdict.evidence import Evidence, Search, WithFix
+from grader.verdict.evidence import Evidence, Follow, Search, WithFix
 from grader.verdict.follows import without_repeated
 from grader.verdict.order import Order
 from grader.verdict.take_in import take_in_for
 
 if TYPE_CHECKING:
+    from grader.run.variants import Trace
     from grader.verdict.evidence_file import Judged
     from grader.verdict.found_change import FoundChange
     from grader.verdict.recording import Recording
@@ -82,6 +83,7 @@ def mark(
             evidence.with_fix = _with_fix(order, session, listener, translate)
             if sandbox.name in ISOLATING:
                 evidence.search = _search(session, listener, translate)
+                evidence.follow = _follow(session)
         results = _decide(evidence, listener, translate)
         environment = _environment(sandbox)
     if keep is not None:
@@ -207,6 +209,17 @@ def _search(session: Session, listener: events.Listener, translate: Translator) 
         return search_in(session.sandbox, session.deadline)(evidence)
 
     return search
+
+
+def _follow(session: Session) -> Follow:
+    """Return what follows a short run of the node, in the session's sandbox."""
+
+    def follow(evidence: Evidence) -> Trace | None:
+        from grader.verdict.follow import follow_in  # noqa: PLC0415 - only a failed check needs it
+
+        return follow_in(session.sandbox, session.deadline)(evidence)
+
+    return follow
 
 
 def _decide(

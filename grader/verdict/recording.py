@@ -32,6 +32,7 @@ from grader.report.model import Environment
 from grader.run.observer import Event, Watch
 from grader.run.run import Run
 from grader.run.session import Unobserved
+from grader.run.variants import Trace
 from grader.run.workspace import Build
 from grader.verdict.evidence import Evidence
 from grader.verdict.found_change import FoundChange
@@ -121,7 +122,7 @@ class Recording(Part):
     tried and could not be observed. In JSON, `run` lists its events once (see `_run_as_json`).
     `scenarios` are the runs of an assignment of schema 2, and `unobserved_runs` the reasons by name.
     `fixed` has the recordings of the package with the fixes that were tried, by the fix's SHA-256,
-    `found_changes` the small changes after which the node counts.
+    `found_changes` the small changes after which the node counts, `trace` what a followed run showed.
     """
 
     schema_: Literal[1] = Field(default=1, alias="schema")
@@ -135,13 +136,14 @@ class Recording(Part):
     unobserved_runs: dict[str, str] = Field(default_factory=dict)
     fixed: dict[str, Recording] = Field(default_factory=dict)
     found_changes: tuple[FoundChange, ...] = ()
+    trace: Trace | None = None
 
     @model_serializer(mode="wrap")
     def _without_scenarios(self, handler: Any) -> dict[str, Any]:
         """Leave out the keys of schema 2 in a recording of schema 1, and fixes if there are none."""
         found: dict[str, Any] = handler(self)
         left_out = [] if self.asked.runs else ["scenarios", "unobserved_runs"]
-        left_out += [key for key in ("fixed", "found_changes") if not getattr(self, key)]
+        left_out += [key for key in ("fixed", "found_changes", "trace") if not getattr(self, key)]
         for key in left_out:
             found.pop(key, None)  # (pydantic calls this twice for a recording in a recording)
         return found
@@ -175,6 +177,7 @@ def record(evidence: Evidence, environment: Environment) -> Recording:
         unobserved="" if evidence.run_failed is None else evidence.run_failed.reason,
         fixed={digest: record(tried, environment) for digest, tried in evidence.tried.items()},
         found_changes=tuple(evidence.found_changes or ()),
+        trace=evidence.trace,
     )
 
 
@@ -221,6 +224,7 @@ def evidence_of(recording: Recording, submission: Submission, assignment: Assign
         run_of=run_of,
         with_fix=with_fix,
         search=lambda _: list(recording.found_changes),
+        follow=lambda _: recording.trace,
     )
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import ast
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import islice, pairwise
@@ -24,7 +24,7 @@ from grader.package.source.small_changes import SmallChange, small_changes
 from grader.package.source.small_values import Goal
 from grader.report.model import Where
 from grader.run.observer import number_reader
-from grader.run.variants import ShortRun, Watched, run_variants
+from grader.run.variants import ShortRun, Values, Watched, run_variants
 from grader.sandbox.base import Sandbox
 from grader.verdict.checks.actual_node import actual_path
 from grader.verdict.checks.parsed import data_of
@@ -36,7 +36,6 @@ from grader.verdict.found_change import (
     WHOLE,
     FoundChange,
     Step,
-    Values,
     rank_of,
 )
 
@@ -339,11 +338,21 @@ def value_texts(change: FoundChange) -> list[Message]:
         given = {"name": one_line(code), "values": ", ".join(values)}
         if code == step.written:
             texts.append(say("{name} has the value {values} there.", **given))
-        elif len(values) == 1:
+        else:
+            texts += values_seen([(code, values)])
+    return texts
+
+
+def values_seen(found: Iterable[tuple[str, Sequence[str]]]) -> list[Message]:
+    """Return what pieces of code were in a line when the grader ran the node."""
+    texts = []
+    for code, values in found:
+        given = {"name": one_line(code), "values": ", ".join(values)}
+        if len(values) == 1:
             texts.append(
                 say("When the grader ran the node, {name} was {values} in this line.", **given)
             )
-        else:
+        elif values:
             texts.append(
                 say(
                     "When the grader ran the node, {name} was {values} in this line, one after the "

@@ -27,7 +27,7 @@ from grader.verdict.evaluate import evaluate_again, evaluate_checks
 from grader.verdict.evidence import Evidence
 from grader.verdict.fix import fixes_of, patch_text
 from grader.verdict.found_change import FAR, FoundChange
-from grader.verdict.search import KIND, fix_text, recognised, value_texts
+from grader.verdict.search import KIND, fix_text, recognised, value_texts, values_seen
 
 MOST_TRIED = 6
 """The most fixes of one package that are tried: each takes a build and a run."""
@@ -79,7 +79,27 @@ def with_tried_fix(result: CheckResult, evidence: Evidence, translate: Translato
         return _with_first(sure, result, evidence, translate, replaces=True) or found
     if found.patch:
         return found
-    return _with_small_change(found, evidence, translate) or found
+    changed = _with_small_change(found, evidence, translate)
+    if root is None and (changed is None or not changed.patch):
+        changed = _with_followed(found, evidence, translate) or changed
+    return changed or found
+
+
+def _with_followed(
+    result: CheckResult, evidence: Evidence, translate: Translator
+) -> CheckResult | None:
+    """Return the result with what a followed run shows; None if that is nothing."""
+    if evidence.with_fix is None or evidence.follow is None:
+        return None
+    from grader.verdict.follow import followed  # noqa: PLC0415 - few packages need it
+
+    for seen in {mistake.id for mistake in result.mistakes} & VAGUE:
+        shows = followed(evidence, seen)
+        if shows is not None:
+            now = evaluate_again(result.id, evidence, translate, found=shows[0])
+            texts = [] if now.consequence_of else values_seen(shows[1])
+            return now.model_copy(update={"advice": [*now.advice, *map(translate, texts)]})
+    return None
 
 
 def _needs_more(found: CheckResult, translate: Translator) -> bool:
@@ -203,6 +223,13 @@ def _with_known_fix(result: CheckResult, evidence: Evidence, translate: Translat
             tried = trial.of_files(new) if result.id in STATIC else trial.helps(new)
             if tried.helps or (tried.helps is None and not without):
                 other = _other_cause(result, tried, evidence, translate)
+                if (
+                    other is None
+                    and tried.helps
+                    and tried.files is not new
+                    and result.id not in STATIC
+                ):
+                    other = _without_first(result, trial, new, evidence, translate)
                 return other or _with_change(result, old, new, tried.files, translate)
             refuted = True
         root = _root(result)
@@ -248,6 +275,26 @@ def _other_cause(
     other = evaluate_again(result.id, evidence, translate, without={root.id})
     now = _root(other)
     return other if now is not None and now.id == tried.left else None
+
+
+def _without_first(
+    result: CheckResult, trial: _Trial, new: Files, evidence: Evidence, translate: Translator
+) -> CheckResult | None:
+    """Return the result of another mistake whose fix alone is enough, where the fix `new` changes nothing.
+
+    The fix helped only with another one on top: then the other one alone may be the reason.
+    """
+    root = _root(result)
+    if root is None or trial.changes(new):
+        return None
+    other = evaluate_again(result.id, evidence, translate, without={root.id})
+    if _root(other) is None:
+        return None
+    again = _Trial(other, evidence, translate)
+    for fix in islice(fixes_of(other, evidence.submission, evidence.assignment), 1):
+        if again.helps(fix, on_top=0).helps:
+            return _with_change(other, Files.of(evidence.submission), fix, fix, translate)
+    return None
 
 
 def _with_change(
@@ -330,6 +377,12 @@ class _Trial:
         if worse:
             return Tried(False, new)
         return Tried(None, new, root.id if same else "")
+
+    def changes(self, new: Files) -> bool:
+        """Whether the check sees something else with a fix, or passes."""
+        fixed = self._fixed(new)
+        after = fixed.results[self._before.id] if fixed is not None else None
+        return after is None or after.status != "failed" or _seen(after) != _seen(self._before)
 
     def is_better(self, new: Files, *, passes: bool) -> bool:
         """Whether the check passes with a fix, or (not `passes`) sees something else, and not worse."""

@@ -6,6 +6,7 @@ import ast
 
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.change import Change, of_piece
+from grader.package.source.endless import goes_on
 from grader.package.source.module import Function, Module, is_text
 from grader.package.source.names import SPINS, called_name, dotted
 from grader.package.source.node import LOG_METHODS, NodeSource
@@ -58,6 +59,8 @@ def _moved_out(module: Module, node: ast.stmt, block: list[ast.stmt]) -> Found:
     """Yield a block's statements, each below the statement that the block belongs to."""
     text = module.text
     indent = indent_of(text.line(node.lineno))
+    if isinstance(node, ast.While) and goes_on(node):
+        return  # (nothing below such a loop runs before Ctrl+C)
     for moved in block:
         if not isinstance(moved, SIMPLE) or isinstance(moved, ast.Break | ast.Continue):
             continue

@@ -398,7 +398,9 @@ def _part(evidence: Evidence, target: str) -> tuple[str, str]:
                 "':{function}' is missing: a module cannot be called", function=function
             )
         other = say(
-            "the function is '{given}', not '{function}'", given=shown(given), function=function
+            "it names '{given}', not the function '{function}'",
+            given=shown(given),
+            function=function,
         )
         return "setup.other_function", other + meant(function if nearest(given, [function]) else "")
     if module == f"{wanted}.{function}" and not colon:
