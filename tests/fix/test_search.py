@@ -490,3 +490,45 @@ def test_changed_code_runs_only_where_it_is_isolated(tmp_path: Path) -> None:
     check = next(check for check in report.checks if check.status == "failed")
     assert (ids(check), check.patch) == (["run.wrong_step"], "")
     assert "search" not in seen
+
+
+STOPPED = """\
+import rclpy
+from rclpy.node import Node
+
+
+class MyFirstNode(Node):
+    def __init__(self):
+        super().__init__("my_first_node")
+        self.counter_ = 0
+        self.start_ = True
+        self.create_timer(0.1, self.scan)
+        self.timer_ = self.create_timer(1.0, self.timer_callback)
+
+    def scan(self):
+        if self.start_:
+            self.timer_.reset()
+        else:
+            self.timer_.cancel()
+
+    def timer_callback(self):
+        self.get_logger().info("Hello time: " + str(self.counter_))
+        self.counter_ += 1
+
+
+def main(args=None):
+    rclpy.init(args=args)
+    node = MyFirstNode()
+    rclpy.spin(node)
+"""
+
+
+@pytest.mark.full
+def test_a_fix_that_changes_nothing_gives_way_to_the_one_that_is_enough(tmp_path: Path) -> None:
+    report = searched(package_with(STOPPED, tmp_path))
+    check = next(check for check in report.checks if check.status == "failed")
+    assert ids(check) == ["node.timer_reset", "run.no_lines"]
+    removed = [
+        line for line in check.patch.split("\n") if line.startswith("-") and line[1:2] == " "
+    ]
+    assert [line.strip("- ") for line in removed] == ["self.timer_.reset()"]
