@@ -674,6 +674,7 @@ OF_KIND: Mapping[str, Mapping[str, Value]] = {
     },
     "node.cleanup_in_loop": {"name": "node.destroy_node()", "line": "22", "loop": "while"},
     "node.class_ended": {"name": "tick", "function": "text_of", "line": "15"},
+    "parameter.no_value": {"name": "Parameter.Type.DOUBLE", "written": "1.0", "parameter": "speed"},
     "node.not_reached": {"name": "self.ready", "log": "line 17", "place": "line 14"},
     "node.several_timers": {
         "count": 2,

@@ -33,6 +33,10 @@ KINDS = (
                 "The grader ran the node and followed it: the program came to this line each time, and "
                 "so never to {log}, which logs."
             ),
+            "waits": msg(
+                "The grader ran the node and followed it: the program waits in this line, and does not come "
+                "to {log}, which logs."
+            ),
             "not_called": msg(
                 "Nothing in the program calls {name}, so {log}, which logs, did not run."
             ),
@@ -53,6 +57,11 @@ KINDS = (
             "empty": msg("Find out why it has no items: look at where the program fills it."),
             "leaves": msg(
                 "Find out why the program comes to this line: log, above it, the values that decide it."
+            ),
+            "waits": msg(
+                "Find out what this line waits for, and what would have to run for that. While a callback "
+                "waits, ROS calls no other callback of its group, and all of a node are in one group unless "
+                "the program says otherwise."
             ),
             "not_called": msg("Call {name} where the line is to be logged."),
             "not_spun": msg(

@@ -694,13 +694,13 @@ KINDS = (
         "shutdown",
         msg("The node keeps running after Ctrl+C"),
         msg(
-            "Ctrl+C sends SIGINT. Python turns it into KeyboardInterrupt, which ends rclpy.spin. "
+            "Ctrl+C sends SIGINT. Python turns it into KeyboardInterrupt, which ends the call of spin. "
             "Then {function} has to return, and every thread has to end."
         ),
         msg(
-            "Print a line where the program goes on after rclpy.spin, and one at the end of "
+            "Print a line where the program goes on after the call of spin, and one at the end of "
             "{function}. Run the node and press Ctrl+C. If the first does not come, something keeps "
-            "KeyboardInterrupt from rclpy.spin, or spins again. If only the second does not come, a "
+            "KeyboardInterrupt from that call, or spins again. If only the second does not come, a "
             "line between them waits. If both come, a thread still runs. Remove that."
         ),
         links.EXECUTORS,

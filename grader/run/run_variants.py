@@ -270,14 +270,14 @@ class Traced:
         self._logged.append((self._places(frame), getattr(self._active, "timer", -1)))
 
     def found(self) -> dict[str, Any]:
-        """Return what was seen: `lines` by file, `timers`, what was `logged`, where main `stands`."""
-        main = sys._current_frames().get(threading.main_thread().ident or 0)
+        """Return what was seen: `lines` by file, `timers`, what was `logged`, where threads `stand`."""
+        frames = sys._current_frames().values()
         timers = [{**seen, "node": seen["node"] in self._spun} for seen in self._timers]
         return {
             "lines": self._lines,
             "timers": timers,
             "logged": self._logged,
-            "stands": self._places(main),
+            "stand": [places for frame in frames if (places := self._places(frame))],
             "values": [each.values for each in self._conditions],
         }
 

@@ -69,7 +69,7 @@ class Trace:
     """What a short run of a node did: how often each line ran, its timers, and what was logged.
 
     `logged` has for each line of the log the places of the call and the number of the timer whose
-    callback it came from, -1 if from none. `stands` is where the main thread was at the end. `values`
+    callback it came from, -1 if from none. `stand` is where threads were at the end. `values`
     are those that pieces of code had first in a line.
     """
 
@@ -77,7 +77,7 @@ class Trace:
     lines: Mapping[str, Mapping[int, int]]
     timers: tuple[TracedTimer, ...] = ()
     logged: tuple[tuple[tuple[Place, ...], int], ...] = ()
-    stands: tuple[Place, ...] = ()
+    stand: tuple[tuple[Place, ...], ...] = ()
     values: tuple[tuple[Place, Values], ...] = ()
 
     def count(self, path: str, line: int) -> int:
@@ -193,7 +193,7 @@ def _trace(seen: Any, conditions: Sequence[Watched]) -> Trace:
         },
         tuple(timers),
         tuple((_places(places), int(timer)) for places, timer in found["logged"]),
-        _places(found["stands"]),
+        tuple(map(_places, found["stand"])),
         tuple(
             (
                 (one.file, one.first),

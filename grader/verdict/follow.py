@@ -44,7 +44,7 @@ class Stop:
     """The place where the way to a line ends: `sort` says how, `log` is the line.
 
     Sorts: "never_true" and "always_true" of a condition, "empty" of a loop, "leaves" of what leaves
-    the function or the round, "not_called" of a function, "not_spun", "stopped" and "not_due" of a timer.
+    the function or the round, "waits" of what does not come back, "not_called" of a function, "not_spun", "stopped" and "not_due" of a timer.
     """
 
     sort: str
@@ -270,10 +270,20 @@ class _Way:
         before = [s for s in block[: block.index(child)] if self._count(s)]
         if not before:
             return None
+        if self._waits_in(before[-1]):
+            return self._found("waits", before[-1])
         leaving = [s for s in _leaving(before[-1]) if self._count(s)]
         if len(leaving) != 1:
             return None
         return self._found("leaves", leaving[0], count=self._count(leaving[0]))
+
+    def _waits_in(self, statement: ast.stmt) -> bool:
+        """Whether a thread was in a statement that is no block when the run ended."""
+        path = self._source.module_of(statement).path
+        last = statement.end_lineno or statement.lineno
+        stand = [places[0] for places in self._trace.stand]
+        plain = not getattr(statement, "body", None)
+        return plain and any(_is_in(place, path, statement.lineno, last) for place in stand)
 
     def _not_entered(self, module: Module, function: Function) -> Stop | None:
         """The same, of a function of which no line ran."""

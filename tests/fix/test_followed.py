@@ -119,6 +119,18 @@ def test_a_return_above_the_line_ends_it() -> None:
     assert found(stop(body, inner, STEP)) == ("leaves", line, "")
 
 
+def test_a_line_in_which_a_thread_still_is_ends_it() -> None:
+    wait, inner = "        self.ready_.wait()\n", f"        {LOG}\n"
+    source = source_of(TIMER + TICK + wait + inner + STEP)
+    line = line_of(source, wait)
+    ran = dict.fromkeys(range(1, line + 1), 1)
+    for stand, expected in ((((NODE, line), (NODE, 30)), "waits"), (((NODE, 30),), "")):
+        trace = Trace("waits", {NODE: ran}, stand=(stand,))
+        at = stop_of(source, trace, log_of(source))
+        assert (at.sort if at is not None else "") == expected
+        assert at is None or at.at.lineno == line
+
+
 def test_the_way_goes_back_through_calls() -> None:
     call, inner = "            self.say()\n", f"        {LOG}\n"
     say = "\n    def say(self):\n" + inner
