@@ -300,14 +300,28 @@ def _show_line(diagnosis: Diagnosis, evidence: Evidence) -> None:
     source = source_around(evidence, where) if where is not None and where.line else None
     if where is None or not where.line:
         return
+    last = 0
     if source is not None:
-        code = source.module_at(where.file).line(where.line)
+        module = source.module_at(where.file)
+        code, last = module.line(where.line), _last_line(module, where.line)
     else:
         text = read_source(data_of(evidence, where.file))
         code = text.line(where.line).strip() if text is not None else ""
     if len(code) >= SHORTEST:
         line = say("line {line}: {code}", line=where.line or 0, code=shown(code))
+        if last > where.line:
+            line = say(
+                "lines {line} to {last}: {code} …", line=where.line, last=last, code=shown(code)
+            )
         diagnosis.actual = joined(diagnosis.actual, line, by="\n")
+
+
+def _last_line(module: Module, line: int) -> int:
+    """Return the last line of the statement that begins in a line; that line if it is a block."""
+    statement = statement_at(module, line)
+    if statement is None or statement.lineno != line or getattr(statement, "body", None):
+        return line
+    return statement.end_lineno or line
 
 
 def _same_root(diagnosis: Diagnosis, evidence: Evidence) -> str:
