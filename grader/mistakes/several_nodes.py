@@ -224,9 +224,11 @@ def _made_each_round(suspect: Suspect) -> RecognisedMistake | None:
             names = spun & set(targets_of(made))
             if names and _made(made.value) in source.class_names:
                 code = source.module_of(made).text.code(made)
-                return suspect.finding(
+                found = suspect.finding(
                     "made_each_round", made, name=code, variable=min(names), line=loop.lineno
                 )
+                once = any(last_part(name) == "spin_once" for _, name in calls_in(loop))
+                return replace(found, variant="once") if once else found
     return None
 
 
@@ -390,6 +392,13 @@ KINDS = (
             "Make the node once: move {name} above the loop. Then write rclpy.spin({variable}) instead of "
             "the loop, and below it what cleans up."
         ),
+        whys={
+            "once": msg(
+                "The loop of line {line} makes a new node in each round. Its timer begins to wait anew, and "
+                "its counter has its first value again. A message of a simulated clock ends spin_once() too: "
+                "in the grader's run, fewer lines can come than in your terminal."
+            ),
+        },
         behind=dict.fromkeys(
             ("run.no_lines", "run.constant_counter", "run.stops", "run.wrong_step", "run.twice"),
             _made_each_round,

@@ -690,6 +690,23 @@ KINDS = (
                 fails="run.spins",
             ),
             example(
+                "rate_in_a_loop_of_main",
+                Replace(
+                    NODE,
+                    "self.create_timer(1.0, self.timer_callback)",
+                    "self.rate = self.create_rate(1)",
+                ),
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n",
+                    "        while rclpy.ok():\n            node.timer_callback()\n"
+                    "            node.rate.sleep()\n",
+                ),
+                fails="run.spins",
+                also={"run.output": "run.stops"},
+                blocks=("run.period",),
+            ),
+            example(
                 "sleep_loop",
                 *_loop(),
                 fails="run.spins",

@@ -39,6 +39,9 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 RAISES = ("run.died_at_start", "run.ended_early", "run.error_at_stop")
+NEVER_SPINS = "run.never_spins"
+SILENT = ("run.no_lines", "run.stops")
+"""The symptoms that a node has also because it never spins."""
 NOT_PARSED = re.compile(r"(?:Syntax|Indentation|Tab)Error\b")
 SHORTEST = 3  # characters of a source line that is worth showing
 
@@ -113,8 +116,8 @@ def diagnose(
         _explain(diagnosis, found, source_around(evidence, found.where))
     elif symptom in RAISES:
         _say_where(diagnosis, failed, evidence)
-    elif failed.follows:
-        return _left_to(diagnosis, failed.follows)
+    elif follows := failed.follows or _not_spun(symptom, evidence):
+        return _left_to(diagnosis, follows)
     _show_line(diagnosis, evidence)
     diagnosis.mistakes.sort(key=lambda mistake: RANK[mistake.id])
     node = source_of_node(evidence)
@@ -130,6 +133,16 @@ def _following(diagnosis: Diagnosis, evidence: Evidence) -> Diagnosis:
     """Leave reason and fix to an earlier check, if its mistake is the cause of this one."""
     cause = followed(diagnosis.mistakes[0].id, diagnosis.where, evidence)
     return _left_to(diagnosis, cause) if cause else diagnosis
+
+
+def _not_spun(symptom: str, evidence: Evidence) -> str:
+    """Return the check that found why the node never spins, if that explains the symptom too."""
+    for check, result in evidence.results.items() if symptom in SILENT else ():
+        ids = [mistake.id for mistake in result.mistakes]
+        visible = result.status == "failed" and result.visibility == "visible"
+        if visible and NEVER_SPINS in ids[1:]:  # (behind the mistake that explains it)
+            return check
+    return ""
 
 
 def _left_to(diagnosis: Diagnosis, cause: str) -> Diagnosis:
