@@ -16,12 +16,16 @@ from dataclasses import dataclass
 from itertools import islice
 
 from grader.base.errors import GraderError
-from grader.base.i18n.message import say
+from grader.base.i18n.message import Message, joined, say
 from grader.base.i18n.translator import Translator
+from grader.base.shown import shown
+from grader.mistakes.catalogue import CATALOGUE
 from grader.package.edit.diff import diff
 from grader.package.edit.files import Files
+from grader.package.edit.text import read_source
 from grader.report.model import CheckResult, Mistake
 from grader.verdict.checks.all import STATIC
+from grader.verdict.checks.parsed import data_of
 from grader.verdict.diagnose import RAISES
 from grader.verdict.evaluate import evaluate_again, evaluate_checks
 from grader.verdict.evidence import Evidence
@@ -230,7 +234,7 @@ def _with_known_fix(result: CheckResult, evidence: Evidence, translate: Translat
                     and result.id not in STATIC
                 ):
                     other = _without_first(result, trial, new, evidence, translate)
-                return other or _with_change(result, old, new, tried.files, translate)
+                return other or _with_change(result, old, tried, new, translate)
             refuted = True
         root = _root(result)
         if result.id in STATIC or not refuted:
@@ -255,11 +259,15 @@ def _without_fix(result: CheckResult, translate: Translator) -> CheckResult:
 
 @dataclass(frozen=True)
 class Tried:
-    """Whether a fix helps (None: not known), the files as tried last, and the cause of what is left."""
+    """Whether a fix helps (None: not known), the files as tried last, and the cause of what is left.
+
+    `later` are the mistakes for which further fixes were tried on top.
+    """
 
     helps: bool | None
     files: Files
     left: str = ""
+    later: tuple[Message, ...] = ()
 
 
 def _other_cause(
@@ -293,17 +301,18 @@ def _without_first(
     again = _Trial(other, evidence, translate)
     for fix in islice(fixes_of(other, evidence.submission, evidence.assignment), 1):
         if again.helps(fix, on_top=0).helps:
-            return _with_change(other, Files.of(evidence.submission), fix, fix, translate)
+            old = Files.of(evidence.submission)
+            return _with_change(other, old, Tried(True, fix), fix, translate)
     return None
 
 
 def _with_change(
-    result: CheckResult, old: Files, new: Files, whole: Files, translate: Translator
+    result: CheckResult, old: Files, tried: Tried, new: Files, translate: Translator
 ) -> CheckResult:
     """Return a result with its fix, and with those that the check needs after it, if that is known."""
-    patch, rest = patch_text(old, whole), []
-    if whole is not new and not result.consequence_of:
-        rest = [translate(FURTHER)]
+    patch, rest = patch_text(old, tried.files), []
+    if tried.files is not new and not result.consequence_of:
+        rest = [translate(text) for text in (FURTHER, *tried.later)]
     return result.model_copy(update={"patch": patch, "advice": [*result.advice, *rest]})
 
 
@@ -330,7 +339,9 @@ class _Trial:
                 evidence.results = kept
         return evidence.untried
 
-    def of_files(self, new: Files, on_top: int = MOST_ON_TOP) -> Tried:
+    def of_files(
+        self, new: Files, on_top: int = MOST_ON_TOP, later: tuple[Message, ...] = ()
+    ) -> Tried:
         """Return whether the package gets further with a fix of what the files alone show.
 
         It has to help only if the mistake prevents other checks. If another check fails instead, a
@@ -344,16 +355,18 @@ class _Trial:
         if fixed is None:
             return Tried(None, new)
         if _score(fixed.results) > _score(self._all):
-            return Tried(True, new)
+            return Tried(True, new, later=later)
         for check, after in fixed.results.items():
             if after.status == "failed" and self._all[check].status != "failed":
                 further = _further(after, fixed, new)
                 if further is None or not on_top:
                     break
-                return self.of_files(further, on_top - 1)
+                return self.of_files(further.files, on_top - 1, (*later, *further.told))
         return Tried(False, new)
 
-    def helps(self, new: Files, on_top: int = MOST_ON_TOP) -> Tried:
+    def helps(
+        self, new: Files, on_top: int = MOST_ON_TOP, later: tuple[Message, ...] = ()
+    ) -> Tried:
         """Return whether a fix lets the check pass.
 
         If it still fails, up to `on_top` further fixes are tried on top: there may be two mistakes.
@@ -364,10 +377,11 @@ class _Trial:
             return Tried(None, new)
         after = fixed.results[self._before.id]
         if after.status == "passed":
-            return self._with_consequences(Tried(not self._breaks_a_check(fixed), new), on_top)
+            tried = Tried(not self._breaks_a_check(fixed), new, later=later)
+            return self._with_consequences(tried, on_top)
         further = _further(after, fixed, new)
         if further is not None and on_top:
-            return self.helps(further, on_top - 1)
+            return self.helps(further.files, on_top - 1, (*later, *further.told))
         worse = _score(fixed.results) < _score(self._all)
         if after.status != "failed":
             return Tried(False if worse or self._breaks_a_check(fixed) else None, new)
@@ -405,7 +419,9 @@ class _Trial:
             after = fixed.results[check]
             if result.consequence_of == self._before.id and after.status == "failed":
                 further = _further(after, fixed, tried.files)
-                more = self.helps(further, on_top - 1) if further is not None else tried
+                if further is None:
+                    return tried
+                more = self.helps(further.files, on_top - 1, (*tried.later, *further.told))
                 return more if more.helps else tried
         return tried
 
@@ -443,12 +459,31 @@ def _search_further(after: CheckResult, fixed: Evidence) -> None:
         fixed.found_changes = fixed.search(fixed)
 
 
-def _further(after: CheckResult, fixed: Evidence, done: Files) -> Files | None:
-    """Return the files after a fix of a check that still fails with the fixes already made."""
+@dataclass(frozen=True)
+class _Further:
+    """The files after a further fix, and what it is for, if that can be told."""
+
+    files: Files
+    told: tuple[Message, ...]
+
+
+def _further(after: CheckResult, fixed: Evidence, done: Files) -> _Further | None:
+    """Return a fix of a check that still fails with the fixes already made."""
     found = next(fixes_of(after, fixed.submission, fixed.assignment), None)
+    root, where = _root(after), after.where
     for change in [one for one in fixed.found_changes or () if one.counts][:1]:
-        found = found or change.of(Files.of(fixed.submission))
-    return found.moved_since(done) if found is not None else None
+        if found is None:
+            found = change.of(Files.of(fixed.submission))
+            root, where = recognised(change).mistake, recognised(change).where
+    if found is None:
+        return None
+    text = read_source(data_of(fixed, where.file)) if where is not None else None
+    code = text.line(where.line).strip() if text is not None and where and where.line else ""
+    told: tuple[Message, ...] = ()
+    if root is not None and code:
+        title = Message(CATALOGUE[root.id].title, {})
+        told = (joined(title, shown(code), by=": "),)
+    return _Further(found.moved_since(done), told)
 
 
 def _root(result: CheckResult) -> Mistake | None:

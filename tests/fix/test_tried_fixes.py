@@ -111,6 +111,7 @@ def test_two_mistakes_with_one_effect_are_followed_to_the_end(tmp_path: Path) ->
     assert ids(result)[0] == "node.never_awaited"
     assert result.patch
     assert len(found.tried) == 2
+    assert "A decorator is not called: @" in "\n".join(result.advice)
 
 
 def test_another_mistake_that_words_alone_explain_does_not_refute_the_first(tmp_path: Path) -> None:
