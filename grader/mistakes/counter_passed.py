@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import ast
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.counted import counter_in
 from grader.mistakes.example import NODE, STEP_LINE, example
+from grader.mistakes.fixes import node_count
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
@@ -27,8 +29,9 @@ def _passed(suspect: Suspect) -> RecognisedMistake | None:
     for call, name in calls_in(callback):
         module = source.module_of(call)
         function = source.methods.get(own_name(call.func)) or module.functions.get(name)
-        if function is None or not isinstance(module.parents.get(call), ast.Expr):
+        if function is None:
             continue
+        used = not isinstance(module.parents.get(call), ast.Expr)
         parameters = [given.arg for given in function.args.args if given.arg != "self"]
         for parameter, value in zip(parameters, call.args):
             added = _adds(function, parameter)
@@ -36,11 +39,15 @@ def _passed(suspect: Suspect) -> RecognisedMistake | None:
                 continue
             written = f"{counter.name} += {suspect.output.step}"
             back = [n.value for n in ast.walk(function) if isinstance(n, ast.Return) and n.value]
-            if back and all(dotted(value) == parameter for value in back):
+            if used and any(dotted(value) == parameter for value in back):
+                continue  # (the sum is used)
+            if used:
+                pass
+            elif back and all(dotted(value) == parameter for value in back):
                 written = f"{counter.name} = {module.text.code(call)}"
             elif len(code_of(function)) > 1 or back:
                 return None  # (its call may do more than add)
-            return suspect.finding(
+            found = suspect.finding(
                 "counter_passed",
                 call,
                 name=counter.name,
@@ -49,6 +56,7 @@ def _passed(suspect: Suspect) -> RecognisedMistake | None:
                 line=added.lineno,
                 written=written,
             )
+            return replace(found, variant="used") if used else found
     return None
 
 
@@ -82,8 +90,9 @@ KINDS = (
             "which is gone when the function ends: {name} stays as it is."
         ),
         msg("Write {written} instead of this line."),
+        fixes={"used": msg("Write in {callback}, below the line that logs: {written}")},
         behind={"run.constant_counter": _passed},
-        fixed_by=(_changed_here,),
+        fixed_by=(_changed_here, node_count.step),
         examples=(
             example(
                 "counter_given_to_function",
@@ -104,6 +113,18 @@ KINDS = (
                     "class MyFirstNode",
                 ),
                 Replace(NODE, STEP_LINE, "        count_up(self.counter_)\n"),
+                fails="run.output",
+            ),
+            example(
+                "counter_given_to_function_that_returns_the_old_value",
+                Replace(
+                    NODE,
+                    "class MyFirstNode",
+                    "def post_increment(value):\n    before = value\n    value += 1\n"
+                    "    return before\n\n\nclass MyFirstNode",
+                ),
+                Replace(NODE, "str(self.counter_)", "str(post_increment(self.counter_))"),
+                Replace(NODE, STEP_LINE, ""),
                 fails="run.output",
             ),
             example(
