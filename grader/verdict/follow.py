@@ -23,6 +23,7 @@ from grader.run.variants import Place, Trace, Values, Watched, trace_node
 from grader.sandbox.base import Sandbox
 from grader.verdict.evidence import Evidence, Follow
 from grader.verdict.node_files import source_of_node
+from grader.verdict.search import one_line
 
 NOT_REACHED, TIMERS = "node.not_reached", "node.several_timers"
 SECONDS = 5.0
@@ -43,14 +44,14 @@ LONGEST_CODE = 4  # pieces of code of one condition whose values are asked for
 class Stop:
     """The place where the way to a line ends: `sort` says how, `log` is the line.
 
-    Sorts: "never_true" and "always_true" of a condition, "empty" of a loop, "leaves" of what leaves
-    the function or the round, "waits" of what does not come back, "not_called" of a function, "not_spun", "stopped" and "not_due" of a timer.
+    Sorts: "never_true" and "always_true" of a condition, "empty" of a loop, "leaves" of what leaves the
+    function or the round, "waits" of what does not come back, "not_called" of a function, "not_spun" and
+    "stopped" of a timer. `name` is the code or the function that the text names.
     """
 
     sort: str
     at: ast.stmt
     log: ast.stmt
-    count: int = 0
     name: str = ""
     place: Place | None = None
     values: Values = field(default=())
@@ -246,23 +247,18 @@ class _Way:
         """The same, of a statement in a block whose head ran."""
         name = next((b for b in BLOCKS if child in getattr(around, b, ())), "")
         block: list[ast.stmt] = getattr(around, name) if name else []
-        if (
-            any(self._count(s) for s in block[: block.index(child)] if not is_text(s))
-            if block
-            else False
-        ):
+        if any(self._count(s) for s in block[: block.index(child) if block else 0]):
             return self._in_block(block, child)
         if isinstance(around, ast.If | ast.While) and name in ("body", "orelse"):
             place = (module.path, around.lineno)
             return self._found(
                 "never_true" if name == "body" else "always_true",
                 around,
-                count=self._count(around),
-                name=module.text.code(around.test),
+                name=one_line(module.text.code(around.test)),
                 values=dict(self._trace.values).get(place, ()),
             )
         if isinstance(around, ast.For) and name == "body":
-            return self._found("empty", around, name=module.text.code(around.iter))
+            return self._found("empty", around, name=one_line(module.text.code(around.iter)))
         return None
 
     def _in_block(self, block: list[ast.stmt], child: ast.stmt) -> Stop | None:
@@ -273,9 +269,10 @@ class _Way:
         if self._waits_in(before[-1]):
             return self._found("waits", before[-1])
         leaving = [s for s in _leaving(before[-1]) if self._count(s)]
-        if len(leaving) != 1:
+        rounds = max(map(self._count, block))
+        if len(leaving) != 1 or self._count(leaving[0]) < rounds:
             return None
-        return self._found("leaves", leaving[0], count=self._count(leaving[0]))
+        return self._found("leaves", leaving[0])
 
     def _waits_in(self, statement: ast.stmt) -> bool:
         """Whether a thread was in a statement that is no block when the run ended."""
