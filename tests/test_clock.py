@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections import Counter
 from dataclasses import dataclass, field, replace
 
 import pytest
@@ -60,14 +61,16 @@ class Node(ProbeLink):
         period: float = OUTPUT.period,
         barrier: bool | None = True,
         multiplies: bool = False,
+        grows: int = 0,
     ) -> None:
         self._console = console
         self._at_once = 1
         self._multiplies = multiplies  # whether each timer creates another one
+        self._grows = grows  # how many more timers another one creates in each period
         self._prints = (before, after)
         self._text, self._period, self._barrier = text, period, barrier
         self._count = 0
-        self._next = round(period * SECOND)
+        self._next = round(period * SECOND) * (1 + bool(grows))
 
     def ask(self, do: str, *, seconds: float = 0, **more: int | str) -> Answer:
         logs = []
@@ -79,7 +82,7 @@ class Node(ProbeLink):
             self._next = int(more["at"]) // period * period + period
             for _ in range(self._at_once):
                 logs.append(self._log())
-            self._at_once *= 1 + self._multiplies
+            self._at_once = self._at_once * (1 + self._multiplies) + self._grows
         return Answer(barrier=self._barrier, logs=tuple(logs))
 
     def _log(self) -> LogRecord:
@@ -177,6 +180,16 @@ def test_the_clock_is_not_driven_on_when_timers_multiply() -> None:
     watch = driven(Node(console, multiplies=True), console)
     assert (watch.clock, watch.early, watch.missing) == ("virtual", [], [])
     assert len(watch.counted) == sum(2**k for k in range(MOST_AT_ONCE.bit_length() + 1))
+
+
+def test_lines_of_more_and_more_timers_have_the_period_of_each() -> None:
+    console = SlowConsole()
+    watch = driven(Node(console, grows=3), console)
+    assert (watch.clock, watch.period) == ("virtual", OUTPUT.period)
+    at_once = Counter(event.due for event in watch.counted if event.due is not None)
+    assert len(at_once) > 2
+    assert sorted(at_once.values()) == [*at_once.values()]
+    assert max(at_once.values()) > MOST_AT_ONCE
 
 
 class Fast(Node):

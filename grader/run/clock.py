@@ -271,7 +271,8 @@ class VirtualClock:
         if len(instants) in (2, 3):
             again = self._few_more([round(at * SECOND) for at in instants], step)
             watch.events += again
-            instants += [event.virtual for event in _ticks(again, counts=counts)]
+            more = {event.virtual for event in _ticks(again, counts=counts)}
+            instants = sorted({*instants, *more})
         if len(instants) > 1:
             gaps = [b - a for a, b in zip(instants, instants[1:])]
             watch.period = statistics.median(gaps)
@@ -329,7 +330,8 @@ class VirtualClock:
         watch.early, watch.missing, watch.dues = [], [], []
         before = watch.events
         watch.events = []
-        if self._at_due_instants(watch, at + self._period, on_event):
+        on_time = self._at_due_instants(watch, at + self._period, on_event)
+        if on_time or (self._piles_up and not watch.early and not watch.missing):
             watch.period = self._output.period
             before = _without_dues(before)
         else:
