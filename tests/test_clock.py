@@ -184,7 +184,7 @@ def test_the_clock_is_not_driven_on_when_timers_multiply() -> None:
 
 def test_lines_of_more_and_more_timers_have_the_period_of_each() -> None:
     console = SlowConsole()
-    watch = driven(Node(console, grows=3), console)
+    watch = driven(Node(console, grows=2), console)
     assert (watch.clock, watch.period) == ("virtual", OUTPUT.period)
     at_once = Counter(event.due for event in watch.counted if event.due is not None)
     assert len(at_once) > 2
