@@ -26,12 +26,12 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 WHY = msg(
-    "colcon runs setup.py to install the package into the workspace's install folder, the only "
-    "place where ros2 run looks."
+    "colcon runs setup.py to install the package into the workspace's install folder, where "
+    "ros2 run looks for it."
 )
 UNREADABLE = msg(
-    "colcon runs setup.py to install the package into the workspace's install folder, the only "
-    "place where ros2 run looks. Python cannot run a file that it cannot read."
+    "colcon runs setup.py to install the package into the workspace's install folder, where "
+    "ros2 run looks for it. Python cannot run a file that it cannot read."
 )
 LOOKS = msg(
     "ros2 run looks only in install/<package>/lib/<package>/, for an executable file with exactly "

@@ -142,6 +142,19 @@ KINDS = (
         fixed_by=(_returned, lines.written),
         examples=(
             example(
+                "text_in_a_variable_instead_of_return",
+                Replace(
+                    NODE,
+                    "    def timer_callback",
+                    "    def time_text(self):\n        time_text = str(self.counter_)\n"
+                    "        self.counter_ = self.counter_ + 1\n\n    def timer_callback",
+                ),
+                Replace(NODE, LOG, "self.get_logger().info('Hello time: ' + self.time_text())"),
+                Replace(NODE, "        self.counter_ += 1\n", ""),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
                 "no_return_in_another_file",
                 Write(
                     "my_robot_controller/speaker.py",

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import NODE, SILENT, example
+from grader.mistakes.example import LOG_LINE, NODE, SILENT, STEP_LINE, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
@@ -42,6 +42,7 @@ def _in_turn(suspect: Suspect) -> RecognisedMistake | None:
         return None
     node = source.node_variables
     by_class = _spun(second) in node and _spun(first) not in node
+    by_class = by_class or (_logs(source, _spun(second)) and not _logs(source, _spun(first)))
     if not by_class and (_spun(first) in counting or _spun(second) not in counting):
         return None
     params: dict[str, str | int] = {
@@ -50,6 +51,13 @@ def _in_turn(suspect: Suspect) -> RecognisedMistake | None:
         "written": _spun(second),
     }
     return suspect.finding("spun_in_turn", first, **params)
+
+
+def _logs(source: NodeSource, variable: str) -> bool:
+    """Whether the class of the object that a variable gets has a line that logs."""
+    made = [n for n in source.all_nodes if isinstance(n, ast.Assign) and variable in targets_of(n)]
+    kind = source.classes_by_name.get(_made(made[0].value)) if len(made) == 1 else None
+    return kind is not None and bool(source.logs(kind))
 
 
 def _in_loop(suspect: Suspect, spin: ast.Call) -> RecognisedMistake | None:
@@ -245,6 +253,24 @@ class OtherNode(Node):
 
 
 def main("""
+PUBLISHER = """\
+from std_msgs.msg import String
+
+
+class TextPublisher(Node):
+
+    def __init__(self):
+        super().__init__('text_publisher')
+        self.publisher_ = self.create_publisher(String, 'hello', 10)
+        self.count_ = 0
+        self.create_timer(1.0, self.publish_text)
+
+    def publish_text(self):
+        self.publisher_.publish(String(data='Hello time: ' + str(self.count_)))
+        self.count_ += 1
+
+
+class MyFirstNode(Node):"""
 EXECUTOR = """\
         executor = SingleThreadedExecutor()
         other = MyFirstNode()
@@ -293,6 +319,26 @@ KINDS = (
                     "    try:\n",
                     "    other = OtherNode()\n    try:\n"
                     "        rclpy.spin(other)\n        rclpy.spin(node)\n",
+                ),
+                fails="run.output",
+                blocks=SILENT,
+            ),
+            example(
+                "publisher_spun_before_the_node_that_logs",
+                Replace(NODE, "class MyFirstNode(Node):", PUBLISHER),
+                Replace(NODE, "        self.counter_ = 0\n", ""),
+                Replace(
+                    NODE,
+                    "self.create_timer(1.0, self.timer_callback)",
+                    "self.create_subscription(String, 'hello', self.timer_callback, 10)",
+                ),
+                Replace(NODE, "def timer_callback(self):", "def timer_callback(self, msg):"),
+                Replace(NODE, LOG_LINE + STEP_LINE, "        self.get_logger().info(msg.data)\n"),
+                Replace(NODE, "    try:\n", "    publisher = TextPublisher()\n    try:\n"),
+                Replace(
+                    NODE,
+                    "        rclpy.spin(node)\n",
+                    "        rclpy.spin(publisher)\n        rclpy.spin(node)\n",
                 ),
                 fails="run.output",
                 blocks=SILENT,

@@ -154,7 +154,7 @@ def _never(module: Module, made: Function, call: ast.Call) -> NoReturn:
         return (
             NoReturn(module, made.name, call, last, "instead", code(last), new) if name else unknown
         )
-    if name := _set_by(last):
+    if name := _only_unread(made) or _set_by(last):
         return NoReturn(module, made.name, call, last, "below", "", f"return {name}")
     value = last.value if isinstance(last, ast.Expr) else None
     written = _what_it_writes(value)
@@ -174,6 +174,20 @@ def _never(module: Module, made: Function, call: ast.Call) -> NoReturn:
             module, made.name, call, last, "instead", code(last), f"return {code(last)}"
         )
     return unknown
+
+
+def _only_unread(made: Function) -> str:
+    """Return the only variable that a function sets and never reads; "" if there is none."""
+    names = [n for n in _own_parts(made) if isinstance(n, ast.Name)]
+    outer = {name for n in _own_parts(made) if isinstance(n, ast.Global) for name in n.names}
+    read = {n.id for n in ast.walk(made) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)}
+    set_at_top = {
+        name
+        for s in made.body
+        if isinstance(s, ast.Assign | ast.AnnAssign) and (name := _set_by(s))
+    }
+    unread = {n.id for n in names if isinstance(n.ctx, ast.Store)} - read - outer
+    return unread.pop() if len(unread) == 1 and unread <= set_at_top else ""
 
 
 def _set_by(statement: ast.stmt | None) -> str:
