@@ -58,6 +58,8 @@ def _shown_object(suspect: Suspect) -> RecognisedMistake | None:
             mistake = _told(suspect, found["name"], variant)
             words = {**mistake.words, "field": found.groupdict().get("field") or ""}
             return replace(mistake, words=words)
+    if "ParameterValue(" in text and (value := _parameter_value(suspect)) is not None:
+        return value
     if (message := MESSAGE.search(text)) is not None:
         return _message(suspect, message["name"], message["field"])
     if LIST.search(text) and (parts := _list(suspect)) is not None:
@@ -148,6 +150,21 @@ def _parameter(suspect: Suspect) -> RecognisedMistake | None:
     code = suspect.source.module_of(calls[0]).text.code(calls[0])
     found = suspect.finding("parameter_object", calls[0], name=code, written=f"{code}.value")
     return replace(found, variant="written") if "\n" not in code else None
+
+
+def _parameter_value(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for the only call of get_parameter_value() of which no field is asked for."""
+    calls = []
+    for call, name in suspect.source.calls:
+        around = suspect.source.module_of(call).parents.get(call)
+        if last_part(name) == "get_parameter_value" and not isinstance(around, ast.Attribute):
+            calls.append(call)
+    if len(calls) != 1 or not isinstance(calls[0].func, ast.Attribute):
+        return None
+    module = suspect.source.module_of(calls[0])
+    code, owner = module.text.code(calls[0]), module.text.code(calls[0].func.value)
+    found = suspect.finding("object_in_text", calls[0], name=code, written=f"{owner}.value")
+    return replace(found, variant="parameter_value") if "\n" not in code else None
 
 
 def _member(suspect: Suspect) -> RecognisedMistake | None:
@@ -274,6 +291,10 @@ KINDS = (
                     "shows the type and the fields with it."
                 ),
             ),
+            "parameter_value": msg(
+                "{name} gives a message that has a field for each type of parameters, and the value is in one of "
+                "them. A text shows the whole message. A parameter has its value alone in .value."
+            ),
             "list": msg(
                 "Square brackets make a list (line {line}). A text shows a list with its brackets, with "
                 "the commas, and with the quotes of its texts."
@@ -300,7 +321,10 @@ KINDS = (
             "function": msg(
                 "Log what {name} returns: write () behind the name, with the values that it needs."
             ),
-            **dict.fromkeys(("called", "of_message"), msg("Write {written} instead of {name}.")),
+            **dict.fromkeys(
+                ("called", "of_message", "parameter_value"),
+                msg("Write {written} instead of {name}."),
+            ),
             "message": msg("Log only the field {field}: write .{field} behind the message."),
             "list": msg(
                 "Write {written} instead of {name}: it makes one text of the parts. Or add the parts with + "
@@ -360,6 +384,20 @@ KINDS = (
                 Replace(NODE, "import rclpy\n", "import rclpy\nfrom std_msgs.msg import Int32\n"),
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = Int32()"),
                 Replace(NODE, "self.counter_ += 1", "self.counter_.data += 1"),
+                fails="run.output",
+            ),
+            example(
+                "value_message_of_a_parameter_in_text",
+                Replace(
+                    NODE,
+                    "self.counter_ = 0",
+                    "self.declare_parameter('text', 'Hello time: ')\n"
+                    "        self.text_ = self.get_parameter('text').get_parameter_value()\n"
+                    "        self.counter_ = 0",
+                ),
+                Replace(
+                    NODE, "'Hello time: ' + str(self.counter_)", "f'{self.text_}{self.counter_}'"
+                ),
                 fails="run.output",
             ),
             example(

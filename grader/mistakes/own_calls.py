@@ -313,7 +313,7 @@ KINDS = (
         "class",
         msg("Several defs have the same name"),
         msg(
-            "Python has one function of each name: the last def {name} replaces the one in line {line}. "
+            "There is only one function of a name in the same place: the last def {name} replaces the one in line {line}. "
             "The call of {called} in line {at} fits only that earlier def."
         ),
         msg(

@@ -248,7 +248,9 @@ def _under_guard(suspect: Suspect) -> RecognisedMistake | None:
     returns = [n for n in ast.walk(main) if isinstance(n, ast.Return)] if main is not None else []
     found = suspect.finding("spin_missing", spins[0])
     if len(returns) != 1 or returns[0].value is None:
-        return replace(found, variant="guard")
+        inside = {last_part(name) for _, name in calls_in(main)} if main is not None else set()
+        made = inside & {*source.class_names, "create_node", "Node"}
+        return replace(found, variant="guard" if made else "guard_all")
     words = {**found.words, "line": str(returns[0].lineno)}
     if isinstance(returns[0].value, ast.Call):
         code = source.module_of(returns[0]).text.code(returns[0].value)
@@ -992,6 +994,7 @@ KINDS = (
                 "not reached before. The loop itself calls no callbacks."
             ),
             "guard": GUARD,
+            "guard_all": GUARD,
             "guard_makes": GUARD,
             "guard_returns": GUARD,
             "executor": msg(
@@ -1001,6 +1004,10 @@ KINDS = (
         },
         fixes={
             "guard": msg("Move the call of rclpy.spin into {function}, after creating the node."),
+            "guard_all": msg(
+                "Move the lines that create the node, spin it and clean up into {function}, indented like its "
+                "other lines. Leave only {function}() outside."
+            ),
             "guard_makes": msg(
                 "Write {wanted} instead of the return in line {line}. Move the lines that use {name}, "
                 "from try: to the clean-up, below it, indented like it. Leave only {function}() outside."

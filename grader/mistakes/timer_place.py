@@ -301,7 +301,7 @@ KINDS = (
         "timer",
         msg("The timer is created below rclpy.spin"),
         msg(
-            "rclpy.spin on line {line} waits until Ctrl+C. The lines below it run only after that: "
+            "rclpy.spin on line {line} waits until Ctrl+C. No line below it runs before that: "
             "{name} comes too late, and while the node spins there is no timer."
         ),
         msg(

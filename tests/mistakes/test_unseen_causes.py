@@ -155,3 +155,14 @@ def test_a_method_of_the_base_that_makes_the_timer_is_called_twice() -> None:
     assert named(found) == "node.two_timers/called_line"
     first = text.split("\n").index("        self.start()") + 1
     assert texts(found)[1] == f"Delete this line: line {first} calls start."
+
+
+def test_all_that_stands_under_the_guard_moves_if_main_makes_no_node() -> None:
+    body = RIGHT[RIGHT.index("    node = ") : RIGHT.index("\n\nif __name__")]
+    text = changed(RIGHT, (body, ""), ("\n    main()\n", f"\n    main()\n{body}\n"))
+    found = look("run.exits_at_once", text)
+    assert found is not None
+    assert found.kind == "node.spin_missing"
+    assert texts(found)[1].startswith(
+        "Move the lines that create the node, spin it and clean up into"
+    )
