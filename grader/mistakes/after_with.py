@@ -29,6 +29,7 @@ NO_ROS = (
 )
 NO_CONTEXT = (
     r"'NoneType' object does not support the context manager protocol|AttributeError: __enter__"
+    r"|RuntimeError: Context must be initialized"
 )
 SHUTS = ("shutdown", "try_shutdown")
 OWN_CONTEXT = """\

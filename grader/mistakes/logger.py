@@ -208,6 +208,22 @@ def _severity_changed(raised: Raised, match: re.Match[str]) -> RecognisedMistake
     return raised.finding("severity_changed", line=str(raised.line)) if raised.line else None
 
 
+def _levels_in_loop(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a loop over levels that logs the line with each: a distro may allow that."""
+    source = suspect.source
+    for loop in ast.walk(source.callback) if source.callback is not None else ():
+        if not isinstance(loop, ast.For):
+            continue
+        for call, _ in calls_in(loop):
+            method = call.func
+            if isinstance(method, ast.Call) and dotted(method.func) == "getattr" and method.args:
+                by_loop = dotted(loop.target) == dotted(method.args[-1])
+                if by_loop and "log" in ast.unparse(method.args[0]).lower():
+                    found = suspect.finding("severity_changed", loop, line=call.lineno)
+                    return replace(found, variant="loop")
+    return None
+
+
 def _logs_the_count_elsewhere(suspect: Suspect, callback: Function) -> bool:
     """Whether a function that is given to something as a value logs the line of the count."""
     source = suspect.source
@@ -811,7 +827,17 @@ KINDS = (
             "under the other. Or log with info(…) alone: the exercise needs no other level."
         ),
         links.LOGGING,
+        whys={
+            "loop": msg(
+                "This loop runs line {line} once for each level, so that each call of the callback logs "
+                "several lines."
+            ),
+        },
+        fixes={
+            "loop": msg("Log once, without the loop: self.get_logger().info(…)"),
+        },
         raised={r"^ValueError: Logger severity cannot be changed between calls": _severity_changed},
+        behind={"run.twice": _levels_in_loop},
         examples=(
             example(
                 "severity_changed",

@@ -166,3 +166,27 @@ def test_all_that_stands_under_the_guard_moves_if_main_makes_no_node() -> None:
     assert texts(found)[1].startswith(
         "Move the lines that create the node, spin it and clean up into"
     )
+
+
+def test_a_context_of_its_own_is_told_with_the_error_of_kilted_too() -> None:
+    text = changed(
+        RIGHT,
+        ("class MyFirstNode(", "CONTEXT = rclpy.Context()\n\n\nclass MyFirstNode("),
+        ("rclpy.init(args=args)", "rclpy.init(args=args, context=CONTEXT)"),
+    )
+    error = "RuntimeError: Context must be initialized a GuardCondition can be created"
+    found = at_error(error, text, "rclpy.spin(")
+    assert found is not None
+    assert (found.kind, found.variant) == ("node.ros_not_running", "context")
+
+
+def test_a_loop_over_levels_is_told_where_a_distro_allows_it() -> None:
+    log = next(line for line in RIGHT.split("\n") if ".info(" in line)
+    value = log.partition(".info")[2]
+    loop = f"        for level in ('info', 'warn'):\n            getattr(self.get_logger(), level){value}"
+    text = changed(RIGHT, (log, loop))
+    found = look("run.twice", text)
+    assert found is not None
+    assert (found.kind, found.variant) == ("node.severity_changed", "loop")
+    assert found.where is not None
+    assert "for level in" in text.split("\n")[(found.where.line or 0) - 1]
