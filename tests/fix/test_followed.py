@@ -263,7 +263,7 @@ class Ticking(Node):
 """
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_a_real_verdict_tells_the_timers_that_the_lines_come_from(tmp_path: Path) -> None:
     body = f"        self.set_period(1.0)\n{TICK}        {LOG}\n{STEP}"
     root = package_with(tmp_path, body, TICKING)

@@ -413,7 +413,7 @@ BITWISE = (
 )
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_a_condition_is_corrected_after_which_its_block_still_runs(tmp_path: Path) -> None:
     """The calls 2, 4, … of the timer log: a clock that jumps from second to second sees no fault."""
     root = package_with(BITWISE, tmp_path)
