@@ -21,6 +21,8 @@ EACH_SECONDS = 2.0  # of wall time for one variant
 START_SECONDS = 5.0  # of wall time in addition, for the import of ROS
 MOST_LINES = 40
 JOBS = 2
+MALFORMED = (*(ValueError, TypeError, LookupError, AttributeError, OverflowError, RecursionError),)
+"""The errors of reading what the student's process may have written instead of an answer."""
 
 
 @dataclass(frozen=True)
@@ -142,8 +144,8 @@ def trace_node(
         "conditions": [*map(asdict, conditions)],
     }
     for said in _answers(sandbox, module, function, asked, period=period, seconds=seconds):
-        with suppress(ValueError, TypeError, LookupError, RecursionError):
-            return _trace(json.loads(said)["seen"], conditions)
+        with suppress(*MALFORMED):
+            return _trace(json.loads(said)["seen"], files, conditions)
     return None
 
 
@@ -176,24 +178,32 @@ def _answers(
     return outcome.output.decode("utf-8", "replace").splitlines()
 
 
-def _trace(seen: Any, conditions: Sequence[Watched]) -> Trace:
-    """Read a trace, which may be anything: raises an error of Python if it has another form."""
+def _trace(seen: Any, files: Sequence[str], conditions: Sequence[Watched]) -> Trace:
+    """Read a trace, which may be anything: raises an error of Python if it has another form.
+
+    Only places in these files are kept.
+    """
+
+    def places(found: Any) -> tuple[Place, ...]:
+        return tuple((path, int(line)) for path, line in found if path in files)
+
     found = seen["trace"]
     timers = [
         TracedTimer(
-            _places(one["made"]), bool(one["node"]), int(one["calls"]), _places(one["stopped"])
+            places(one["made"]), bool(one["node"]), int(one["calls"]), places(one["stopped"])
         )
         for one in found["timers"]
     ]
     return Trace(
         str(seen["ended"]),
         {
-            str(path): {int(line): int(count) for line, count in lines.items()}
+            path: {int(line): int(count) for line, count in lines.items()}
             for path, lines in found["lines"].items()
+            if path in files
         },
         tuple(timers),
-        tuple((_places(places), int(timer)) for places, timer in found["logged"]),
-        tuple(map(_places, found["stand"])),
+        tuple((places(at), int(timer)) for at, timer in found["logged"]),
+        tuple(map(places, found["stand"])),
         tuple(
             (
                 (one.file, one.first),
@@ -202,10 +212,6 @@ def _trace(seen: Any, conditions: Sequence[Watched]) -> Trace:
             for one, values in zip(conditions, found["values"])
         ),
     )
-
-
-def _places(found: Any) -> tuple[Place, ...]:
-    return tuple((str(path), int(line)) for path, line in found)
 
 
 def _take(line: str, found: list[ShortRun | None]) -> None:
@@ -221,5 +227,5 @@ def _take(line: str, found: list[ShortRun | None]) -> None:
             run = ShortRun(lines, ended, steps, bool(seen["slept"]), values)
         if isinstance(index, int) and 0 <= index < len(found):
             found[index] = run
-    except (ValueError, TypeError, LookupError, RecursionError):
+    except MALFORMED:
         return

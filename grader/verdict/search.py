@@ -335,7 +335,7 @@ def value_texts(change: FoundChange) -> list[Message]:
         return []
     texts = []
     for code, values in islice(known.items(), MOST_VALUES):
-        given = {"name": one_line(code), "values": ", ".join(values)}
+        given = {"name": one_line(code), "values": shown(", ".join(values))}
         if code == step.written:
             texts.append(say("{name} has the value {values} there.", **given))
         else:
@@ -347,7 +347,7 @@ def values_seen(found: Iterable[tuple[str, Sequence[str]]]) -> list[Message]:
     """Return what pieces of code were in a line when the grader ran the node."""
     texts = []
     for code, values in found:
-        given = {"name": one_line(code), "values": ", ".join(values)}
+        given = {"name": one_line(code), "values": shown(", ".join(values))}
         if len(values) == 1:
             texts.append(
                 say("When the grader ran the node, {name} was {values} in this line.", **given)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import ast
+import json
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING, cast
 
 import pytest
 
@@ -12,13 +14,17 @@ from grader.base.unheard import unheard
 from grader.package.source.names import calls_in
 from grader.package.source.node import NodeSource, read_node
 from grader.report.model import CheckResult, Report
-from grader.run.variants import Trace, TracedTimer
+from grader.run import variants
+from grader.run.variants import Trace, TracedTimer, trace_node
 from grader.verdict.evidence_file import Judged
 from grader.verdict.follow import Stop, conditions_of, stop_of
 from grader.verdict.mark import mark, replay
 from tests import marking
 from tests.corpus.build import write
 from tests.corpus.right import RIGHT
+
+if TYPE_CHECKING:
+    from grader.sandbox.base import Sandbox
 
 NODE, HELPER = "my_robot_controller/my_first_node.py", "my_robot_controller/clock.py"
 LOG = 'self.get_logger().info("Hello time: " + str(self.counter_))'
@@ -204,6 +210,47 @@ def test_what_is_not_clear_is_not_told(timers: tuple[TracedTimer, ...]) -> None:
 
 def test_a_line_that_ran_has_no_end_of_the_way() -> None:
     assert stop(TIMER + TICK + f"        {LOG}\n") is None
+
+
+AWAY = ["/etc/passwd", 1]
+LIE = {
+    "ended": "time",
+    "trace": {
+        "lines": {NODE: {"3": 1}, "/etc/passwd": {"1": 1}},
+        "timers": [{"made": [AWAY], "node": True, "calls": 0, "stopped": []}],
+        "logged": [[[AWAY], 0]],
+        "stand": [[AWAY, [NODE, 3]]],
+        "values": [],
+    },
+}
+
+
+def test_a_trace_has_only_places_in_the_files_that_were_asked_for(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The trace comes from the student's process, which may say what it likes."""
+    said = json.dumps({"index": 0, "seen": LIE})
+    monkeypatch.setattr(variants, "_answers", lambda *_args, **_named: [said])
+    sandbox = cast("Sandbox", None)
+    found = trace_node(sandbox, "node", "main", [NODE], period=1.0, seconds=1.0)
+    timer = TracedTimer((), spun=True, calls=0)
+    assert found == Trace("time", {NODE: {3: 1}}, (timer,), (((), 0),), (((NODE, 3),),))
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "",
+        "[]",
+        '{"seen": null}',
+        '{"seen": {"ended": "", "trace": {"timers": [], "lines": 3}}}',
+        '{"seen": {"ended": "", "trace": {"timers": [], "lines": {}, "logged": [[[], Infinity]]}}}',
+    ],
+)
+def test_what_is_no_trace_is_none(said: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(variants, "_answers", lambda *_args, **_named: [said])
+    sandbox = cast("Sandbox", None)
+    assert trace_node(sandbox, "node", "main", [NODE], period=1.0, seconds=1.0) is None
 
 
 def test_a_condition_is_watched_with_the_names_that_it_asks_for() -> None:
