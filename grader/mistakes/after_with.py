@@ -22,14 +22,14 @@ from grader.package.source.module import Function, Module
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.place import block_of, statement_at
 
-NO_ROS = (
-    r"'NoneType' object does not support the context manager protocol|AttributeError: __enter__"
-    r"|NotInitializedException|context is (?:not valid|invalid)|InvalidHandle"
-    r"|Context must be initialized"  # on kilted
-)
 NO_CONTEXT = (
     r"'NoneType' object does not support the context manager protocol|AttributeError: __enter__"
     r"|RuntimeError: Context must be initialized"
+)
+NO_ROS = (
+    rf"{NO_CONTEXT}"
+    r"|NotInitializedException|context is (?:not valid|invalid)|InvalidHandle"
+    r"|Context must be initialized"  # on kilted
 )
 SHUTS = ("shutdown", "try_shutdown")
 OWN_CONTEXT = """\

@@ -164,7 +164,8 @@ KINDS = (
         links.PYTHON_CLASSES,
         whys={
             "alone": msg(
-                "super() does not call __init__ and does not hand values on to it: it only stands for the base class. The name "
+                "super() does not call __init__ and does not hand values on to it: it only stands for the base "
+                "class. The name "
                 "goes to the __init__ of the base class."
             )
         },

@@ -39,13 +39,12 @@ def _passed(suspect: Suspect) -> RecognisedMistake | None:
                 continue
             written = f"{counter.name} += {suspect.output.step}"
             back = [n.value for n in ast.walk(function) if isinstance(n, ast.Return) and n.value]
-            if used and any(dotted(value) == parameter for value in back):
-                continue  # (the sum is used)
-            if used:
-                pass
-            elif back and all(dotted(value) == parameter for value in back):
+            sums = [dotted(value) == parameter for value in back]
+            if used and any(sums):
+                continue
+            if not used and sums and all(sums):
                 written = f"{counter.name} = {module.text.code(call)}"
-            elif len(code_of(function)) > 1 or back:
+            elif not used and (len(code_of(function)) > 1 or back):
                 return None  # (its call may do more than add)
             found = suspect.finding(
                 "counter_passed",

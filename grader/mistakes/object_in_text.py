@@ -15,7 +15,7 @@ from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
-from grader.package.source.names import dotted, is_enum, last_part
+from grader.package.source.names import dotted, is_enum, last_part, named_in
 from grader.package.source.place import statement_at
 
 OBJECT = re.compile(
@@ -97,13 +97,7 @@ def _used(suspect: Suspect) -> list[tuple[str, ast.expr]]:
     place = suspect.place
     module = suspect.source.module_at(place.file if place is not None else "")
     statement = statement_at(module, place.line if place is not None else None)
-    parts = [
-        n
-        for n in (ast.walk(statement) if statement is not None else ())
-        if isinstance(n, ast.Name | ast.Attribute) and dotted(n)
-    ]
-    inner = {p for n in parts for p in ast.walk(n) if p is not n}
-    return [(dotted(n), n) for n in parts if n not in inner]
+    return [(dotted(n), n) for n in named_in(statement)] if statement is not None else []
 
 
 def _list(suspect: Suspect) -> RecognisedMistake | None:
@@ -137,33 +131,37 @@ def _are_texts(found: ast.List) -> bool:
     )
 
 
+def _only_unread(suspect: Suspect, *names: str) -> ast.Call | None:
+    """Return the only call of these functions whose value is used, and of which no attribute is read."""
+    found = [
+        call
+        for call, name in suspect.source.calls
+        if last_part(name) in names
+        and not isinstance(
+            suspect.source.module_of(call).parents.get(call), ast.Attribute | ast.Expr
+        )
+    ]
+    return found[0] if len(found) == 1 else None
+
+
 def _parameter(suspect: Suspect) -> RecognisedMistake | None:
     """Look for the only call that gets a parameter and does not ask for its value."""
-    calls = []
-    for call, name in suspect.source.calls:
-        around = suspect.source.module_of(call).parents.get(call)
-        used = isinstance(around, ast.Attribute | ast.Expr)
-        if last_part(name) in ("get_parameter", "declare_parameter") and not used:
-            calls.append(call)
-    if len(calls) != 1:
+    call = _only_unread(suspect, "get_parameter", "declare_parameter")
+    if call is None:
         return None
-    code = suspect.source.module_of(calls[0]).text.code(calls[0])
-    found = suspect.finding("parameter_object", calls[0], name=code, written=f"{code}.value")
+    code = suspect.source.module_of(call).text.code(call)
+    found = suspect.finding("parameter_object", call, name=code, written=f"{code}.value")
     return replace(found, variant="written") if "\n" not in code else None
 
 
 def _parameter_value(suspect: Suspect) -> RecognisedMistake | None:
     """Look for the only call of get_parameter_value() of which no field is asked for."""
-    calls = []
-    for call, name in suspect.source.calls:
-        around = suspect.source.module_of(call).parents.get(call)
-        if last_part(name) == "get_parameter_value" and not isinstance(around, ast.Attribute):
-            calls.append(call)
-    if len(calls) != 1 or not isinstance(calls[0].func, ast.Attribute):
+    call = _only_unread(suspect, "get_parameter_value")
+    if call is None or not isinstance(call.func, ast.Attribute):
         return None
-    module = suspect.source.module_of(calls[0])
-    code, owner = module.text.code(calls[0]), module.text.code(calls[0].func.value)
-    found = suspect.finding("object_in_text", calls[0], name=code, written=f"{owner}.value")
+    module = suspect.source.module_of(call)
+    code, owner = module.text.code(call), module.text.code(call.func.value)
+    found = suspect.finding("object_in_text", call, name=code, written=f"{owner}.value")
     return replace(found, variant="parameter_value") if "\n" not in code else None
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
@@ -36,13 +37,9 @@ def _no_value(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         return found
     code = raised.source.module_of(given).text.code(given)
     shown = {"name": code, "written": VALUES[kind]}
-    return RecognisedMistake(
-        kind="parameter.no_value",
-        params=shown,
-        words={**words, **shown, "parameter": name},
-        variant="typed",
-        where=place_of(raised.source, given),
-    )
+    words |= {**shown, "parameter": name}
+    where = place_of(raised.source, given)
+    return replace(found, params=shown, words=words, variant="typed", where=where)
 
 
 _parameter = Family("parameter", links.PARAMETERS)

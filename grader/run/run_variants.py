@@ -7,11 +7,10 @@ modules by their names; `until` is in nanoseconds of ROS time, `lines` the most 
 `seconds` the most wall time for one variant and for all, `jobs` how many run at once. `watched` has
 null for each variant, or the `file`, `first` and `last` line of a statement, and pieces of `code`
 whose values are asked for. `traced` has the files whose lines are followed, and `conditions` are
-watched in them as well. The output is a JSON line
-for each variant that was run: its index, the `lines` (instant, logger, text), how it `ended`, the
-number of `steps` that ROS time made, whether the code `slept`, for each piece of code its first
-`values`, and the `trace` (see Traced). What it says is no proof: the student's code runs in the same
-process.
+watched in them as well. The output is a JSON line for each variant that was run: its index, the
+`lines` (instant, logger, text), how it `ended`, the number of `steps` that ROS time made, whether the
+code `slept`, for each piece of code its first `values`, and the `trace` (see Traced). What it says is
+no proof: the student's code runs in the same process.
 """
 
 from __future__ import annotations
@@ -272,7 +271,7 @@ class Traced:
     def found(self) -> dict[str, Any]:
         """Return what was seen: `lines` by file, `timers`, what was `logged`, where threads `stand`."""
         frames = sys._current_frames().values()
-        timers = [{**seen, "node": seen["node"] in self._spun} for seen in self._timers]
+        timers = [{**seen, "spun": seen["node"] in self._spun} for seen in self._timers]
         return {
             "lines": self._lines,
             "timers": timers,

@@ -190,7 +190,7 @@ def _trace(seen: Any, files: Sequence[str], conditions: Sequence[Watched]) -> Tr
     found = seen["trace"]
     timers = [
         TracedTimer(
-            places(one["made"]), bool(one["node"]), int(one["calls"]), places(one["stopped"])
+            places(one["made"]), bool(one["spun"]), int(one["calls"]), places(one["stopped"])
         )
         for one in found["timers"]
     ]

@@ -17,7 +17,6 @@ from grader.mistakes.catalogue import CATALOGUE, RANK
 from grader.mistakes.recognise import SYMPTOMS, behind_error, behind_symptom
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.whole_block import rest_of_block
-from grader.package.edit.text import read_source
 from grader.package.source.module import Module
 from grader.package.source.names import SPINS, calls_in, last_part, misnamed_init
 from grader.package.source.place import place_of, statement_at
@@ -25,7 +24,7 @@ from grader.package.source.setup_packages import packages_of
 from grader.report.model import Mistake, Where
 from grader.verdict.checks.faults import calls_to, ended_program, raised_in, raised_inside
 from grader.verdict.checks.not_python import unreadable_module
-from grader.verdict.checks.parsed import data_of, file_of, has_subpackages, names_in
+from grader.verdict.checks.parsed import data_of, file_of, has_subpackages, line_at, names_in
 from grader.verdict.circular import circular_import
 from grader.verdict.follows import followed
 from grader.verdict.node_files import source_around, source_of_node
@@ -318,8 +317,7 @@ def _show_line(diagnosis: Diagnosis, evidence: Evidence) -> None:
         module = source.module_at(where.file)
         code, last = module.line(where.line), _last_line(module, where.line)
     else:
-        text = read_source(data_of(evidence, where.file))
-        code = text.line(where.line).strip() if text is not None else ""
+        code = line_at(evidence, where)
     if len(code) >= SHORTEST:
         line = say("line {line}: {code}", line=where.line or 0, code=shown(code))
         if last > where.line:

@@ -39,8 +39,7 @@ class Evidence:
     the evidence of the package as it is after a fix, or of None; `tried` has what that showed, by
     the fix's SHA-256, and `untried` all results without a fix, once a fix was compared with them.
     `search` looks for small changes after which the node counts; `found_changes` has them (None: not
-    looked for). `follow` follows a short run of the node; `trace` has what it showed, once it was
-    asked for.
+    looked for). `follow` follows a short run of the node.
     """
 
     def __init__(
@@ -71,7 +70,6 @@ class Evidence:
         self.with_fix = with_fix
         self.search = search
         self.follow = follow
-        self.trace: Trace | None = None
         self.found_changes: list[FoundChange] | None = None
         self.tried: dict[str, Evidence] = {}
         self.untried: dict[str, CheckResult] = {}
@@ -80,6 +78,16 @@ class Evidence:
     def build(self) -> Build:
         """The build; made on first access."""
         return self._make_build()
+
+    @cached_property
+    def trace(self) -> Trace | None:
+        """What a followed run shows; made on first access. None if there is none."""
+        return self.follow(self) if self.follow is not None else None
+
+    @property
+    def was_followed(self) -> bool:
+        """Whether the followed run was asked for."""
+        return "trace" in self.__dict__
 
     @property
     def named(self) -> Assignment:

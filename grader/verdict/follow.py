@@ -9,19 +9,19 @@ from __future__ import annotations
 import ast
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from grader.base.i18n.message import Message, joined, say
 from grader.mistakes.placeholders import placeholder_values
 from grader.mistakes.recognised import RecognisedMistake
 from grader.package.source.module import Function, Module, is_text
-from grader.package.source.names import calls_in, dotted, last_part, module_name
+from grader.package.source.names import calls_in, dotted, last_part, module_name, named_in
 from grader.package.source.node import NodeSource
-from grader.package.source.place import statement_at
+from grader.package.source.place import last_row, statement_at, statement_of
 from grader.report.model import Where
 from grader.run.variants import Place, Trace, Values, Watched, trace_node
 from grader.sandbox.base import Sandbox
-from grader.verdict.evidence import Evidence, Follow
+from grader.verdict.evidence import Evidence
 from grader.verdict.node_files import source_of_node
 from grader.verdict.search import one_line
 
@@ -54,43 +54,39 @@ class Stop:
     log: ast.stmt
     name: str = ""
     place: Place | None = None
-    values: Values = field(default=())
+    values: Values = ()
 
 
-def follow_in(sandbox: Sandbox, until: float) -> Follow:
-    """Return what follows a node in a sandbox whose workspace has been built, until then at most.
+def trace_in(sandbox: Sandbox, until: float, evidence: Evidence) -> Trace | None:
+    """Follow a node in a sandbox whose workspace has been built; None if too little time is left.
 
     `until` is of `time.monotonic`.
     """
-
-    def follow(evidence: Evidence) -> Trace | None:
-        source = source_of_node(evidence)
-        if source is None or source.main is None or until - time.monotonic() < SECONDS:
-            return None
-        return trace_node(
-            sandbox,
-            module_name(source.entry.path),
-            evidence.assignment.function,
-            [module.path for module in source.known_modules],
-            period=evidence.assignment.output.period,
-            seconds=SECONDS,
-            conditions=conditions_of(source),
-        )
-
-    return follow
+    source = source_of_node(evidence)
+    if source is None or source.main is None or until - time.monotonic() < SECONDS:
+        return None
+    return trace_node(
+        sandbox,
+        module_name(source.entry.path),
+        evidence.assignment.function,
+        [module.path for module in source.known_modules],
+        period=evidence.assignment.output.period,
+        seconds=SECONDS,
+        conditions=conditions_of(source),
+    )
 
 
 def followed(evidence: Evidence, seen: str) -> tuple[RecognisedMistake, Values] | None:
     """Return what a followed run shows of a symptom (`seen`), and values at its place; None if nothing."""
-    if evidence.trace is None and evidence.follow is not None and not evidence.assignment.runs:
-        evidence.trace = evidence.follow(evidence)
+    if seen not in (*SILENT, *SEVERAL) or evidence.assignment.runs:
+        return None
     trace, source = evidence.trace, source_of_node(evidence)
     if trace is None or source is None:
         return None
     if seen in SEVERAL:
         found = _several_timers(source, trace, evidence)
         return (found, ()) if found is not None else None
-    return _not_reached(source, trace, evidence) if seen in SILENT else None
+    return _not_reached(source, trace, evidence)
 
 
 def _not_reached(
@@ -179,12 +175,9 @@ def conditions_of(source: NodeSource) -> list[Watched]:
     for module in source.known_modules:
         for part in module.nodes:
             if isinstance(part, ast.If | ast.While):
-                pieces = [n for n in ast.walk(part.test) if isinstance(n, ast.Name | ast.Attribute)]
-                inner = {p for n in pieces for p in ast.walk(n) if p is not n}
-                inner |= {call.func for call, _ in calls_in(part.test)}
-                code = dict.fromkeys(
-                    module.text.code(n) for n in pieces if n not in inner and dotted(n)
-                )
+                called = {call.func for call, _ in calls_in(part.test)}
+                pieces = [n for n in named_in(part.test) if n not in called]
+                code = dict.fromkeys(map(module.text.code, pieces))
                 last = part.test.end_lineno or part.lineno
                 found.append(Watched(module.path, part.lineno, last, tuple(code)[:LONGEST_CODE]))
     return found
@@ -206,22 +199,28 @@ class _Way:
         return self._reach(self._log)
 
     def _statement(self, part: ast.AST) -> ast.stmt:
-        module = self._source.module_of(part)
-        return next(n for n in (part, *module.around(part)) if isinstance(n, ast.stmt))
+        return statement_of(self._source.module_of(part), part)
 
     def _count(self, statement: ast.stmt) -> int:
         """Return how often a statement ran; of a block, its head."""
-        module = self._source.module_of(statement)
-        block = getattr(statement, "body", None)
-        last = statement.end_lineno or statement.lineno
-        if isinstance(block, list) and block:
-            last = max(statement.lineno, block[0].lineno - 1)
         if isinstance(statement, ast.Try):
             return max(map(self._count, statement.body))
-        return max(self._trace.count(module.path, n) for n in range(statement.lineno, last + 1))
+        path, rows = (
+            self._source.module_of(statement).path,
+            range(statement.lineno, last_row(statement) + 1),
+        )
+        return max(self._trace.count(path, row) for row in rows)
 
-    def _found(self, sort: str, at: ast.stmt, **more: object) -> Stop:
-        return Stop(sort, at, self._log, **more)  # type: ignore[arg-type]
+    def _found(
+        self,
+        sort: str,
+        at: ast.stmt,
+        name: str = "",
+        *,
+        place: Place | None = None,
+        values: Values = (),
+    ) -> Stop:
+        return Stop(sort, at, self._log, name, place, values)
 
     def _reach(self, statement: ast.stmt) -> Stop | None:
         """Return where the way to a statement ends that did not run."""
@@ -302,13 +301,10 @@ class _Way:
                 if last_part(dotted(b)) not in ("Node", "object")
             ]
             return None if plain else self._found("not_called", function, name=name)
-        stops = []
-        for use in uses:
-            statement = self._statement(use)
-            if not self._count(statement):
-                stops.append(self._reach(statement))
-                continue
-            stops.append(self._timer(statement, name))
+        stops = [
+            self._timer(statement, name) if self._count(statement) else self._reach(statement)
+            for statement in map(self._statement, uses)
+        ]
         first = stops[0]
         return first if first is not None and all(stop == first for stop in stops) else None
 

@@ -215,9 +215,9 @@ def _follow(session: Session) -> Follow:
     """Return what follows a short run of the node, in the session's sandbox."""
 
     def follow(evidence: Evidence) -> Trace | None:
-        from grader.verdict.follow import follow_in  # noqa: PLC0415 - only a failed check needs it
+        from grader.verdict.follow import trace_in  # noqa: PLC0415 - only a failed check needs it
 
-        return follow_in(session.sandbox, session.deadline)(evidence)
+        return trace_in(session.sandbox, session.deadline, evidence)
 
     return follow
 

@@ -177,7 +177,7 @@ def record(evidence: Evidence, environment: Environment) -> Recording:
         unobserved="" if evidence.run_failed is None else evidence.run_failed.reason,
         fixed={digest: record(tried, environment) for digest, tried in evidence.tried.items()},
         found_changes=tuple(evidence.found_changes or ()),
-        trace=evidence.trace,
+        trace=evidence.trace if evidence.was_followed else None,
     )
 
 

@@ -18,8 +18,9 @@ from grader.base.shown import shown
 from grader.course.assignment import Assignment, Output
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.recognised import RecognisedMistake
-from grader.package.source.names import dotted, module_name
+from grader.package.source.names import module_name, named_in
 from grader.package.source.node import NodeSource, read_node
+from grader.package.source.place import last_row, statement_of
 from grader.package.source.small_changes import SmallChange, small_changes
 from grader.package.source.small_values import Goal
 from grader.report.model import Where
@@ -252,17 +253,10 @@ def block_of(found: SmallChange) -> Watched | None:
 def watched_at(found: SmallChange) -> Watched:
     """Return the code whose values show what a change does: names in it, itself, and the new code."""
     module, at = found.module, found.change.at
-    statement = next(n for n in (at, *module.around(at)) if isinstance(n, ast.stmt))
-    block = getattr(statement, "body", None)
-    last = max(block[0].lineno - 1, statement.lineno) if block else statement.end_lineno
-    parts = ast.walk(at) if isinstance(at, ast.expr) else ()
-    pieces = [n for n in parts if isinstance(n, ast.Name | ast.Attribute) and dotted(n)]
-    inner = {part for n in pieces for part in ast.walk(n) if part is not n}
-    names = [module.text.code(n) for n in pieces if n not in inner]
+    statement = statement_of(module, at)
+    names = [module.text.code(n) for n in named_in(at)] if isinstance(at, ast.expr) else []
     code = [c for c in (*names, found.change.name, found.change.written) if not _is_literal(c)]
-    return Watched(
-        found.path, statement.lineno, last or statement.lineno, tuple(dict.fromkeys(code))
-    )
+    return Watched(found.path, statement.lineno, last_row(statement), tuple(dict.fromkeys(code)))
 
 
 def _is_literal(code: str) -> bool:

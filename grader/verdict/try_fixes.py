@@ -22,10 +22,9 @@ from grader.base.shown import shown
 from grader.mistakes.catalogue import CATALOGUE
 from grader.package.edit.diff import diff
 from grader.package.edit.files import Files
-from grader.package.edit.text import read_source
 from grader.report.model import CheckResult, Mistake
 from grader.verdict.checks.all import STATIC
-from grader.verdict.checks.parsed import data_of
+from grader.verdict.checks.parsed import line_at
 from grader.verdict.diagnose import RAISES
 from grader.verdict.evaluate import evaluate_again, evaluate_checks
 from grader.verdict.evidence import Evidence
@@ -97,8 +96,8 @@ def _with_followed(
         return None
     from grader.verdict.follow import followed  # noqa: PLC0415 - few packages need it
 
-    for seen in {mistake.id for mistake in result.mistakes} & VAGUE:
-        shows = followed(evidence, seen)
+    for mistake in result.mistakes:
+        shows = followed(evidence, mistake.id)
         if shows is not None:
             now = evaluate_again(result.id, evidence, translate, found=shows[0])
             texts = [] if now.consequence_of else values_seen(shows[1])
@@ -299,11 +298,10 @@ def _without_first(
     if _root(other) is None:
         return None
     again = _Trial(other, evidence, translate)
-    for fix in islice(fixes_of(other, evidence.submission, evidence.assignment), 1):
-        if again.helps(fix, on_top=0).helps:
-            old = Files.of(evidence.submission)
-            return _with_change(other, old, Tried(True, fix), fix, translate)
-    return None
+    fix = next(fixes_of(other, evidence.submission, evidence.assignment), None)
+    if fix is None or not again.helps(fix, on_top=0).helps:
+        return None
+    return _with_change(other, Files.of(evidence.submission), Tried(True, fix), fix, translate)
 
 
 def _with_change(
@@ -477,8 +475,7 @@ def _further(after: CheckResult, fixed: Evidence, done: Files) -> _Further | Non
             root, where = recognised(change).mistake, recognised(change).where
     if found is None:
         return None
-    text = read_source(data_of(fixed, where.file)) if where is not None else None
-    code = text.line(where.line).strip() if text is not None and where and where.line else ""
+    code = line_at(fixed, where) if where is not None else ""
     told: tuple[Message, ...] = ()
     if root is not None and code:
         title = Message(CATALOGUE[root.id].title, {})

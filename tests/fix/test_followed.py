@@ -217,7 +217,7 @@ LIE = {
     "ended": "time",
     "trace": {
         "lines": {NODE: {"3": 1}, "/etc/passwd": {"1": 1}},
-        "timers": [{"made": [AWAY], "node": True, "calls": 0, "stopped": []}],
+        "timers": [{"made": [AWAY], "spun": True, "calls": 0, "stopped": []}],
         "logged": [[[AWAY], 0]],
         "stand": [[AWAY, [NODE, 3]]],
         "values": [],

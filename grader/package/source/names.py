@@ -56,6 +56,13 @@ def called_name(call: ast.Call) -> str:
     return function.attr if isinstance(function, ast.Attribute) else dotted(function)
 
 
+def named_in(part: ast.AST) -> list[ast.Name | ast.Attribute]:
+    """Return the names and attributes in a part of the source, each whole: self.a.b, and not self.a."""
+    found = [n for n in ast.walk(part) if isinstance(n, ast.Name | ast.Attribute) and dotted(n)]
+    inner = {p for n in found for p in ast.walk(n) if p is not n}
+    return [n for n in found if n not in inner]
+
+
 def own_name(node: ast.AST | None) -> str:
     """Return x of `self.x`; "" for anything else."""
     if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):

@@ -51,6 +51,17 @@ def first_row(node: ast.stmt) -> int:
     return min([node.lineno, *(decorator.lineno for decorator in decorators)])
 
 
+def last_row(node: ast.stmt) -> int:
+    """Return the last line of a statement; of a block, of its head."""
+    block = getattr(node, "body", None)
+    return max(node.lineno, block[0].lineno - 1) if block else node.end_lineno or node.lineno
+
+
+def statement_of(module: Module, part: ast.AST) -> ast.stmt:
+    """Return the innermost statement that a part of the file is in."""
+    return next(n for n in (part, *module.around(part)) if isinstance(n, ast.stmt))
+
+
 def owns_lines(module: Module, node: ast.stmt) -> bool:
     """Whether no other code is on the lines of a statement."""
     text = module.text

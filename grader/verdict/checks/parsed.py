@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import Message
 from grader.base.shown import shown
+from grader.package.edit.text import read_source
 from grader.package.source.entry_points import EntryPoints, from_setup_cfg, from_setup_py
 from grader.package.source.python import PythonFault
 from grader.package.source.setup_cfg import SetupCfgFault, read_setup_cfg
@@ -14,6 +15,7 @@ from grader.package.source.values import Table
 
 if TYPE_CHECKING:
     from grader.package.intake.model import SourceFile
+    from grader.report.model import Where
     from grader.verdict.evidence import Evidence
 
 CONSOLE = "console_scripts"
@@ -38,6 +40,12 @@ def data_of(evidence: Evidence, path: str) -> bytes | None:
     """Return the bytes of a file of the package; None if there is none that can be read."""
     file = file_of(evidence, path)
     return file.data if file is not None and not file.unreadable else None
+
+
+def line_at(evidence: Evidence, where: Where) -> str:
+    """Return a line of the submission without its indentation; "" if there is none."""
+    text = read_source(data_of(evidence, where.file))
+    return text.line(where.line or 0).strip() if text is not None else ""
 
 
 def setup_py_of(evidence: Evidence) -> SetupPy | None:
