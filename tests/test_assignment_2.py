@@ -102,6 +102,29 @@ def test_the_topics_and_periods_of_the_checks_are_recorded(tmp_path: Path) -> No
             "did you mean 'turtlesim/action/RotateAbsolute'",
         ),
         ("cancel: large", "move: {x: 1.0, y: 1.0}", "needs a world"),
+        ("name: four, at: 1.0,", "name: four, at: 1.04,", "a multiple of 0.1 s: write 1 or 1.1"),
+        ("during: [0, 0.9]", "during: [0, 5.5]", "ends at 5.5 s, the run 'answers' at 5 s"),
+        ("file: doubler.py", "file: doubling.py", "doubling/doubler.py (did you mean 'doubler.py'"),
+        (
+            "{name: four, at: 1.0, publish: {topic: /number,",
+            "{name: four, at: 1.0, publish: {topic: /numbr,",
+            "nothing else names /numbr (did you mean '/number'?)",
+        ),
+        ("points: 1, after: four, with", "points: 1, with", "'topic.reacts' needs `after:`"),
+        ("after: reset", "after: five", "judges a stimulus with 'call', and 'five' is none: reset"),
+        ("with: {service: /reset, each", "with: {service: /rest, each", "'reset' calls /reset"),
+        ("after: small, with: {action: /turn}", "after: small, with: {action: /trn}", "to /turn"),
+        (
+            "start: [{node: doubler}]",
+            "start: [{node: doubler, params_file: ../a.yaml}]",
+            "a path in the package, such as config/limits.yaml, not '../a.yaml'",
+        ),
+        (
+            "start: [{node: doubler}]",
+            "start: [{node: doubler, arguments: [--ros-args, -p]}]",
+            "arguments are the program's own",
+        ),
+        ("{factor: 3}", "{factor: 3.0}", "factor is of the type integer: it cannot be 3.0"),
     ],
 )
 def test_a_mistake_in_the_file_is_told_with_its_line(
@@ -113,6 +136,47 @@ def test_a_mistake_in_the_file_is_told_with_its_line(
     first = str(told.value).splitlines()[0]
     assert words in first
     assert first.startswith(f"{tmp_path}/assignment.yaml:{line}:")
+
+
+def test_a_start_gives_words_and_a_file_of_parameters(tmp_path: Path) -> None:
+    start = 'start: [{node: doubler, arguments: ["3", "a b"], params_file: config/l.yaml}]'
+    found = loaded(tmp_path, "start: [{node: doubler}]", start)
+    assert found.runs[0].start[0].words("doubling") == [
+        "3",
+        "a b",
+        "--ros-args",
+        "--params-file",
+        "src/doubling/config/l.yaml",
+        "-p",
+        "use_sim_time:=true",
+    ]
+
+
+def test_a_whole_number_is_no_double(tmp_path: Path) -> None:
+    text = ASSIGNMENT.replace("type: integer, value: 3", "type: double, value: 3.0")
+    with pytest.raises(AssignmentError, match=r"type double: it cannot be 3 \(did you mean '3.0'"):
+        loaded(tmp_path, text=text)
+
+
+@pytest.mark.parametrize(
+    ("check", "words"),
+    [
+        ("{id: more, check: topic.silent, points: 1, run: answer, with: {topic: /beat}}", "run"),
+        (
+            "{id: more, check: topic.silent, points: 1, during: [0, 6], with: {topic: /beat}}",
+            "the run 'answers' at 5 s",
+        ),
+    ],
+)
+def test_a_hidden_check_is_held_to_the_runs_too(check: str, words: str, tmp_path: Path) -> None:
+    hidden = tmp_path / "hidden.yaml"
+    hidden.write_text(f"checks:\n  - {check}\n", encoding="utf-8")
+    file = tmp_path / "assignment.yaml"
+    file.write_text(f"{ASSIGNMENT}hidden_checks: 1\n", encoding="utf-8")
+    with pytest.raises(AssignmentError) as told:
+        load_assignment(file, known_checks=CHECKS, hidden=hidden)
+    assert str(told.value).startswith(f"{hidden}:2:")
+    assert words in str(told.value)
 
 
 def test_schema_1_has_no_keys_of_schema_2(tmp_path: Path) -> None:

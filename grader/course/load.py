@@ -63,6 +63,7 @@ class _Anything(BaseModel):
 @dataclass(frozen=True)
 class _AnyCheck:
     parameters: type[BaseModel] | None = _Anything
+    stimulus: tuple[str, ...] = ()
 
 
 ANY = _AnyCheck()

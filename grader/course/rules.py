@@ -16,6 +16,7 @@ from grader.base.positioned_yaml import Document, Loc
 from grader.base.yaml_model import Fault, error_of, model_faults, validated
 from grader.course.assignment import Assignment, CheckUse, Lesson, Output
 from grader.course.interface_rules import interface_faults
+from grader.course.names import NAMES
 from grader.course.policy import Late, Policy, policy_faults
 from grader.course.scenario import (
     Call,
@@ -28,30 +29,11 @@ from grader.course.scenario import (
     Start,
     Stimulus,
 )
+from grader.course.scenario_rules import module_fault, run_faults, use_faults
 from grader.course.shorthands import SHORTHANDS
 from grader.report.detail import FeedbackRules
 
 ARCHIVE = r"(?!\.)(?:[\w.-]|\{student\}){1,100}\.zip"
-# REP 144 for packages; the ROS design article "Topic and Service name mapping" for nodes.
-NAMES = {  # key: its pattern, and the pattern in words
-    "id": (r"[a-z][a-z0-9_]*", "lower case letters, digits and _, starting with a letter"),
-    "package": (r"[a-z][a-z0-9_]*", "lower case letters, digits and _, starting with a letter"),
-    "node_name": (r"[A-Za-z_][A-Za-z0-9_]*", "letters, digits and _, not starting with a digit"),
-    "executable": (
-        r"[A-Za-z_][A-Za-z0-9_.-]*",
-        "letters, digits, _, - and ., starting with a letter",
-    ),
-    "node_file": (
-        r"[A-Za-z_][A-Za-z0-9_]*\.py",
-        "the name of a Python file without a folder, such as my_node.py",
-    ),
-    "target": (
-        r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*:[A-Za-z_]\w*",
-        "module.path:function, such as my_package.my_node:main",
-    ),
-}
-
-
 SCHEMA_2 = ("nodes", "runs", "interface_packages")  # keys of Assignment that schema 1 does not have
 ONLY_GRAPH = ("topic.subscribes", "topic.qos")  # kinds that judge no messages
 
@@ -62,6 +44,10 @@ class KnownCheck(Protocol):
     @property
     def parameters(self) -> type[BaseModel] | None:
         """The model of its `with:`, None if it takes none."""
+
+    @property
+    def stimulus(self) -> tuple[str, ...]:
+        """What the stimulus of its `after` must do; empty if it needs none."""
 
 
 KnownChecks = Mapping[str, KnownCheck]
@@ -110,7 +96,7 @@ def _lesson(
     known_limits: Sequence[str] | None,
 ) -> Assignment:
     lesson = validated(document, Lesson, _lesson_keys(document.content))
-    found = list(_runs(lesson))
+    found = list(run_faults(lesson))
     if found:
         raise error_of(document, found)
     assignment = lesson.assignment()
@@ -118,7 +104,7 @@ def _lesson(
         *_names(assignment),
         *_limits(assignment.limits, known_limits),
         *_check_uses(assignment.checks, known_checks, assignment.schema_),
-        *_uses_of_runs(lesson),
+        *use_faults(assignment, known_checks),
         *(
             (("policy", *place), f"policy.{text}")
             for place, text in policy_faults(assignment.policy)
@@ -191,97 +177,6 @@ def _lesson_keys(content: Mapping[str, Any]) -> dict[Loc, tuple[str, ...]]:
     return keys
 
 
-def _runs(lesson: Lesson) -> Iterator[Fault]:
-    """Yield what is wrong with nodes, packages and runs."""
-    pattern, words = NAMES["package"]
-    for i, name in enumerate(lesson.interface_packages):
-        if not re.fullmatch(pattern, name, re.ASCII) or name == lesson.package:
-            text = f"the name of another package must be {words}, not '{name}'"
-            yield ("interface_packages", i), text
-    yield from _packages_of_nodes(lesson)
-    names = [plan.name for plan in lesson.runs]
-    if not names:
-        yield ("runs",), "runs is empty: an assignment of schema 2 needs at least one run"
-    for i, plan in enumerate(lesson.runs):
-        place: Loc = ("runs", i)
-        if not plan.start:
-            yield (*place, "start"), f"the run '{plan.name}' starts no node"
-        if names.index(plan.name) != i:
-            yield (*place, "name"), f"the run '{plan.name}' is listed twice"
-        for j, begin in enumerate(plan.start):
-            if begin.node not in lesson.nodes:
-                hint = meant_or_known(begin.node, tuple(lesson.nodes))
-                yield (*place, "start", j, "node"), f"unknown node '{begin.node}'{hint}"
-        yield from _stimuli(plan, lesson, place)
-
-
-def _packages_of_nodes(lesson: Lesson) -> Iterator[Fault]:
-    pattern, words = NAMES["package"]
-    for name, node in lesson.nodes.items():
-        place: Loc = ("nodes", name, "package")
-        if node.package and not re.fullmatch(pattern, node.package, re.ASCII):
-            yield place, f"package must be {words}, not '{node.package}'"
-        elif node.package in lesson.interface_packages:
-            yield place, f"'{node.package}' is a package of interfaces: it has no nodes"
-    main = lesson.nodes.get(lesson.runs[0].start[0].node) if _starts(lesson) else None
-    if main is not None and main.package not in ("", lesson.package):
-        text = f"the first node of the first run must be in the package '{lesson.package}'"
-        yield ("runs", 0, "start", 0, "node"), text
-
-
-def _starts(lesson: Lesson) -> bool:
-    return bool(lesson.runs and lesson.runs[0].start)
-
-
-def _stimuli(plan: RunPlan, lesson: Lesson, place: Loc) -> Iterator[Fault]:
-    end = plan.clock.period * plan.clock.ticks
-    done = [one.name for one in plan.do]
-    for j, one in enumerate(plan.do):
-        here: Loc = (*place, "do", j)
-        if done.index(one.name) != j:
-            yield (*here, "name"), f"'{one.name}' is listed twice"
-        if one.at >= end:
-            yield (
-                (*here, "at"),
-                f"'{one.name}' comes at {one.at:g} s, the run ends at {end:g} s",
-            )
-        for node in one.set or {}:
-            if node not in lesson.nodes:
-                hint = meant_or_known(node, tuple(lesson.nodes))
-                yield (*here, "set", node), f"unknown node '{node}'{hint}"
-        goals = tuple(other.name for other in plan.do if other.goal is not None)
-        if one.cancel is not None and one.cancel not in goals:
-            hint = meant_or_known(one.cancel, goals)
-            yield (*here, "cancel"), f"unknown goal '{one.cancel}'{hint}"
-        if (one.spawn or one.move) and not plan.world:
-            yield (*here, "name"), f"'{one.name}' needs a world, the run '{plan.name}' has none"
-
-
-def _uses_of_runs(lesson: Lesson) -> Iterator[Fault]:
-    """Yield what is wrong with the run, the node and the window that checks name."""
-    names = tuple(plan.name for plan in lesson.runs)
-    for i, use in enumerate(lesson.checks):
-        place: Loc = ("checks", i)
-        if use.run and use.run not in names:
-            yield (*place, "run"), f"unknown run '{use.run}'{meant_or_known(use.run, names)}"
-            continue
-        if use.of and use.of not in lesson.nodes:
-            hint = meant_or_known(use.of, tuple(lesson.nodes))
-            yield (*place, "of"), f"unknown node '{use.of}'{hint}"
-        plan = next((plan for plan in lesson.runs if plan.name == use.run), lesson.runs[0])
-        done = tuple(one.name for one in plan.do)
-        if use.after and use.after not in done:
-            yield (
-                (*place, "after"),
-                f"unknown stimulus '{use.after}'{meant_or_known(use.after, done)}",
-            )
-        if use.during is not None and use.during[0] > use.during[1]:
-            yield (
-                (*place, "during"),
-                "during must be [first, last] in s, the first not above the last",
-            )
-
-
 def merge_hidden(
     assignment: Assignment,
     document: Document,
@@ -305,6 +200,9 @@ def merge_hidden(
     )
     merged = assignment.model_copy(update={"checks": assignment.checks + marked})
     first = len(assignment.checks)
+    found = list(use_faults(merged, known_checks, first=first)) if merged.runs else []
+    if found:
+        raise error_of(hidden, found)
     return _with_topics(merged, hidden, first=first) if merged.runs else merged
 
 
@@ -346,6 +244,9 @@ def _names(assignment: Assignment) -> Iterator[Fault]:
             "archive must be a file name of letters, digits, '.', '_', '-' and {student} that ends "
             f"in .zip, not '{assignment.archive}'",
         )
+    fault = "" if assignment.nodes else module_fault(assignment.target, assignment.node_file)
+    if fault:
+        yield ("node_file",), fault
     if assignment.package == "test":
         yield ("package",), "package: an ament_python package cannot be named 'test'"
     if not assignment.title.strip():

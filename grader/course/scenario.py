@@ -43,17 +43,26 @@ class Node(_Part):
 
 
 class Start(_Part):
-    """The start of a node, with what `ros2 run … --ros-args` gives it."""
+    """The start of a node, with what `ros2 run` gives it.
+
+    `arguments` are the program's own words, before `--ros-args`; `params_file` is a file of
+    parameters in the node's package, such as config/limits.yaml.
+    """
 
     node: str
+    arguments: tuple[str, ...] = Field(default=(), exclude_if=lambda words: not words)
+    params_file: str = Field(default="", exclude_if=lambda path: not path)
     parameters: dict[str, Value] = Field(default_factory=dict)
     remap: dict[str, str] = Field(default_factory=dict)
     namespace: str = ""
     name: str = ""
 
-    def arguments(self) -> list[str]:
-        """Return the words after `--ros-args`."""
-        words = ["-p", "use_sim_time:=true"]
+    def words(self, package: str) -> list[str]:
+        """Return the words after the executable's name; `package` is the node's."""
+        words = [*self.arguments, "--ros-args"]
+        if self.params_file:
+            words += ["--params-file", f"src/{package}/{self.params_file}"]
+        words += ["-p", "use_sim_time:=true"]
         for name, value in self.parameters.items():
             words += ["-p", f"{name}:={_as_yaml(value)}"]
         rules = {**self.remap}

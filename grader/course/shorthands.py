@@ -20,6 +20,7 @@ class Shorthand:
     kind: str
     values: Mapping[str, str]
     parameters: None = None  # that it takes itself
+    stimulus: tuple[str, ...] = ()
 
     @property
     def needs_output(self) -> bool:

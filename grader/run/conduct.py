@@ -45,7 +45,7 @@ def command_of(assignment: Assignment, begin: Start, distro: Distro) -> str:
     """Return the `ros2 run` command that starts a node of a plan."""
     node = assignment.nodes[begin.node]
     package = node.package or assignment.package
-    return ros2_run(distro, package, node.executable, "--ros-args", *begin.arguments())
+    return ros2_run(distro, package, node.executable, *begin.words(package))
 
 
 def full_name(assignment: Assignment, begin: Start) -> str:

@@ -79,7 +79,7 @@ def offers(use: Use[Action]) -> Passed:
     )
 
 
-@kind("action.accepts", Accepts, after=["action.offers"])
+@kind("action.accepts", Accepts, after=["action.offers"], stimulus=["goal"])
 def accepts(use: Use[Accepts]) -> Passed:
     """The action {action} accepts or refuses the goal as it must"""
     given, goal = use.given, _goal(use)
@@ -98,7 +98,7 @@ def accepts(use: Use[Accepts]) -> Passed:
     return Passed(actual=words[accepted])
 
 
-@kind("action.feedback", Feedback, after=["action.accepts"])
+@kind("action.feedback", Feedback, after=["action.accepts"], stimulus=["goal"])
 def feedback(use: Use[Feedback]) -> Passed:
     """The action {action} gives feedback on the goal"""
     given, goal = use.given, _accepted(use, use.given.action)
@@ -139,7 +139,7 @@ def feedback(use: Use[Feedback]) -> Passed:
     return Passed(actual=count)
 
 
-@kind("action.result", Result, after=["action.accepts", "action.feedback"])
+@kind("action.result", Result, after=["action.accepts", "action.feedback"], stimulus=["goal"])
 def result(use: Use[Result]) -> Passed:
     """The goal of the action {action} ends as it must"""
     given, goal = use.given, _accepted(use, use.given.action)
@@ -174,7 +174,7 @@ def result(use: Use[Result]) -> Passed:
     return Passed(actual=say("it ends as {status}", status=goal.status))
 
 
-@kind("action.cancels", Cancels, after=["action.accepts", "action.result"])
+@kind("action.cancels", Cancels, after=["action.accepts", "action.result"], stimulus=["cancel"])
 def cancels(use: Use[Cancels]) -> Passed:
     """A goal of the action {action} can be cancelled"""
     given = use.given

@@ -11,7 +11,7 @@ which has the evidence): one assignment may use it several times, under differen
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 from grader.base.i18n.message import Message, say
@@ -59,6 +59,7 @@ class Check:
     It is skipped unless the checks in `depends` passed. It is evaluated after those in `after`,
     because it uses their results, or because they name the cause of a mistake that both find.
     `needs` is what usually decides it, `quotes` what of the evidence shows why it failed.
+    The stimulus that its use names after `after:` must do one of `stimulus`, if there are any.
     """
 
     id: str
@@ -70,6 +71,7 @@ class Check:
     quotes: Quote | None
     function: Callable[..., Passed | None] = field(repr=False)
     parameters: type[Parameters] | None = None
+    stimulus: tuple[str, ...] = ()
 
     def title_of(self, use: CheckUse) -> Message:
         """Return the title of a use: its own, or the kind's with the values of its parameters."""
@@ -121,13 +123,15 @@ def kind(
     stage: Stage | None = None,
     depends: Sequence[str] = STARTED,
     after: Sequence[str] = (),
+    stimulus: Sequence[str] = (),
 ) -> Callable[[Callable[[Use[Any]], Passed | None]], Check]:
-    """Declare a kind of check with parameters.
+    """Declare a kind of check with parameters, as `Check` describes it.
 
     It judges a run whose nodes start and spin, unless `stage` and `depends` say otherwise.
     """
     quotes: Quote | None = "before_ctrl_c" if stage is None else None
-    return _declare(check_id, stage or RUN, None, depends, after, quotes, parameters)
+    declare = _declare(check_id, stage or RUN, None, depends, after, quotes, parameters)
+    return lambda function: replace(declare(function), stimulus=tuple(stimulus))
 
 
 def _as_word(value: object) -> str | int | float:

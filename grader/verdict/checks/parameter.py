@@ -80,7 +80,7 @@ def declared(use: Use[Declared]) -> Passed:
     return Passed(actual=f"{own.name}: {shown_value(own.value)} ({own.type})")
 
 
-@kind("parameter.accepts", Accepts, after=["parameter.declared"])
+@kind("parameter.accepts", Accepts, after=["parameter.declared"], stimulus=["set"])
 def accepts(use: Use[Accepts]) -> Passed:
     """The parameter {name} can be set while the node runs"""
     name = use.given.name

@@ -69,7 +69,7 @@ def _must_have(role: Role, use: Use[Service]) -> Passed:
     )
 
 
-@kind("service.answers", Answers, after=["service.offers"])
+@kind("service.answers", Answers, after=["service.offers"], stimulus=["call"])
 def answers(use: Use[Answers]) -> Passed:
     """The service {service} answers as it must"""
     given = use.given

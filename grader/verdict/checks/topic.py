@@ -10,6 +10,7 @@ from pydantic import Field
 from grader.base.i18n.message import Message as Text
 from grader.base.i18n.message import joined, say, say_plural
 from grader.base.nearest import nearest, with_difference
+from grader.course.scenario import DEEDS
 from grader.course.values import Form, first_misfit, shown_value
 from grader.verdict.checks.declare import EDGE, Parameters, kind
 from grader.verdict.checks.fields import is_integer_bits
@@ -366,7 +367,7 @@ def _times(use: Use[Parameters]) -> dict[str, str]:
     return {"first": f"{first:g}", "last": f"{last:g}"}
 
 
-@kind("topic.reacts", Reacts, after=["topic.publishes", "topic.subscribes"])
+@kind("topic.reacts", Reacts, after=["topic.publishes", "topic.subscribes"], stimulus=DEEDS)
 def reacts(use: Use[Reacts]) -> Passed:
     """The node answers a stimulus with a message on {topic}"""
     given = use.given
