@@ -23,7 +23,7 @@ setup(
         "grader": ["keys/*/*.yaml"],  # hidden checks and mutants: data, no package
         "grader.base.i18n": ["*/LC_MESSAGES/*.mo"],
         "grader.publish.pages": ["templates/*"],
-        "grader.ros": ["locks/*", "*.cmake", "turtlesim/*/*"],
+        "grader.ros": ["locks/*", "*.cmake", "interface_texts/*/*/*"],
         "grader.ros.ros2_command": ["licenses/*", "*.xml"],
     },
     data_files=[

@@ -34,7 +34,7 @@ COPY grader/ros/__init__.py grader/ros/distro.py grader/ros/prefix.py grader/ros
      grader/ros/scripts.py grader/ros/distros.toml grader/ros/setup.bash.in \
      grader/ros/interfaces.py grader/ros/interface_package.py grader/ros/interfaces.cmake.in \
      grader/ros/ament_lint_auto.cmake grader/ros/turtlesim_executables.py grader/ros/
-COPY grader/ros/turtlesim grader/ros/turtlesim
+COPY grader/ros/interface_texts grader/ros/interface_texts
 COPY grader/ros/turtlesim_programs grader/ros/turtlesim_programs
 COPY grader/run/in_probe/turtlesim.py grader/run/in_probe/
 COPY grader/ros/locks grader/ros/locks

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from grader.base.cache import Notify
 from grader.base.errors import SurroundingsError, UsageError
@@ -20,10 +20,10 @@ Enter = Callable[[LabConfig], int]
 """Opens a lab and returns the exit status of its command."""
 
 
-def choose(kind: str, distro: Distro, *, interfaces: bool = False, notify: Notify) -> Enter:
+def choose(kind: str, distro: Distro, *, interfaces: Sequence[str] = (), notify: Notify) -> Enter:
     """Return the function that opens a lab of this kind; report the choice with `notify`.
 
-    With `interfaces`, ROS has those of turtlesim, and what builds a student's own.
+    ROS has the packages `interfaces`, and with them what builds a student's own.
 
     Raises UsageError for an unknown kind, SurroundingsError if the lab is not available.
     """
@@ -62,12 +62,12 @@ def _docker(distro: Distro) -> tuple[Enter, str]:
     return lab.enter, image.tags[0] if image.tags else str(image.short_id)
 
 
-def _bubblewrap(distro: Distro, interfaces: bool, notify: Notify) -> Enter:
+def _bubblewrap(distro: Distro, interfaces: Sequence[str], notify: Notify) -> Enter:
     return BubblewrapLab(proven_ros(distro, interfaces=interfaces, notify=notify)).enter
 
 
 def _without_docker(
-    distro: Distro, error: SurroundingsError, interfaces: bool, notify: Notify
+    distro: Distro, error: SurroundingsError, interfaces: Sequence[str], notify: Notify
 ) -> Enter:
     if distro.lock is None and not has_system_ros(distro):
         raise SurroundingsError(

@@ -103,7 +103,7 @@ def command(
         enter = choose(
             sandbox,
             found,
-            interfaces=_wants_turtlesim(load_assignment(lesson.file)),
+            interfaces=_interfaces(load_assignment(lesson.file)),
             notify=lambda text: _notify(translate(text)),
         )
         config = LabConfig(found, prepare(workspace), lesson, command=words, lang=translate.lang)
@@ -114,17 +114,20 @@ def command(
     )  # a shell returns its last command's status, which is not the lab's
 
 
-def _wants_turtlesim(assignment: Assignment) -> bool:
-    """Whether the lab has turtlesim: if the lesson needs its interfaces, or uses it and can build it.
+def _interfaces(assignment: Assignment) -> tuple[str, ...]:
+    """Return the packages of interfaces in the lab: what the lesson needs, and turtlesim's.
+
+    turtlesim is there if the lesson uses it and it can be built.
 
     A lesson in turtlesim's world whose node uses none of its types goes without a compiler too.
     """
-    from grader.ros.interfaces import missing_for_building  # noqa: PLC0415 - keeps --help fast
+    from grader.course.assignment import TURTLESIM  # noqa: PLC0415 - keeps --help fast
+    from grader.ros.interfaces import missing_for_building  # noqa: PLC0415 - as above
 
-    if assignment.needs_interfaces:
-        return True
     uses = any(plan.world == "turtlesim" for plan in assignment.runs)
-    return uses and not missing_for_building()
+    if uses and not assignment.interfaces and not missing_for_building():
+        return TURTLESIM[:1]
+    return assignment.interfaces
 
 
 def _notify(text: str) -> None:

@@ -22,6 +22,7 @@ from grader.batch.work import Done, Job, Pool
 from grader.course.assignment import Assignment
 from grader.package.submission import Submission
 from grader.ros.distro import Distro
+from grader.run.known_interfaces import require_interfaces
 from grader.sandbox.choose import open_sandbox
 from grader.sandbox.limits import Limits
 from grader.verdict.order import Order
@@ -64,10 +65,13 @@ def prepare(order: Order, *, notify: Callable[[str], None]) -> MarkingSetting:
         order.sandbox,
         order.distro,
         order.limits,
-        interfaces=order.assignment.needs_interfaces,
+        interfaces=order.assignment.interfaces,
         notify=notify,
     )
-    sandbox.close()
+    try:
+        require_interfaces(sandbox, order.assignment.on(order.distro))
+    finally:
+        sandbox.close()
     return MarkingSetting(
         assignment=order.assignment,
         distro=order.distro,

@@ -25,7 +25,7 @@ def tried_out(job: Job) -> Sandbox:
         job.sandbox,
         find_distro(job.distro),
         job.limits,
-        interfaces=job.assignment.needs_interfaces,
+        interfaces=job.assignment.interfaces,
         notify=unheard,
     )
     try:

@@ -18,6 +18,8 @@ OWN = "own."
 """The ids of an instructor's own kinds of checks begin with it."""
 TURTLESIM = ("turtlesim", "turtlesim_msgs")
 """The package of turtlesim's interfaces: `turtlesim` up to jazzy, `turtlesim_msgs` later."""
+BUILT = ("example_interfaces", "tf2_msgs")
+"""Other packages of interfaces without a wheel; `grader.ros.interfaces` builds them."""
 
 
 class Count(Part):
@@ -176,15 +178,18 @@ class Assignment(Part):
         return next((plan for plan in self.runs if plan.name == name), self.runs[0])
 
     @property
-    def needs_interfaces(self) -> bool:
-        """Whether ROS must have turtlesim's interfaces, or build those of the students."""
-        return bool(self.interface_packages) or any(
-            name.partition("/")[0] in TURTLESIM for name in self.types()
-        )
+    def interfaces(self) -> tuple[str, ...]:
+        """The packages of interfaces that ROS must have, and that no wheel has.
+
+        turtlesim's come with what builds the interfaces of students.
+        """
+        named = {name.partition("/")[0] for name in self.types()}
+        turtlesim = TURTLESIM[:1] if self.interface_packages or named & {*TURTLESIM, *BUILT} else ()
+        return (*turtlesim, *(name for name in BUILT if name in named))
 
     def on(self, distro: Distro) -> Assignment:
         """Return the assignment with the names that turtlesim's interfaces have in a distro."""
-        if not self.needs_interfaces:
+        if not self.interfaces:
             return self
 
         def named(name: str) -> str:

@@ -21,7 +21,7 @@ from pathlib import Path
 
 from grader.base.nearest import meant, nearest
 from grader.package.source.interface import message_text
-from grader.ros.distro import HERE as ROS
+from grader.ros.interfaces import TEXTS
 
 TABLE = Path(__file__).with_name("interfaces.json")
 PARTS = {
@@ -216,7 +216,7 @@ def _shown(name: str) -> str:
 
 def _shares(folders: list[str]) -> Iterator[Path]:
     yield from map(Path, folders)
-    yield ROS
+    yield TEXTS
 
 
 if __name__ == "__main__":

@@ -13,6 +13,8 @@ ALWAYS = ("action_msgs", "builtin_interfaces", "service_msgs", "unique_identifie
 """Packages that the messages of services and actions use."""
 
 PATH = re.compile(r"(msg|srv|action)/[A-Z][A-Za-z0-9]*\.\1")
+USED = re.compile(r"^\s*([a-z][a-z0-9_]*)/[A-Z]\w*", re.MULTILINE)
+"""The packages whose types a text uses."""
 NAME = re.compile(r"[a-z][a-z0-9_]*")
 MANIFEST = """<?xml version="1.0"?>
 <package format="3">

@@ -2,8 +2,11 @@
 
 It is the distro's wheels prefix (its files are hard links) with the packages of
 `locks/<distro>-interfaces.txt`: ament_cmake, rosidl and CMake. turtlesim has no wheel: its
-interfaces are built here, once, from the texts in `turtlesim/`. That needs a C++ compiler, so this
-prefix is made when it is needed first, not with the other one. It also has turtlesim's programs.
+interfaces are built here, once, from the texts in `interface_texts/`. That needs a C++ compiler, so
+this prefix is made when it is needed first, not with the other one. It also has turtlesim's programs.
+
+Of the other packages in `interface_texts/`, each is built when an assignment names its types first:
+then there is one more prefix, with hard links to the files of this one.
 """
 
 from __future__ import annotations
@@ -16,70 +19,85 @@ import subprocess
 import sys
 import sysconfig
 import tempfile
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from grader.base.cache import Notify, discard, make_once
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import Message, msg
 from grader.ros.distro import HERE, Distro
-from grader.ros.interface_package import BUILD, interface_package, texts_in
+from grader.ros.interface_package import BUILD, USED, interface_package, texts_in
 from grader.ros.prefix import PROGRAMS, Ros, is_complete, is_in_cache
 from grader.ros.prefix_build import install
 from grader.ros.scripts import use_own_python
 from grader.ros.turtlesim_executables import install_programs, program_sources
 
 FORMAT = 2  # increment it when this module makes something else
-TEXTS = HERE / "turtlesim"
+TEXTS = HERE / "interface_texts"
+TURTLESIM = TEXTS / "turtlesim"
 LINT = "ament_lint_auto"
 SOURCES = ("interfaces.cmake.in", "interface_package.py", f"{LINT}.cmake")
 MOST_OUTPUT = 2_000  # characters of the output of a failed build
 PYTHON_INCLUDE = re.compile(r"/opt/python/[^/\";]+/include/python[\d.]+")
 NUMPY_INCLUDE = re.compile(r"/opt/python/[^\";]*/numpy/_?core/include")
-MAKING = msg("building turtlesim's interfaces for ROS {distro} (half a minute, once)")
-READY = msg("turtlesim's interfaces are ready in {path}")
-NO_COMPILER = msg("turtlesim's interfaces must be built once, but this machine has no {missing}")
+MAKING = msg("building the interfaces of {package} for ROS {distro} (a minute or two, once)")
+READY = msg("the interfaces of {package} are ready in {path}")
+NO_COMPILER = msg("interfaces of {package} must be built once, but this machine has no {missing}")
 INSTALL_COMPILER = msg(
-    "Install a compiler: sudo apt-get install python3-dev g++ make. Lessons without turtlesim's "
-    "interfaces need none."
+    "Install a compiler: sudo apt-get install python3-dev g++ make. Lessons that use only ROS' own "
+    "wheels need none."
 )
-NOT_BUILT = msg("turtlesim's interfaces could not be built:\n{output}")
+NOT_BUILT = msg("the interfaces of {package} could not be built:\n{output}")
 REPORT = msg("Run the command again. If that does not help, report this error message.")
 NOT_INSTALLED = msg("ROS {distro} at {path} has no package {package}")
 INSTALL_PACKAGE = msg("Install it: sudo apt-get install ros-{distro}-{deb}")
 OLD_IMAGE = msg("Make the images again: make images DISTRO={distro}")
 
 
-def with_interfaces(ros: Ros, *, notify: Notify) -> Ros:
-    """Return a ROS installation that has turtlesim's interfaces; make it if it is a wheels prefix.
+def with_interfaces(ros: Ros, packages: Sequence[str] = (), *, notify: Notify) -> Ros:
+    """Return a ROS installation that has turtlesim's interfaces, and those of `packages`.
 
-    Raises SurroundingsError if the installation does not have them and cannot be changed, or if
-    the compiler is missing.
+    They are built if it is a wheels prefix. Raises SurroundingsError if the installation does not
+    have them and cannot be changed, or if the compiler is missing.
     """
-    package = ros.distro.turtlesim
+    ros = _with_package(ros, ros.distro.turtlesim, interfaces_path(ros), make_interfaces, notify)
+    for package in sorted({*packages} - {TURTLESIM.name}):
+        key = hashlib.sha256(interfaces_path(ros).name.encode())
+        for path, text in sorted(texts_in(TEXTS / package).items()):
+            key.update(f"{path}\n{text}".encode())
+        folder = ros.path.with_name(f"{ros.path.name}-{package}-{key.hexdigest()[:16]}")
+        ros = _with_package(ros, package, folder, partial(_add_package, package), notify)
+    return ros
+
+
+def _with_package(
+    ros: Ros, package: str, folder: Path, make: Callable[[Ros, Path, Notify], None], notify: Notify
+) -> Ros:
+    """Return an installation that has a package; `make` makes it in the cache's `folder`."""
     if (ros.path / "share" / package / "package.xml").is_file():
         return ros
+    words = {"distro": ros.distro.name, "path": str(ros.path), "package": package}
     if not is_in_cache(ros):
-        words = {"distro": ros.distro.name, "path": str(ros.path), "package": package}
         deb = {**words, "deb": package.replace("_", "-")}
         remedy = INSTALL_PACKAGE if ros.kind == "system" else OLD_IMAGE
         raise SurroundingsError(Message(NOT_INSTALLED, words), remedy=Message(remedy, deb))
-    folder = interfaces_path(ros)
     if folder.is_dir() and not _is_complete(folder):
         discard(folder, unless=_is_complete, notify=notify)
     if not folder.is_dir():
-        _require_compiler()
-        notify(Message(MAKING, {"distro": ros.distro.name}))
-        make_once(folder, lambda staging: make_interfaces(ros, staging, notify), notify=notify)
-        notify(Message(READY, {"path": str(folder)}))
+        _require_compiler(package)
+        notify(Message(MAKING, words))
+        make_once(folder, lambda staging: make(ros, staging, notify), notify=notify)
+        notify(Message(READY, {**words, "path": str(folder)}))
     return replace(ros, path=folder)
 
 
 def interfaces_path(ros: Ros) -> Path:
     """Return the path of the prefix with interfaces that belongs to a wheels prefix."""
     key = hashlib.sha256(b"%d " % FORMAT + _lock(ros.distro).read_bytes())
-    sources = [*(HERE / name for name in SOURCES), *sorted(TEXTS.rglob("*")), *program_sources()]
-    for path in sources:
+    sources = [*(HERE / name for name in SOURCES), *sorted(TURTLESIM.rglob("*"))]
+    for path in [*sources, *program_sources()]:
         if path.is_file():
             key.update(path.name.encode() + path.read_bytes())
     return ros.path.with_name(f"{ros.path.name}-interfaces-{key.hexdigest()[:16]}")
@@ -87,25 +105,42 @@ def interfaces_path(ros: Ros) -> Path:
 
 def make_interfaces(ros: Ros, staging: Path, notify: Notify) -> None:
     """Make the prefix in an empty folder beside the wheels prefix; raises SurroundingsError."""
-    shutil.copytree(ros.path, staging, symlinks=True, copy_function=os.link, dirs_exist_ok=True)
+    _copy(ros, staging)
     install(ros.distro.name, _lock(ros.distro), staging, notify)
     use_own_python(staging / "bin", sys.executable)
     _correct_paths(staging)
     lint = staging / "share" / LINT / "cmake"
     lint.mkdir(parents=True)
     shutil.copy(HERE / f"{LINT}.cmake", lint / f"{LINT}Config.cmake")
-    package = ros.distro.turtlesim
-    with tempfile.TemporaryDirectory(dir=staging.parent, prefix=".interfaces-") as folder:
-        for path, text in interface_package(package, texts_in(TEXTS)).items():
-            file = Path(folder, path)
+    _build(ros, staging, ros.distro.turtlesim, TURTLESIM)
+    install_programs(staging, ros.interpreter)
+
+
+def _add_package(package: str, ros: Ros, staging: Path, _notify: Notify) -> None:
+    """Make a prefix with one package more; raises SurroundingsError."""
+    _copy(ros, staging)
+    _build(ros, staging, package, TEXTS / package)
+
+
+def _copy(ros: Ros, staging: Path) -> None:
+    shutil.copytree(ros.path, staging, symlinks=True, copy_function=os.link, dirs_exist_ok=True)
+
+
+def _build(ros: Ros, prefix: Path, package: str, folder: Path) -> None:
+    """Build and install a package of interfaces from its texts, and load one of its messages."""
+    texts = texts_in(folder)
+    used = {name for text in texts.values() for name in USED.findall(text)} - {package}
+    with tempfile.TemporaryDirectory(dir=prefix.parent, prefix=".interfaces-") as made:
+        for path, text in interface_package(package, texts, used).items():
+            file = Path(made, path)
             file.parent.mkdir(exist_ok=True)
             file.write_text(text, encoding="utf-8")
-        _run(["bash", "-c", BUILD, "bash", str(staging), folder, str(staging)])
-    install_programs(staging, ros.interpreter)
-    parents = staging / "share" / "ament_index" / "resource_index" / "parent_prefix_path"
+        _run(package, ["bash", "-c", BUILD, "bash", str(prefix), made, str(prefix)])
+    parents = prefix / "share" / "ament_index" / "resource_index" / "parent_prefix_path"
     (parents / package).write_text(ros.inside, encoding="utf-8")  # (the build wrote its own)
-    code = f"import {package}.msg as m; m.Pose.__class__.__import_type_support__()"
-    _run(["bash", "-c", '. "$0/setup.bash"; exec python3 -c "$1"', str(staging), code])
+    message = next(Path(path).stem for path in sorted(texts) if path.startswith("msg/"))
+    code = f"import {package}.msg as m; m.{message}.__class__.__import_type_support__()"
+    _run(package, ["bash", "-c", '. "$0/setup.bash"; exec python3 -c "$1"', str(prefix), code])
 
 
 def _lock(distro: Distro) -> Path:
@@ -125,11 +160,11 @@ def missing_for_building() -> list[str]:
     return missing
 
 
-def _require_compiler() -> None:
+def _require_compiler(package: str) -> None:
     missing = missing_for_building()
     if missing:
         raise SurroundingsError(
-            Message(NO_COMPILER, {"missing": ", ".join(missing)}),
+            Message(NO_COMPILER, {"package": package, "missing": ", ".join(missing)}),
             remedy=Message(INSTALL_COMPILER),
         )
 
@@ -152,7 +187,7 @@ def _correct_paths(staging: Path) -> None:
             file.write_text(new, encoding="utf-8")
 
 
-def _run(command: list[str]) -> None:
+def _run(package: str, command: list[str]) -> None:
     done = subprocess.run(
         command,
         stdin=subprocess.DEVNULL,
@@ -163,4 +198,6 @@ def _run(command: list[str]) -> None:
     )
     if done.returncode:
         output = done.stdout.decode(errors="replace")[-MOST_OUTPUT:]
-        raise SurroundingsError(Message(NOT_BUILT, {"output": output}), remedy=Message(REPORT))
+        raise SurroundingsError(
+            Message(NOT_BUILT, {"package": package, "output": output}), remedy=Message(REPORT)
+        )

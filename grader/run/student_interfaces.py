@@ -11,7 +11,6 @@ import contextlib
 import hashlib
 import io
 import os
-import re
 import tarfile
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -21,7 +20,7 @@ from grader.base.cache import cache_root
 from grader.base.folder import Folder
 from grader.package.submission import Package, Submission
 from grader.ros.distro import HERE
-from grader.ros.interface_package import BUILD, PATH, interface_package
+from grader.ros.interface_package import BUILD, PATH, USED, interface_package
 from grader.ros.prefix import Ros
 from grader.sandbox.base import Sandbox
 
@@ -30,7 +29,6 @@ MOST_TEXTS = 60  # files of a package
 LONGEST_TEXT = 20_000  # bytes of a file
 BUILD_SECONDS = 120.0
 MOST_OUTPUT = 60_000_000  # bytes of what was built
-USED = re.compile(r"^\s*([a-z][a-z0-9_]*)/[A-Z]\w*", re.MULTILINE)
 SCRIPT = f"""
 exec 3>&1 1>&2
 cd "$(mktemp -d)"

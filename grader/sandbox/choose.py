@@ -28,13 +28,13 @@ def open_sandbox(
     distro: Distro,
     limits: Limits,
     *,
-    interfaces: bool = False,
+    interfaces: Sequence[str] = (),
     own_code: bool = False,
     notify: Notify = print,
 ) -> Sandbox:
     """Return an open sandbox with a ROS installation of that distro; the caller closes it.
 
-    With `interfaces`, ROS has those of turtlesim. `own_code` allows `auto` to fall back to `none`, for a student's own package. `notify` is called
+    ROS has the packages `interfaces` (see `with_interfaces`). `own_code` allows `auto` to fall back to `none`, for a student's own package. `notify` is called
     with progress texts while a prefix or an image is made. Raises SurroundingsError with cause and
     remedy if no sandbox is available.
     """

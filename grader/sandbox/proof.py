@@ -6,6 +6,8 @@ with a status that means "could not be started", before the student is blamed fo
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from grader.base.cache import Notify, discard
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import say
@@ -39,13 +41,13 @@ done
 """
 
 
-def proven_ros(distro: Distro, *, interfaces: bool = False, notify: Notify = print) -> Ros:
+def proven_ros(distro: Distro, *, interfaces: Sequence[str] = (), notify: Notify = print) -> Ros:
     """Return the ROS installation for a distro (see `find_ros`); a newly made one is tested.
 
-    With `interfaces`, it has those of turtlesim (see `with_interfaces`).
+    It has the packages `interfaces` (see `with_interfaces`).
     """
     ros = find_ros(distro, prove=prove_ros, notify=notify)
-    return with_interfaces(ros, notify=notify) if interfaces else ros
+    return with_interfaces(ros, interfaces, notify=notify) if interfaces else ros
 
 
 def prove_ros(ros: Ros) -> None:

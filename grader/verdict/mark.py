@@ -19,6 +19,7 @@ from grader.course.assignment import Assignment
 from grader.package.submission import Submission
 from grader.report import events, model
 from grader.ros.distro import distros
+from grader.run.known_interfaces import require_interfaces
 from grader.run.observer import Event
 from grader.run.session import Session
 from grader.sandbox.base import Sandbox
@@ -77,6 +78,7 @@ def mark(
     setup = time.monotonic() - begin - intake
     listener(events.StageFinished("setup", setup))
     with Session(sandbox, assignment) as session:
+        require_interfaces(sandbox, assignment)
         evidence = _evidence(session, submission, listener)
         evidence.distro = order.distro
         if order.tries_fixes:
@@ -174,7 +176,7 @@ def _open(order: Order, assignment: Assignment, notify: Callable[[str], None]) -
         order.sandbox,
         order.distro,
         order.limits,
-        interfaces=assignment.needs_interfaces,
+        interfaces=assignment.interfaces,
         own_code=order.own_code,
         notify=notify,
     )
