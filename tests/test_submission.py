@@ -345,3 +345,20 @@ def test_packages_side_by_side_are_named_together(tmp_path: Path) -> None:
     found = take_in(tmp_path, package=PACKAGE, node_file=NODE, others=["other"])
     (hint,) = found.hints
     assert f"hand in only src/{PACKAGE}, src/other, without" in hint
+
+
+@pytest.mark.parametrize("folder", [".backup", ".old/deeper"])
+def test_a_package_in_a_hidden_folder_is_none_as_for_colcon(folder: str, tmp_path: Path) -> None:
+    make(tmp_path / "src/my_robot_controller")
+    make(tmp_path / folder / "my_robot_controller")
+    taken = take(tmp_path)
+    assert taken.root == "src/my_robot_controller"
+    assert [one.path for one in taken.candidates] == ["src/my_robot_controller"]
+    assert taken.copies == ()
+
+
+def test_a_hidden_folder_may_be_the_workspace(tmp_path: Path) -> None:
+    make(tmp_path / ".ws/src/my_robot_controller")
+    taken = take(tmp_path)
+    assert taken.root == ".ws/src/my_robot_controller"
+    assert any("folder .ws. colcon does not look" in hint for hint in taken.hints)
