@@ -362,3 +362,14 @@ def test_a_hidden_folder_may_be_the_workspace(tmp_path: Path) -> None:
     taken = take(tmp_path)
     assert taken.root == ".ws/src/my_robot_controller"
     assert any("folder .ws. colcon does not look" in hint for hint in taken.hints)
+
+
+def test_the_old_files_of_a_fix_are_part_of_nothing(tmp_path: Path) -> None:
+    before = take(make(tmp_path / "jane"))
+    for name in ("package.xml", "setup.py", NODE_PATH):
+        path = tmp_path / "jane" / name
+        for number in (1, 2):
+            shutil.copy(path, path.with_name(f"{path.name}.~{number}~"))
+    after = take(tmp_path / "jane")
+    assert (after.sha256, after.candidates) == (before.sha256, before.candidates)
+    assert after.hints == before.hints

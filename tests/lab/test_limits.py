@@ -23,7 +23,8 @@ from tests.lab.kinds import Kind
 GIGABYTE = 1 << 30
 BOMB = """
 import os, time
-for _ in range(300):
+children = []
+while len(children) < 300:
     try:
         child = os.fork()
     except OSError as error:
@@ -32,6 +33,9 @@ for _ in range(300):
     if not child:
         time.sleep(60)
         os._exit(0)
+    children.append(child)
+for child in children:
+    os.kill(child, 9)
 """
 SMALL = {"LAB_PROCESSES": "150", "LAB_MEMORY": "512m", "LAB_TMP": "16m"}
 
