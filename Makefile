@@ -9,7 +9,8 @@ SHELL := /bin/sh
 # A variable's raw text reaches the recipes through the environment; nothing expands it.
 VARIABLES := STUDENT PACKAGE ASSIGNMENT LESSON DISTRO SANDBOX NAME OUT WORKSPACE BASE EXTRA_CA APT_MIRROR \
   PIP_INDEX_URL PYTHON PYTEST_ARGS SUBMISSIONS ROSTER WORKERS REGRADE WORKSHEET CANVAS CANVAS_COLUMN \
-  GRADE_COLUMN FEEDBACK_COLUMN ACCEPT SCHEDULER APPLY HINTS EXPLAIN KEYS GRADER_COURSE GRADER_ASSIGNMENT
+  GRADE_COLUMN FEEDBACK_COLUMN ACCEPT SCHEDULER APPLY HINTS EXPLAIN KEYS GRADER_COURSE GRADER_ASSIGNMENT \
+  LAB_PROCESSES LAB_MEMORY LAB_TMP
 $(foreach v,$(VARIABLES),$(if $(filter-out undefined,$(origin $v)),$(eval override $v := $$(value $v))$(eval export $v)))
 
 BOOTSTRAP := python3 grader/bootstrap.py $${PYTHON:+--python "$$PYTHON"}
@@ -39,6 +40,7 @@ help:  ## Show this help
 	@echo "Variables: STUDENT=path PACKAGE=path ASSIGNMENT=id|file DISTRO=jazzy[,kilted]"
 	@echo "           SANDBOX=auto NAME=student OUT=reports PYTHON=python3"
 	@echo "           WORKSPACE=~/ros2_ws BASE=ros|wheels (see docs/images.md for networks)"
+	@echo "           LAB_MEMORY=4g LAB_PROCESSES=2048 LAB_TMP=1g (limits: lab/README.md)"
 	@echo "           KEYS=folder (solution and hidden checks of your own assignment)"
 	@echo "           GRADER_COURSE=folder (the lessons of another course: docs/assignments.md)"
 	@echo "           SUBMISSIONS=path ROSTER=csv WORKSHEET=csv CANVAS=csv WORKERS=n REGRADE=1"

@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 
 from grader.base.errors import SurroundingsError
@@ -20,10 +21,12 @@ from grader.base.i18n.message import say
 from grader.ros.prefix import Ros, base_interpreter
 from grader.sandbox.base import HOME
 from grader.sandbox.bubblewrap import FILES, Bubblewrap, memory_file, parents_of, system_mounts
+from grader.sandbox.cgroups import Group, open_group
 from grader.sandbox.limits import Limits
 from grader.sandbox.local import require_program
 from grader.sandbox.processes import kill_with_children
 from lab.config import HIDDEN_HOME, LAB_ROOT, WORKSPACE, LabConfig, accounts
+from lab.limits import LabLimits
 from lab.terminal import ignoring_interrupts, restoring_foreground
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -56,8 +59,13 @@ class BubblewrapLab:
         # a file instead of a pipe: writing to a pipe without a reader would kill the outer bwrap
         # before it releases the inner one, which would wait forever
         status_file = memory_file("")
-        words = self._command(config, descriptors, status_file)
+        group = open_group(
+            Limits().override(
+                {"memory": config.limits.memory, "processes": config.limits.processes}
+            )
+        )
         try:
+            words = in_group(group, self._command(config, descriptors, status_file, group.holds))
             # Ctrl+C would kill bwrap and the lab; the command inside gets the default handler back
             # (env --default-signal)
             with ignoring_interrupts(), restoring_foreground():
@@ -74,10 +82,15 @@ class BubblewrapLab:
         finally:
             for descriptor in (status_file, *descriptors.values()):
                 os.close(descriptor)
+            group.close()
         return status
 
     def _command(
-        self, config: LabConfig, descriptors: Mapping[str, int], status_file: int
+        self,
+        config: LabConfig,
+        descriptors: Mapping[str, int],
+        status_file: int,
+        held: Collection[str],
     ) -> list[str]:
         owner = config.workspace.owner
         words = [self._bwrap, "--die-with-parent", "--json-status-fd", str(status_file)]
@@ -93,7 +106,8 @@ class BubblewrapLab:
                 words += ["--cap-add", capability]
             words += ["--", "setpriv", f"--reuid={owner.uid}", f"--regid={owner.gid}"]
             words += ["--clear-groups", "--inh-caps=-all", "--bounding-set=-all"]
-        return [*words, "--", "env", "--default-signal=INT", *config.words]
+        words += ["--", *rlimits(config.limits, held, root=self._root)]
+        return [*words, "env", "--default-signal=INT", *config.words]
 
     def _mounts(self, config: LabConfig) -> Iterator[str]:
         pythons = {p for p in self._pythons() if not p.is_relative_to("/usr")}
@@ -110,7 +124,7 @@ class BubblewrapLab:
         yield from ("--proc", "/proc", "--dev", "/dev")
         yield from ("--bind", os.path.realpath(SHARED_MEMORY), SHARED_MEMORY)
         for scratch in SCRATCH:
-            yield from ("--perms", "1777", "--tmpfs", scratch)
+            yield from ("--perms", "1777", "--size", str(config.limits.tmp), "--tmpfs", scratch)
         yield from ("--bind", str(config.workspace.home), HOME)
         yield from ("--bind", str(config.workspace.path), WORKSPACE)
         # it is in the workspace too: without this, `find ~` would never end
@@ -170,6 +184,26 @@ class BubblewrapLab:
             say("bubblewrap could not open the lab (see its message above)"),
             remedy=say("With Docker: make images, then make lab SANDBOX=docker"),
         )
+
+
+def in_group(group: Group, words: list[str]) -> list[str]:
+    """Return a command line that enters a control group first, if it may."""
+    script = "".join(f'echo 0 2> /dev/null > "{entry}"; ' for entry in group.entries)
+    return ["/bin/sh", "-c", script + 'exec "$@"', "sh", *words] if script else words
+
+
+def rlimits(limits: LabLimits, held: Collection[str], *, root: bool) -> list[str]:
+    """Return the words that set the limits which no control group holds, as far as they can be.
+
+    Memory: of each process. Processes: from Linux 5.14 on the kernel counts those of the lab's own
+    user namespace; before, and where root has none, it would count all processes of the student.
+    """
+    words = [] if "memory" in held else [f"--data={limits.memory}"]
+    numbers = re.match(r"(\d+)\.(\d+)", os.uname().release)
+    counted = numbers is not None and (int(numbers[1]), int(numbers[2])) >= (5, 14)
+    if "processes" not in held and counted and not root:
+        words.append(f"--nproc={limits.processes}")
+    return ["prlimit", *words] if words else []
 
 
 def _wait(process: subprocess.Popen[bytes]) -> int:

@@ -94,11 +94,13 @@ def command(
     from lab.choose import choose  # noqa: PLC0415
     from lab.config import LabConfig  # noqa: PLC0415
     from lab.lesson import chosen_lesson  # noqa: PLC0415
+    from lab.limits import lab_limits  # noqa: PLC0415
     from lab.workspace import prepare, workspace_path  # noqa: PLC0415
 
     translate = Translator(lang or chosen_language(os.environ))
     with errors_in(translate.lang):
         found = find_distro(distro)
+        limits = lab_limits(os.environ)
         lesson = chosen_lesson(assignment, workspace_path(workspace))
         enter = choose(
             sandbox,
@@ -106,7 +108,14 @@ def command(
             interfaces=_interfaces(load_assignment(lesson.file)),
             notify=lambda text: _notify(translate(text)),
         )
-        config = LabConfig(found, prepare(workspace), lesson, command=words, lang=translate.lang)
+        config = LabConfig(
+            found,
+            prepare(workspace),
+            lesson,
+            command=words,
+            lang=translate.lang,
+            limits=limits,
+        )
         status = enter(config)
     interactive = not words and sys.stdin.isatty()
     return (

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from grader.base.i18n.translator import OWN, SOURCE
 from grader.ros.distro import Distro
 from grader.sandbox.base import HOME, PATH
 from lab.lesson import OpenedLesson
+from lab.limits import LabLimits
 from lab.workspace import Student, Workspace
 
 WORKSPACE = f"{HOME}/ros2_ws"
@@ -34,6 +35,7 @@ class LabConfig:
     lesson: OpenedLesson
     command: tuple[str, ...] = ()
     lang: str = SOURCE
+    limits: LabLimits = field(default_factory=LabLimits)
 
     @property
     def hostname(self) -> str:

@@ -27,6 +27,7 @@ from grader.base.i18n.message import say
 from grader.sandbox.base import HOME
 from lab.config import HIDDEN_HOME, LAB_ROOT, WORKSPACE, LabConfig, accounts
 from lab.exec_stream import ExecStream
+from lab.limits import LabLimits
 from lab.supervisor import LAST, READY, VARIABLE
 from lab.window.published import is_taken, published
 from lab.workspace import Student
@@ -120,9 +121,7 @@ class ContainerLab:
                 security_opt=["no-new-privileges"],
                 network_mode="bridge",
                 **published(),
-                shm_size=SHARED_MEMORY,
-                # it is in the workspace too: without this, `find ~` would never end
-                tmpfs={HIDDEN_HOME: "ro,size=4k,mode=0555"},
+                **held(config.limits),
                 mounts=list(_mounts(config)),
             )
         except APIError as error:
@@ -206,6 +205,21 @@ def _require_local_daemon(client: docker.DockerClient) -> None:
             say("Docker runs rootless: files created in the lab would belong to another user id"),
             remedy=say("Use SANDBOX=bubblewrap."),
         )
+
+
+def held(limits: LabLimits) -> dict[str, Any]:
+    """Return the options of `containers.create` that hold the limits."""
+    return {
+        "pids_limit": limits.processes,
+        "mem_limit": limits.memory,
+        "memswap_limit": limits.memory,  # memory and swap together: no swap
+        "shm_size": SHARED_MEMORY,
+        "tmpfs": {
+            "/tmp": f"exec,mode=1777,size={limits.tmp}",  # noqa: S108 - of the container
+            # it is in the workspace too: without this, `find ~` would never end
+            HIDDEN_HOME: "ro,size=4k,mode=0555",
+        },
+    }
 
 
 def _user(config: LabConfig) -> str:

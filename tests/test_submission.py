@@ -345,3 +345,31 @@ def test_packages_side_by_side_are_named_together(tmp_path: Path) -> None:
     found = take_in(tmp_path, package=PACKAGE, node_file=NODE, others=["other"])
     (hint,) = found.hints
     assert f"hand in only src/{PACKAGE}, src/other, without" in hint
+
+
+@pytest.mark.parametrize("folder", [".backup", ".old/deeper"])
+def test_a_package_in_a_hidden_folder_is_none_as_for_colcon(folder: str, tmp_path: Path) -> None:
+    make(tmp_path / "src/my_robot_controller")
+    make(tmp_path / folder / "my_robot_controller")
+    taken = take(tmp_path)
+    assert taken.root == "src/my_robot_controller"
+    assert [one.path for one in taken.candidates] == ["src/my_robot_controller"]
+    assert taken.copies == ()
+
+
+def test_a_hidden_folder_may_be_the_workspace(tmp_path: Path) -> None:
+    make(tmp_path / ".ws/src/my_robot_controller")
+    taken = take(tmp_path)
+    assert taken.root == ".ws/src/my_robot_controller"
+    assert any("folder .ws. colcon does not look" in hint for hint in taken.hints)
+
+
+def test_the_old_files_of_a_fix_are_part_of_nothing(tmp_path: Path) -> None:
+    before = take(make(tmp_path / "jane"))
+    for name in ("package.xml", "setup.py", NODE_PATH):
+        path = tmp_path / "jane" / name
+        for number in (1, 2):
+            shutil.copy(path, path.with_name(f"{path.name}.~{number}~"))
+    after = take(tmp_path / "jane")
+    assert (after.sha256, after.candidates) == (before.sha256, before.candidates)
+    assert after.hints == before.hints

@@ -50,7 +50,17 @@ def reset(step: int, yes: bool, lang: str | None) -> int:
         if not yes and not _agreed(lab):
             click.echo(translate(say("Nothing was moved.")))
             return 1
-        backup = _move(lab, paths)
+        try:
+            backup = _move(lab, paths)
+        except OSError as error:
+            raise UsageError(
+                say(
+                    "the files cannot be moved to ~/ros2_ws/{folder}: {problem}",
+                    folder=BACKUPS,
+                    problem=error.strerror or str(error),
+                ),
+                remedy=say("Correct that, and run `lab reset` again."),
+            ) from None
         click.echo(translate(say("Moved to {path}.", path=_short(lab, backup))))
         return 0
 
@@ -91,6 +101,8 @@ def _move(lab: OpenedLab, paths: list[Path]) -> Path:
     """Move files to a new folder of the backups, and return it. OSError if it cannot be done."""
     name = datetime.now(timezone.utc).strftime("%Y%m%d-%H%M%S-%f")
     backup = lab.workspace / BACKUPS / name
+    backup.mkdir(parents=True)
+    (backup.parent / "COLCON_IGNORE").touch()  # (it skips hidden folders too)
     for path in paths:
         target = backup / path.relative_to(lab.workspace)
         target.parent.mkdir(parents=True, exist_ok=True)

@@ -16,8 +16,8 @@ from lab.guide.action import Action
 from lab.guide.state import StudentState
 
 NOT_STARTED = {
-    *("package.empty", "package.no_manifest", "source.no_node_file", "source.empty_node_file"),
-    *("setup.missing", "setup.no_entry", "interface.missing"),
+    *("package.empty", "package.no_manifest", "package.only_build", "source.no_node_file"),
+    *("source.empty_node_file", "setup.missing", "setup.no_entry", "interface.missing"),
 }
 """The mistakes that only say that a step is still to do."""
 COMMANDS = {"package.found", "source.node_file"}

@@ -21,6 +21,8 @@ FOLDERS = frozenset(
         *(".ipynb_checkpoints", "System Volume Information"),
     }
 )
+LAB, SUBMIT = ".lab", "submit"
+"""The lab's folders in a workspace: its own files, with the backups, and the archives to hand in."""
 FILES = frozenset({".git", ".DS_Store", "Thumbs.db", "desktop.ini"})
 ENDINGS = (".pyc", ".pyo", ".swp", ".swo", "~")
 MARKS = {

@@ -36,16 +36,26 @@ class Choice:
 
 
 def find_candidates(tree: Tree) -> list[Candidate]:
-    """Return every folder that holds a package.xml or a setup.py, outer ones first."""
-    folders = {
+    """Return every folder that holds a package.xml or a setup.py, outer ones first.
+
+    Like colcon, it does not look into hidden folders, unless all are in one: the hidden folder may
+    be the workspace.
+    """
+    found = {
         parent(path)
         for path in tree.entries
         if path.rpartition("/")[2] in (MANIFEST, SETUP) and tree.file(path) is not None
     }
-    ordered = sorted(folders, key=lambda folder: (len(ancestors(folder)), folder))
+    folders = {folder for folder in found if not hidden_part(folder)}
+    ordered = sorted(folders or found, key=lambda folder: (len(ancestors(folder)), folder))
     if len(ordered) > MOST_CANDIDATES:
         tree.left_out.add(TOO_MANY, ordered[-1])
     return [Candidate(f, _name(tree, f)) for f in ordered[:MOST_CANDIDATES]]
+
+
+def hidden_part(path: str) -> str:
+    """Return the name of the first hidden folder of a path, "" if it has none."""
+    return next((p for p in path.split("/") if p.startswith(".") and p != "."), "")
 
 
 def _name(tree: Tree, folder: str) -> str:
@@ -165,6 +175,15 @@ def _hints(tree: Tree, chosen: Candidate, candidates: list[Candidate]) -> list[s
                 "There is another package inside this one ({path}): colcon stops at the outer "
                 "one and never builds the inner one. Put packages side by side in src.",
                 path=shown(inner[0].path),
+            )
+        )
+    hidden = hidden_part(chosen.path)
+    if hidden:
+        hints.append(
+            say(
+                "The package is in the folder {folder}. colcon does not look into folders whose "
+                "names begin with a dot. Give the folder another name.",
+                folder=shown(hidden),
             )
         )
     if _ignored(tree, chosen):

@@ -7,8 +7,11 @@ from collections import deque
 from dataclasses import dataclass, field, replace
 
 from grader.base.i18n.message import say
+from grader.package.intake.archive_kind import is_named_archive
 from grader.package.intake.artefacts import (
     COLCON,
+    LAB,
+    SUBMIT,
     is_colcon_artefact,
     is_only_copy,
     is_tool_file,
@@ -42,14 +45,15 @@ TOO_MANY = say(
 @dataclass
 class Tree:
     """All entries found; `truncated` are the folders of which not every name was read,
-    `links_out` the package's links (relative to it) that lead out of it, `made` the folders build
-    and install of colcon, which are left out.
+    `labs` the folders in which the lab keeps its own, `links_out` the package's links (relative to
+    it) that lead out of it, `made` the folders build and install of colcon, which are left out.
     """
 
     place: Place
     entries: dict[str, Entry] = field(default_factory=dict)
     left_out: LeftOut = field(default_factory=LeftOut)
     git: set[str] = field(default_factory=set)
+    labs: set[str] = field(default_factory=set)
     truncated: set[str] = field(default_factory=set)
     links_out: list[str] = field(default_factory=list)
     made: list[str] = field(default_factory=list)
@@ -138,7 +142,7 @@ def _names(tree: Tree, folder: str) -> list[str]:
 
 
 def _sort(tree: Tree, folder: str, names: list[str]) -> list[Entry]:
-    """Add the entries that are kept to the tree and return them; note the others."""
+    """Add the entries that are kept to the tree and return them; note the student's others."""
     kept = []
     found = {name: _entry(tree, join(folder, name)) for name in names}
     beside = COLCON & {name for name, e in found.items() if e is not None and e.kind == "folder"}
@@ -150,6 +154,11 @@ def _sort(tree: Tree, folder: str, names: list[str]) -> list[Entry]:
             continue
         if name == ".git" and entry.kind != "link":
             tree.git.add(folder)
+        if name == LAB and entry.kind == "folder":
+            tree.labs.add(folder)
+            continue
+        if _is_handed_in(tree, folder, name):
+            continue
         if entry.kind == "folder" and (name in artefacts or is_tool_folder(tree.place, entry.path)):
             tree.left_out.add(MADE_BY_TOOLS, f"{entry.path}/")
             tree.made += [entry.path] if name in ("build", "install") else []
@@ -159,6 +168,12 @@ def _sort(tree: Tree, folder: str, names: list[str]) -> list[Entry]:
             tree.entries[entry.path] = entry
             kept.append(entry)
     return kept
+
+
+def _is_handed_in(tree: Tree, folder: str, name: str) -> bool:
+    """Whether a file is an archive that the lab made in its workspace."""
+    of_lab = folder.rpartition("/")[2] == SUBMIT and parent(folder) in tree.labs
+    return of_lab and is_named_archive(name)
 
 
 def _entry(tree: Tree, path: str) -> Entry | None:
