@@ -18,6 +18,7 @@ from grader.base.errors import SurroundingsError
 from grader.base.signing import PublicKey, SigningKey, own_key
 from grader.batch import ledger_chain
 from grader.batch.ledger_file import LedgerFile
+from grader.batch.ledger_overrides import recorded_overrides
 from grader.batch.model import Override, Student
 from grader.report.model import Report
 
@@ -138,6 +139,11 @@ class Ledger:
             (assignment, student, submission),
         )
         return VerdictRow(*rows[0]) if rows else None
+
+    def submission_of(self, verdict: int) -> str:
+        """Return the hash of the submission that a verdict is about, "" if there is no such verdict."""
+        rows = self._file.rows("SELECT submission FROM verdict WHERE id = ?", (verdict,))
+        return str(rows[0][0]) if rows else ""
 
     def report(self, verdict: int) -> Report:
         """Return the report of a verdict; raise KeyError if there is none of this id.
@@ -264,7 +270,7 @@ class Ledger:
         return [Student(*row) for row in rows]
 
     def override(self, assignment: str, override: Override) -> None:
-        """Record an instructor's correction; it replaces an earlier one of the same check."""
+        """Record an instructor's correction; it replaces one of the same check and submission."""
         self._put_override(assignment, override, override.points)
 
     def drop_override(self, assignment: str, override: Override) -> None:
@@ -275,27 +281,21 @@ class Ledger:
         at = _text(override.at) or _now()
         with self._file.write() as connection:
             cursor = connection.execute(
-                "INSERT INTO override (student, assignment, check_id, points, because, by, at) "
-                "VALUES (?, ?, ?, ?, ?, ?, ?)",
+                "INSERT INTO override (student, assignment, check_id, points, because, by, at, "
+                "verdict) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
                 (
                     *(override.student, assignment, override.check, points),
-                    *(override.because, override.by, at),
+                    *(override.because, override.by, at, override.verdict),
                 ),
             )
             ledger_chain.append(connection, "override", int(cursor.lastrowid or 0), self._signing)
 
     def overrides(self, assignment: str) -> list[Override]:
-        """Return the corrections in force: the last one of each student and check."""
-        rows = self._file.rows(
-            "SELECT student, check_id, points, because, by, at FROM override WHERE id IN "
-            "(SELECT max(id) FROM override WHERE assignment = ? GROUP BY student, check_id) "
-            "AND points IS NOT NULL ORDER BY id",
-            (assignment,),
-        )
-        return [
-            Override(student, check, points, because, by, _instant(at))
-            for student, check, points, because, by, at in rows
-        ]
+        """Return the corrections that were not removed, in the order in which they were made.
+
+        They are the last ones of each student and check, for each submission that was corrected.
+        """
+        return recorded_overrides(self._file, assignment)
 
     def corrected_since(self, at: datetime) -> set[str]:
         """Return the students with a correction that was made or removed since then."""

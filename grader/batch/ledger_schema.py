@@ -106,10 +106,15 @@ CHAIN = """
         UNIQUE (place, row)
     );
 """
+CORRECTED = """
+    -- the verdict that it corrects: 0 if there was none, NULL in a row of an earlier grader
+    ALTER TABLE override ADD COLUMN verdict INTEGER;
+"""
 # the tables of a step, and what is done with the rows that are there
 STEPS: tuple[tuple[str, Callable[[sqlite3.Connection], None] | None], ...] = (
     (FIRST, None),
     (CHAIN, ledger_chain.adopt),
+    (CORRECTED, None),
 )
 
 

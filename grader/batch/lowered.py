@@ -40,6 +40,8 @@ def lowered(entry: GradebookEntry, before: str, where: str) -> Lowered | None:
     if before.strip() in NONE or any(override.check == "" for override in entry.overrides):
         return None
     number = as_number(before)
+    if entry.status == "ungradable" and number is not None and number <= 0:
+        return None  # (an earlier grader gave no points for what it could not open)
     if number is not None and entry.final is not None:
         taken = sum(
             max(0.0, mark.check.score - (mark.points or 0))

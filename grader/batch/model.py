@@ -92,9 +92,16 @@ class ClassFolder:
     notes: tuple[str, ...] = ()
 
 
+UNKNOWN = -1  # the verdict of a correction in the ledger of an earlier grader, if it is not certain
+
+
 @dataclass(frozen=True)
 class Override:
-    """An instructor's correction, kept across reruns and regrades; `check` "" is the total."""
+    """An instructor's correction of one verdict; `check` "" is the total.
+
+    `verdict` is the id in the ledger, 0 if the student had no verdict, or UNKNOWN; `submission` the
+    hash of what that verdict is about, "" if there is none.
+    """
 
     student: str
     check: str
@@ -102,6 +109,19 @@ class Override:
     because: str
     by: str = ""
     at: datetime | None = None
+    verdict: int = 0
+    submission: str = ""
+
+
+@dataclass(frozen=True)
+class LapsedOverride:
+    """A correction of another verdict than the one that counts now.
+
+    `attempt` is the number of the attempt that it belongs to, 0 if there is no such attempt.
+    """
+
+    override: Override
+    attempt: int = 0
 
 
 class LazyReport:
@@ -153,12 +173,22 @@ class GradebookEntry:
     problem: str = ""
     notes: tuple[str, ...] = ()
     overrides: tuple[Override, ...] = ()
+    lapsed: tuple[LapsedOverride, ...] = ()
+    """Corrections for the instructor to repeat or to remove: they count no longer."""
+    unmarked_later: tuple[str, ...] = ()
+    """Why later attempts than the one that counts could not be marked."""
     same_as: tuple[str, ...] = ()
     """Keys of students with the same content, not all of them: see `ClassResult.identical`."""
     verdict: int | None = None
     """The id of the report's verdict in the ledger."""
     lang: str = "en"
     """The language of the student's texts: the report's, if there is one."""
+
+    @property
+    def by_hand(self) -> tuple[str, ...]:
+        """Why the instructor must look at the submission by hand; () if that is not needed."""
+        own = (self.problem,) if self.status == "ungradable" else ()
+        return (*own, *self.unmarked_later)
 
     def for_student(self, detail: Detail, *, show_hidden: bool = False) -> GradebookEntry:
         """Return the entry with a report that a student may read (see `with_feedback`)."""

@@ -12,7 +12,14 @@ from dataclasses import dataclass, replace
 from datetime import datetime
 
 from grader.base.i18n.message import joined, say
-from grader.batch.model import Elsewhere, GradebookEntry, Override, Student
+from grader.batch.model import (
+    Elsewhere,
+    EntryStatus,
+    GradebookEntry,
+    LapsedOverride,
+    Override,
+    Student,
+)
 from grader.batch.points import marks, rounded
 from grader.course.policy import Policy, amount
 from grader.report.model import Report
@@ -23,6 +30,8 @@ OUR_FAULT = say(
     "Not marked: the grader failed on this submission. This is not your fault, and your "
     "instructor knows about it."
 )
+FOUND = "package.found"
+NO_PACKAGE = say("no package was found in it")
 CALLED_LATE = say("the learning management system calls it late")
 
 
@@ -31,7 +40,8 @@ class Attempt:
     """One attempt of a student, with its report if it has been marked.
 
     `problem` says why the attempt cannot be marked, `fault` how the grader failed on it; without
-    either it is still to be marked. `late` is what the learning management system says.
+    either it is still to be marked. `late` is what the learning management system says. `overrides`
+    are the corrections of its verdict.
     """
 
     number: int
@@ -41,6 +51,7 @@ class Attempt:
     problem: str = ""
     notes: tuple[str, ...] = ()
     fault: str = ""
+    overrides: tuple[Override, ...] = ()
 
 
 def lateness(submitted: datetime | None, policy: Policy) -> float | None:
@@ -85,16 +96,38 @@ def standing(
 ) -> GradebookEntry:
     """Return what a student gets; `attempts` are in the order of submission.
 
-    A corrected check counts before the penalty for lateness; a corrected total is final. A student
-    who handed in `elsewhere` keeps the existing grade, whatever the policy says about missing
-    submissions.
+    `overrides` are corrections of no verdict on these attempts. A corrected check counts before the
+    penalty for lateness; a corrected total is final. A student who handed in `elsewhere` keeps the
+    existing grade, whatever the policy says about missing submissions.
     """
     if not attempts:
         entry = _without_attempt(student, policy, max_score, elsewhere)
-        return _corrected(replace(entry, overrides=tuple(overrides)))
-    rated = [_rate(student, attempt, overrides, policy, max_score) for attempt in attempts]
-    entry = rated[_chosen(rated, policy)]
-    return _corrected(replace(entry, attempts=len(rated)))
+        own = tuple(override for override in overrides if override.verdict == 0)
+        others = [LapsedOverride(override) for override in overrides if override.verdict != 0]
+        return _with_lapsed(_corrected(replace(entry, overrides=own)), others)
+    rated = [_rate(student, attempt, policy, max_score) for attempt in attempts]
+    chosen = _chosen(rated, policy)
+    entry = replace(rated[chosen], attempts=len(rated))
+    others = [LapsedOverride(override) for override in overrides]
+    others += [
+        LapsedOverride(override, other.attempt)
+        for other in (*rated[:chosen], *rated[chosen + 1 :])
+        for override in other.overrides
+    ]
+    later = rated[chosen + 1 :] if policy.attempts == "best" else ()
+    unmarked = tuple(
+        f"attempt {one.attempt}, later than the one that counts: {one.problem}"
+        for one in later
+        if one.status == "ungradable"
+    )
+    return replace(_with_lapsed(entry, others), unmarked_later=unmarked)
+
+
+def _with_lapsed(entry: GradebookEntry, others: Sequence[LapsedOverride]) -> GradebookEntry:
+    """Return the entry with the corrections of other verdicts that are not made for this one."""
+    own = {override.check for override in entry.overrides}
+    lapsed = () if "" in own else tuple(one for one in others if one.override.check not in own)
+    return replace(entry, lapsed=lapsed)
 
 
 def _without_attempt(
@@ -112,14 +145,8 @@ def _without_attempt(
     return GradebookEntry(student, "missing", final=nothing, max_score=max_score)
 
 
-def _rate(
-    student: Student,
-    attempt: Attempt,
-    overrides: Sequence[Override],
-    policy: Policy,
-    max_score: float,
-) -> GradebookEntry:
-    """Return what a student gets for this attempt, without a correction of the total."""
+def _rate(student: Student, attempt: Attempt, policy: Policy, max_score: float) -> GradebookEntry:
+    """Return what a student gets for this attempt."""
     late = lateness(attempt.submitted, policy)
     notes = list(attempt.notes)
     if attempt.fault and attempt.report is None:
@@ -136,8 +163,13 @@ def _rate(
         late_seconds=late or 0,
         problem=attempt.problem,
         notes=tuple(notes),
-        overrides=tuple(overrides),
+        overrides=attempt.overrides,
     )
+    return _corrected(_with_points(entry, attempt, policy))
+
+
+def _with_points(entry: GradebookEntry, attempt: Attempt, policy: Policy) -> GradebookEntry:
+    """Return the entry with the points of its report, without a correction of the total."""
     if attempt.fault and attempt.report is None:
         return replace(entry, status="error", problem=OUR_FAULT)
     if attempt.report is None:
@@ -145,10 +177,18 @@ def _rate(
     if attempt.report.status == "error":
         problem = attempt.problem or attempt.report.message or OUR_FAULT
         return replace(entry, status="error", problem=problem)
+    if attempt.report.submission.package is None:
+        return replace(entry, status="ungradable", problem=_nothing_marked(attempt.report))
     score = rounded(sum(mark.points or 0 for mark in marks(entry)))
-    taken = penalty(score, max_score, attempt.submitted, policy)
+    taken = penalty(score, entry.max_score, attempt.submitted, policy)
     final = rounded(score - taken)
     return replace(entry, status="graded", score=score, penalty=taken, final=final)
+
+
+def _nothing_marked(report: Report) -> str:
+    """Return why no package was found in a submission, in the report's language."""
+    found = (check.actual for check in report.checks if check.id == FOUND and check.actual)
+    return next(found, NO_PACKAGE)
 
 
 def _chosen(rated: Sequence[GradebookEntry], policy: Policy) -> int:
@@ -168,4 +208,5 @@ def _corrected(entry: GradebookEntry) -> GradebookEntry:
     whole = {override.check: override.points for override in entry.overrides}.get("")
     if whole is None:
         return entry
-    return replace(entry, score=rounded(whole), penalty=0, final=rounded(whole))
+    status: EntryStatus = "graded" if entry.status == "ungradable" else entry.status
+    return replace(entry, status=status, score=rounded(whole), penalty=0, final=rounded(whole))

@@ -9,6 +9,7 @@ from datetime import datetime, timezone
 from functools import partial
 
 from grader.base.shown import utf8_name
+from grader.batch.correction import holds
 from grader.batch.earlier_submissions import EarlierSubmissions
 from grader.batch.intake import IntakeItem
 from grader.batch.ledger import HandedInRow, Ledger, VerdictRow
@@ -71,7 +72,7 @@ def class_result(
     for key, student in students.items():
         found = [_of_item(ledger, item, verdicts, rows) for item in own[key]]
         found += [_of_row(ledger, row, assignment.id) for row in earlier.get(key, ())]
-        entry, counts = _entry(student, found, overrides[key], assignment, lang)
+        entry, counts = _entry(ledger, student, found, overrides[key], assignment, lang)
         if counts is not None:
             submissions[key] = counts.submission
         verdict = counts.verdict if counts is not None else None
@@ -81,7 +82,9 @@ def class_result(
         known = recorded.with_known_key(student)
         found = [_of_row(ledger, row, assignment.id) for row in earlier.get(known.key, ())]
         elsewhere = folder.elsewhere.get(student.key)
-        entry, counts = _entry(known, found, overrides[known.key], assignment, lang, elsewhere)
+        entry, counts = _entry(
+            ledger, known, found, overrides[known.key], assignment, lang, elsewhere
+        )
         verdict = counts.verdict if counts is not None else None
         entries.append(replace(entry, report=None, verdict=verdict))
     identical = _identical(ledger, submissions, _paths(items))
@@ -105,6 +108,7 @@ def _now() -> datetime:
 
 
 def _entry(
+    ledger: Ledger,
     student: Student,
     found: list[DatedAttempt],
     overrides: Sequence[Override],
@@ -115,11 +119,30 @@ def _entry(
     """Return a student's entry, and the attempt that counts (None without a report)."""
     dated = sorted(found, key=lambda f: (f.at is not None, f.at.timestamp() if f.at else 0))
     attempts = [replace(f.attempt, number=n) for n, f in enumerate(dated, start=1)]
+    attempts, rest = _with_overrides(ledger, dated, attempts, overrides)
     policy, most = assignment.policy, assignment.max_score
-    entry = standing(student, attempts, overrides, policy, most, elsewhere=elsewhere)
+    entry = standing(student, attempts, rest, policy, most, elsewhere=elsewhere)
     if entry.report is None:
         return replace(entry, lang=lang), None
     return replace(entry, lang=entry.report.lang), dated[entry.attempt - 1]
+
+
+def _with_overrides(
+    ledger: Ledger,
+    dated: Sequence[DatedAttempt],
+    attempts: Sequence[Attempt],
+    overrides: Sequence[Override],
+) -> tuple[list[Attempt], list[Override]]:
+    """Return the attempts with the corrections of their verdicts, and the other corrections."""
+    own: dict[int, list[Override]] = defaultdict(list)
+    rest = []
+    for override in overrides:
+        places = [
+            n for n, one in enumerate(dated) if holds(ledger, override, one.verdict, one.submission)
+        ]
+        # (without any verdict, a correction is about the last attempt)
+        (own[places[-1]] if places else rest).append(override)
+    return [replace(one, overrides=tuple(own[n])) for n, one in enumerate(attempts)], rest
 
 
 def _of_item(

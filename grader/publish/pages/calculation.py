@@ -14,7 +14,8 @@ from grader.report.model import Report
 def calculation(entry: GradebookEntry, visible: set[str]) -> list[str]:
     """Return how the final points were calculated, one step per line."""
     report = entry.report
-    lines = _given(report) if report is not None else []
+    marked = report if entry.status != "ungradable" else None
+    lines = _given(marked) if marked is not None else []
     lines += [_correction(override, entry, visible) for override in entry.overrides]
     if entry.overrides and entry.score is not None:
         lines.append(say("The score is then {score}.", score=points(entry.score)))

@@ -123,8 +123,10 @@ def _index(renderer: Renderer, result: ClassResult, *, show_hidden: bool) -> byt
         "identical": _identical(result),
         **{
             status: [entry for entry in entries if entry.status == status]
-            for status in ("ungradable", "error", "elsewhere", "missing", "pending")
+            for status in ("error", "elsewhere", "missing", "pending")
         },
+        "by_hand": [entry for entry in entries if entry.by_hand],
+        "lapsed": [entry for entry in entries if entry.lapsed],
     }
     return renderer.page(
         "index.html.j2",
@@ -163,7 +165,7 @@ def _cards(entries: Sequence[GradebookEntry]) -> list[tuple[str, int]]:
         ("graded", count("graded")),
         ("with full marks", len(full)),
         ("late", sum(entry.late_seconds > 0 for entry in entries)),
-        ("ungradable", count("ungradable")),
+        ("to look at by hand", count("ungradable")),
         ("missing", count("missing")),
     ]
     rare = {
