@@ -76,6 +76,7 @@ def discover(
         elsewhere=joined.elsewhere,
         on_roster=joined.on_roster,
         notes=(*notes.lines(), *joined.notes),
+        unclear=joined.unclear,
     )
 
 

@@ -19,6 +19,7 @@ from grader.course.assignment import Assignment
 
 UNPACKED = "unpacked"
 GRADEBOOK = "gradebook.csv"
+MOST_WHY = 600  # characters
 
 
 @dataclass(frozen=True)
@@ -68,11 +69,13 @@ def _with_elsewhere(
     folder: ClassFolder, opened: OpenSheets, gradebook: EarlierGradebook
 ) -> ClassFolder:
     """Return the class with what the files and the gradebook say about missing students."""
-    elsewhere = {**opened.elsewhere(folder.missing, folder.system), **folder.elsewhere}
-    for student in folder.missing:
-        had = gradebook.elsewhere(student)
-        if had is not None:
-            elsewhere[student.key] = replace(elsewhere.get(student.key, had), final=had.final)
+    # a name must be unique in the whole class, not only among the missing
+    class_ = [*{one.student.key: one.student for one in folder.handed_in}.values(), *folder.missing]
+    missing = {student.key for student in folder.missing}
+    known = opened.elsewhere(class_, folder.system)
+    elsewhere = {**{key: known[key] for key in known.keys() & missing}, **folder.elsewhere}
+    for key, had in gradebook.elsewhere(folder.missing, class_).items():
+        elsewhere[key] = replace(elsewhere.get(key, had), final=had.final)
     return replace(folder, elsewhere=elsewhere)
 
 
@@ -84,3 +87,5 @@ def _say_found(folder: ClassFolder, notify: Callable[[str], None]) -> None:
     notify(f"found {counted(len(students))}{more}{missing} ({folder.system.name})")
     for note in folder.notes:
         notify(f"  {one_line(note)}")
+    for why in folder.unclear:
+        notify(f"needs attention: {one_line(why, most=MOST_WHY)}")

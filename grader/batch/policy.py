@@ -103,7 +103,7 @@ def _without_attempt(
     if elsewhere is not None:
         return GradebookEntry(
             student,
-            "elsewhere",
+            "unclear" if elsewhere.is_unclear else "elsewhere",
             final=elsewhere.final,
             max_score=max_score,
             notes=(elsewhere.reason,),

@@ -72,6 +72,7 @@ def class_result(
         found = [_of_item(ledger, item, verdicts, rows) for item in own[key]]
         found += [_of_row(ledger, row, assignment.id) for row in earlier.get(key, ())]
         entry, counts = _entry(student, found, overrides[key], assignment, lang)
+        entry = _without_owner(entry, own[key][0].handed_in.unclear)
         if counts is not None:
             submissions[key] = counts.submission
         verdict = counts.verdict if counts is not None else None
@@ -96,8 +97,16 @@ def class_result(
         seconds=seconds,
         notes=folder.notes,
         identical=identical,
+        unclear=folder.unclear,
         detail=assignment.feedback.handed_back(assignment.policy.deadline, started or _now()),
     )
+
+
+def _without_owner(entry: GradebookEntry, why: str) -> GradebookEntry:
+    """Return the entry without a grade if it is not known whose the submission is."""
+    if not why:
+        return entry
+    return replace(entry, status="unclear", final=None, penalty=0, notes=(*entry.notes, why))
 
 
 def _now() -> datetime:

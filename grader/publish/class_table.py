@@ -11,6 +11,7 @@ from grader.base.plain_text import one_line, points
 from grader.batch.ledger import Ledger, Regrade
 from grader.batch.model import ClassResult, GradebookEntry
 from grader.batch.points import marks
+from grader.batch.words import STATES
 from grader.report.model import Report
 
 if TYPE_CHECKING:
@@ -22,6 +23,7 @@ STYLES = {
     "error": "bold magenta",
     "missing": "yellow",
     "elsewhere": "yellow",
+    "unclear": "bold magenta",
     "pending": "cyan",
 }
 MOST_NAMES = 5  # of failed checks, in one line
@@ -126,6 +128,8 @@ def _reason(entry: GradebookEntry) -> str:
         return one_line("; ".join(entry.notes), most=120)
     if entry.status == "error":
         return one_line(f"not marked: {entry.notes[0] if entry.notes else entry.problem}", most=160)
+    if entry.status == "unclear":
+        return STATES["unclear"]
     if entry.status != "graded":
         return one_line(entry.problem or entry.status, most=120)
     failed = [mark.check.id for mark in marks(entry) if mark.check.status == "failed"]
@@ -146,6 +150,7 @@ def _totals(entries: Sequence[GradebookEntry]) -> str:
     parts = [f"{len(entries)} students", f"{count['graded']} marked ({full} with every check)"]
     words = {"ungradable": "cannot be marked", "missing": "without a submission"}
     words["elsewhere"] = "submitted elsewhere"
+    words["unclear"] = STATES["unclear"]
     words["error"] = "not marked because of a fault of the grader"
     words["pending"] = "still to be marked"
     parts += [f"{count[status]} {text}" for status, text in words.items() if count[status]]

@@ -23,6 +23,7 @@ MOST = 200  # characters of a name
 NOTHING = {
     "missing": say("no submission"),
     "elsewhere": say("submitted elsewhere"),
+    "unclear": say("not known whose submission it is"),
     "pending": say("not marked yet"),
 }
 COUNTS = ("tests", "failures", "errors", "skipped")

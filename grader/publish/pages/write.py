@@ -119,6 +119,7 @@ def _index(renderer: Renderer, result: ClassResult, *, show_hidden: bool) -> byt
     entries = result.entries
     scores = overview.scores(result)
     groups = {
+        "unclear": result.unclear,
         "unsure": overview.unsure(result, show_hidden=show_hidden),
         "identical": _identical(result),
         **{
@@ -169,6 +170,7 @@ def _cards(entries: Sequence[GradebookEntry]) -> list[tuple[str, int]]:
     rare = {
         "a fault of the grader": count("error"),
         "submitted elsewhere": count("elsewhere"),
+        STATES["unclear"]: count("unclear"),
         "not marked yet": count("pending"),
     }
     return [*cards, *((name, number) for name, number in rare.items() if number)]
