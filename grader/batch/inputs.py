@@ -11,6 +11,7 @@ from pathlib import Path
 
 from grader.base.plain_text import one_line
 from grader.batch.accept import counted, refuse_poor_join
+from grader.batch.dated import with_times
 from grader.batch.discover import discover
 from grader.batch.earlier_gradebook import EarlierGradebook, read_earlier_gradebook
 from grader.batch.model import ClassFolder
@@ -56,7 +57,9 @@ def read_inputs(
         system=system,
         roster=rosters[0] if rosters else None,
         unpack=out / UNPACKED,
+        zone=assignment.policy.zone,
     )
+    found = with_times(found, opened.rosters, assignment.policy)
     _say_found(found, notify)
     folder = _with_elsewhere(found, opened, gradebook)
     students = {one.student.key: one.student for one in folder.handed_in}

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from datetime import datetime
 
 from grader.base.nearest import without_accents
 from grader.base.plain_text import one_line
@@ -14,6 +13,7 @@ from grader.batch.match import Match, fallback_rules, is_same_name, match_more, 
 from grader.batch.model import Elsewhere, HandedIn, OnRoster, Student
 from grader.batch.roster import Roster
 from grader.batch.systems.system import System
+from grader.batch.times import timed
 from grader.batch.unclear import Unclear, unclear_groups
 
 STRANGER = "not on the roster"
@@ -103,12 +103,14 @@ def _joined(
         student = _fuller(by_key[key][0].student, roster.students[row])
         by_name = (BY_NAME,) if key in match.by_name else ()
         own = [replace(o, student=student, notes=(*o.notes, *by_name)) for o in by_key[key]]
-        found[row] = _timed(own, roster.lines[row].submitted)
+        found[row] = own
     for key, rows in groups.rows.items():
         for row in rows:
             own = found.get(row, [])
             student = own[0].student if own else _with_free_key(roster.students[row], taken)
             found[row] = [*_of_group(by_key[key], student, groups.names[key], alone=own), *own]
+    for row, own in found.items():
+        found[row] = timed(own, {own[0].student.key: roster.lines[row].times})
     unclear = _unclear(by_key, match, groups, roster, found)
     for key, attempts in by_key.items():
         if key not in match.rows and not groups.rows.get(key):
@@ -190,13 +192,6 @@ def _group_notes(groups: Groups) -> Iterator[str]:
             "1 submission is from a group" if count == 1 else f"{count} submissions are from groups"
         )
         yield f"{what}: each of the {members} members gets the group's verdict"
-
-
-def _timed(group: list[HandedIn], at: datetime | None) -> list[HandedIn]:
-    """Return a student's only submission with the roster's time, unless it has its own."""
-    if at is None or len(group) > 1 or group[0].submitted is not None:
-        return group
-    return [replace(group[0], submitted=at)]
 
 
 def _by_student_name(groups: Iterable[list[HandedIn]]) -> Iterator[HandedIn]:

@@ -106,10 +106,15 @@ CHAIN = """
         UNIQUE (place, row)
     );
 """
+TIMES = """
+    ALTER TABLE handed_in ADD COLUMN late_seconds REAL;
+    ALTER TABLE handed_in ADD COLUMN extension TEXT;
+"""
 # the tables of a step, and what is done with the rows that are there
 STEPS: tuple[tuple[str, Callable[[sqlite3.Connection], None] | None], ...] = (
     (FIRST, None),
     (CHAIN, ledger_chain.adopt),
+    (TIMES, None),
 )
 
 

@@ -129,6 +129,11 @@ def names_agree(own: Student, line: Student) -> bool:
     return bool({*_words(own)} & {*_words(line)}) or is_same_name(own, line)
 
 
+def is_participant(own: Student, line: Student | None) -> bool:
+    """Whether a line with a student's number can be this student's."""
+    return line is not None and (names_agree(own, line) or _is_nameless(own, line))
+
+
 def is_same_name(own: Student, line: Student) -> bool:
     """Whether two names have the same letters, in any order: Korean names have two orders."""
     return Counter("".join(_words(own))) == Counter("".join(_words(line)))

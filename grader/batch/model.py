@@ -40,9 +40,12 @@ class HandedIn:
     """One attempt of a student: `path` is a folder or an archive on this machine.
 
     `problem` says why it cannot be marked (a corrupt archive, for example); `unclear` why it is not
-    known whose it is (nobody gets its grade); `notes` are for the instructor. `submitted` is the system's own time stamp, `late` its own statement; each is None
-    if the system does not say. `modes_kept` is False if loose files lost their exec bits on the way
-    (uploaded one by one, for example); `take_in` needs to know.
+    known whose it is (nobody gets its grade); `notes` are for the instructor.
+
+    `submitted` is the system's own time stamp, `late` and `late_seconds` its own statements (0: not
+    late), `extension` the later due date that it granted; each is None if the system does not say.
+    `modes_kept` is False if loose files lost their exec bits on the way (uploaded one by one, for
+    example); `take_in` needs to know.
     """
 
     student: Student
@@ -50,10 +53,17 @@ class HandedIn:
     attempt: int = 1
     submitted: datetime | None = None
     late: bool | None = None
+    late_seconds: float | None = None
+    extension: datetime | None = None
     notes: tuple[str, ...] = ()
     problem: str = ""
     modes_kept: bool = True
     unclear: str = ""
+
+    @property
+    def has_times(self) -> bool:
+        """Whether it is known when it was handed in, or how late that was."""
+        return (self.submitted, self.late_seconds, self.extension) != (None, None, None)
 
 
 @dataclass(frozen=True)
@@ -138,7 +148,8 @@ class GradebookEntry:
     """What one student gets: the report that counts, and the points after policy and corrections.
 
     `score` is the report's score with overrides (None without a report); `penalty` the points taken
-    for lateness; `final` the grade for the gradebook, or None. None means: an ungradable submission
+    for lateness, `late_seconds` is None if it is not known how late it is; `due` the student's own
+    due date; `final` the grade for the gradebook, or None. None means: an ungradable submission
     waits for the instructor, one with `error` for the grader's next run. A missing submission
     follows the assignment's policy; a student who handed in elsewhere keeps the existing grade, and
     so does one whose submission may be here but is `unclear`, as that submission itself is.
@@ -155,7 +166,8 @@ class GradebookEntry:
     attempt: int = 1
     attempts: int = 1
     submitted: datetime | None = None
-    late_seconds: float = 0
+    late_seconds: float | None = 0
+    due: datetime | None = None
     problem: str = ""
     notes: tuple[str, ...] = ()
     overrides: tuple[Override, ...] = ()
@@ -165,6 +177,11 @@ class GradebookEntry:
     """The id of the report's verdict in the ledger."""
     lang: str = "en"
     """The language of the student's texts: the report's, if there is one."""
+
+    @property
+    def is_lateness_open(self) -> bool:
+        """Whether there is a due date, and it is not known how late the submission is."""
+        return self.late_seconds is None and self.due is not None
 
     @property
     def keeps_grade(self) -> bool:

@@ -143,17 +143,21 @@ def _of_item(
     fault = ledger.fault(item.student, item.key) if item.key else item.fault
     if fault and row is not None:
         notes.append(f"marking it again failed, the earlier verdict still counts: {fault}")
+    recorded = rows.get((item.student, item.submission))
+    # an earlier run may have had the list with the times
+    timed = given if recorded is None or given.has_times else recorded
     attempt = Attempt(
         number=given.attempt,
-        submitted=given.submitted,
+        submitted=timed.submitted,
         late=given.late,
+        late_seconds=timed.late_seconds,
+        extension=timed.extension,
         report=_report(ledger, row),
         problem=item.problem,
         notes=tuple(notes),
         fault=fault,
     )
-    recorded = rows.get((item.student, item.submission))
-    at = given.submitted or (recorded.first_seen if recorded else None)
+    at = timed.submitted or (recorded.first_seen if recorded else None)
     return DatedAttempt(at, attempt, item.submission, row.id if row else None)
 
 
@@ -163,6 +167,8 @@ def _of_row(ledger: Ledger, handed_in: HandedInRow, assignment: str) -> DatedAtt
         number=0,
         submitted=handed_in.submitted,
         late=handed_in.late,
+        late_seconds=handed_in.late_seconds,
+        extension=handed_in.extension,
         report=_report(ledger, row),
         problem="",
         notes=(GONE,),

@@ -154,4 +154,6 @@ def _totals(entries: Sequence[GradebookEntry]) -> str:
     words["error"] = "not marked because of a fault of the grader"
     words["pending"] = "still to be marked"
     parts += [f"{count[status]} {text}" for status, text in words.items() if count[status]]
+    if unknown := sum(entry.is_lateness_open for entry in entries):
+        parts.append(f"{unknown} with an unknown time of submission")
     return ", ".join(parts) + "."

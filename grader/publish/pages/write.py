@@ -120,6 +120,7 @@ def _index(renderer: Renderer, result: ClassResult, *, show_hidden: bool) -> byt
     scores = overview.scores(result)
     groups = {
         "unclear": result.unclear,
+        "open_lateness": [entry for entry in entries if entry.is_lateness_open],
         "unsure": overview.unsure(result, show_hidden=show_hidden),
         "identical": _identical(result),
         **{
@@ -163,7 +164,7 @@ def _cards(entries: Sequence[GradebookEntry]) -> list[tuple[str, int]]:
         ("students", len(entries)),
         ("graded", count("graded")),
         ("with full marks", len(full)),
-        ("late", sum(entry.late_seconds > 0 for entry in entries)),
+        ("late", sum(bool(entry.late_seconds) for entry in entries)),
         ("ungradable", count("ungradable")),
         ("missing", count("missing")),
     ]
