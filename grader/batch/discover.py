@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from datetime import tzinfo
 from pathlib import Path
 
 from grader.base.errors import UsageError
@@ -48,16 +49,24 @@ class Request:
 
 
 def discover(
-    path: Path, *, system: str = "auto", roster: Path | Roster | None = None, unpack: Path
+    path: Path,
+    *,
+    system: str = "auto",
+    roster: Path | Roster | None = None,
+    unpack: Path,
+    zone: tzinfo | None = None,
 ) -> ClassFolder:
     """Return all submissions of a class; `path` is a folder, or an archive of one.
 
-    `unpack` is the grader's folder for unpacked and gathered files. Raises UsageError if the path
+    `unpack` is the grader's folder for unpacked and gathered files, `zone` that of the times in the
+    roster that have none. Raises UsageError if the path
     is not a class, the system is unknown or the roster cannot be used.
     """
     check_system(system)
     request = Request(resolved(path), system, unpack.resolve())
     students = read_roster(roster) if isinstance(roster, Path) else roster
+    if students is not None:
+        students = students.in_zone(zone)
     notes = Notes()
     unpacked = Unpacked(request.path)
     if not request.path.is_dir():
@@ -83,6 +92,7 @@ def discover(
         elsewhere=joined.elsewhere,
         on_roster=joined.on_roster,
         notes=(*notes.lines(), *joined.notes),
+        unclear=joined.unclear,
     )
 
 

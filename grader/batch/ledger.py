@@ -52,6 +52,8 @@ class HandedInRow:
     late: bool | None
     path: str
     first_seen: datetime
+    late_seconds: float | None = None
+    extension: datetime | None = None
 
 
 @dataclass(frozen=True)
@@ -224,12 +226,15 @@ class Ledger:
         with self._file.write() as connection:
             connection.executemany(
                 "INSERT INTO handed_in (student, assignment, submission, submitted, late, path, "
-                "first_seen) VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO UPDATE SET "
-                "submitted = excluded.submitted, late = excluded.late, path = excluded.path",
+                "first_seen, late_seconds, extension) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?) "
+                "ON CONFLICT DO UPDATE SET submitted = excluded.submitted, late = excluded.late, "
+                "path = excluded.path, late_seconds = excluded.late_seconds, "
+                "extension = excluded.extension",
                 [
                     (
                         *(row.student, assignment, row.submission, _text(row.submitted)),
                         *(row.late, row.path, _text(row.first_seen)),
+                        *(row.late_seconds, _text(row.extension)),
                     )
                     for row in rows
                 ],
@@ -238,16 +243,17 @@ class Ledger:
     def handed_in(self, assignment: str) -> list[HandedInRow]:
         """Return all submissions so far, in the order in which they were first seen."""
         rows = self._file.rows(
-            "SELECT student, submission, submitted, late, path, first_seen FROM handed_in "
-            "WHERE assignment = ? ORDER BY id",
+            "SELECT student, submission, submitted, late, path, first_seen, late_seconds, extension "
+            "FROM handed_in WHERE assignment = ? ORDER BY id",
             (assignment,),
         )
         return [
             HandedInRow(
                 *(student, submission, _instant(submitted)),
                 *(None if late is None else bool(late), path, datetime.fromisoformat(first)),
+                *(late_seconds, _instant(extension)),
             )
-            for student, submission, submitted, late, path, first in rows
+            for student, submission, submitted, late, path, first, late_seconds, extension in rows
         ]
 
     def enrol(self, assignment: str, students: Iterable[Student]) -> None:

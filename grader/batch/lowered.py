@@ -62,7 +62,7 @@ def lowered(entry: GradebookEntry, before: str, where: str) -> Lowered | None:
 def is_without_verdict(entry: GradebookEntry) -> bool:
     """Whether a student has neither a submission here nor a corrected total."""
     corrected = any(override.check == "" for override in entry.overrides)
-    return entry.status in ("missing", "elsewhere") and not corrected
+    return entry.status in ("missing", "elsewhere", "unclear") and not corrected
 
 
 def as_number(text: str) -> float | None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from datetime import datetime
+from datetime import datetime, timedelta
 
 from grader.base.i18n.message import joined, say
 from grader.batch.model import (
@@ -21,6 +21,7 @@ from grader.batch.model import (
     Student,
 )
 from grader.batch.points import marks, rounded
+from grader.batch.words import instant
 from grader.course.policy import Policy, amount
 from grader.report.model import Report
 
@@ -40,8 +41,8 @@ class Attempt:
     """One attempt of a student, with its report if it has been marked.
 
     `problem` says why the attempt cannot be marked, `fault` how the grader failed on it; without
-    either it is still to be marked. `late` is what the learning management system says. `overrides`
-    are the corrections of its verdict.
+    either it is still to be marked. `late`, `late_seconds` and `extension` are what the learning
+    management system says. `overrides` are the corrections of its verdict.
     """
 
     number: int
@@ -51,32 +52,67 @@ class Attempt:
     problem: str = ""
     notes: tuple[str, ...] = ()
     fault: str = ""
+    late_seconds: float | None = None
+    extension: datetime | None = None
     overrides: tuple[Override, ...] = ()
 
 
-def lateness(submitted: datetime | None, policy: Policy) -> float | None:
-    """Return the seconds since the due date, 0 until the grace time ends.
+def due_date(policy: Policy, extension: datetime | None = None) -> datetime | None:
+    """Return a student's due date: the policy's, or the later one that the student was granted."""
+    dates = [at for at in (policy.deadline, extension) if at is not None]
+    return max(dates, default=None)
 
-    None if there is a due date and the time of submission is not known.
+
+def lateness(
+    submitted: datetime | None,
+    policy: Policy,
+    *,
+    stated: float | None = None,
+    extension: datetime | None = None,
+) -> float | None:
+    """Return the seconds since the due date, 0 until the grace time ends; None if not known.
+
+    `stated` is what the learning management system says: it counts, because the system knows each
+    student's due date. It is cut off to its smallest unit, so the exact time counts if it agrees.
     """
-    due = policy.deadline
-    if due is None:
-        return 0
-    if submitted is None:
+    due = due_date(policy, extension)
+    exact = (submitted - due).total_seconds() if submitted and due else None
+    late = exact
+    if stated is not None:
+        agrees = exact is not None and stated <= exact < stated + _precision(stated)
+        late = exact if agrees and stated else stated
+    elif due is None and submitted is not None:
+        late = 0
+    if late is None:
         return None
-    late = (submitted - due).total_seconds()
     return late if late > policy.grace_seconds else 0
 
 
-def penalty(score: float, max_score: float, submitted: datetime | None, policy: Policy) -> float:
+def _precision(stated: float) -> float:
+    """Return the unit to which a system cuts off a time of two units: 2 days 3 hours."""
+    return HOUR if stated >= DAY else 60 if stated >= HOUR else 1
+
+
+def penalty(
+    score: float,
+    max_score: float,
+    submitted: datetime | None,
+    policy: Policy,
+    *,
+    stated: float | None = None,
+    extension: datetime | None = None,
+) -> float:
     """Return the points that lateness takes from a score; each begun day (hour) counts as a whole.
 
-    At most the score and the policy's `most`; the whole score from the policy's `until` on.
+    At most the score and the policy's `most`; the whole score from the policy's `until` on (or an
+    extension that ends later). Nothing if it is not known how late the submission is.
     """
-    late = lateness(submitted, policy)
-    if not late or submitted is None:
+    late = lateness(submitted, policy, stated=stated, extension=extension)
+    due = due_date(policy, extension)
+    if not late:
         return 0
-    if policy.end is not None and submitted >= policy.end:
+    at = submitted if submitted is not None or due is None else due + timedelta(seconds=late)
+    if policy.end is not None and at is not None and at >= max(policy.end, due or policy.end):
         return score
     rules = policy.late
     each, unit = (rules.per_day, DAY) if rules.per_day else (rules.per_hour, HOUR)
@@ -136,7 +172,7 @@ def _without_attempt(
     if elsewhere is not None:
         return GradebookEntry(
             student,
-            "elsewhere",
+            "unclear" if elsewhere.is_unclear else "elsewhere",
             final=elsewhere.final,
             max_score=max_score,
             notes=(elsewhere.reason,),
@@ -147,11 +183,16 @@ def _without_attempt(
 
 def _rate(student: Student, attempt: Attempt, policy: Policy, max_score: float) -> GradebookEntry:
     """Return what a student gets for this attempt."""
-    late = lateness(attempt.submitted, policy)
+    late = lateness(
+        attempt.submitted, policy, stated=attempt.late_seconds, extension=attempt.extension
+    )
+    due = due_date(policy, attempt.extension)
     notes = list(attempt.notes)
     if attempt.fault and attempt.report is None:
         notes.insert(0, f"the grader failed on it: {attempt.fault}")
-    if late is None:
+    if attempt.extension is not None:
+        notes.append(f"the due date was extended until {instant(attempt.extension)}")
+    if late is None and (due is not None or attempt.late):
         notes.append(joined(UNKNOWN_TIME, CALLED_LATE if attempt.late else "", by="; "))
     entry = GradebookEntry(
         student,
@@ -160,7 +201,8 @@ def _rate(student: Student, attempt: Attempt, policy: Policy, max_score: float) 
         max_score=max_score,
         attempt=attempt.number,
         submitted=attempt.submitted,
-        late_seconds=late or 0,
+        late_seconds=late,
+        due=due,
         problem=attempt.problem,
         notes=tuple(notes),
         overrides=attempt.overrides,
@@ -180,7 +222,14 @@ def _with_points(entry: GradebookEntry, attempt: Attempt, policy: Policy) -> Gra
     if attempt.report.submission.package is None:
         return replace(entry, status="ungradable", problem=_nothing_marked(attempt.report))
     score = rounded(sum(mark.points or 0 for mark in marks(entry)))
-    taken = penalty(score, entry.max_score, attempt.submitted, policy)
+    taken = penalty(
+        score,
+        entry.max_score,
+        attempt.submitted,
+        policy,
+        stated=attempt.late_seconds,
+        extension=attempt.extension,
+    )
     final = rounded(score - taken)
     return replace(entry, status="graded", score=score, penalty=taken, final=final)
 

@@ -73,6 +73,7 @@ def class_result(
         found = [_of_item(ledger, item, verdicts, rows) for item in own[key]]
         found += [_of_row(ledger, row, assignment.id) for row in earlier.get(key, ())]
         entry, counts = _entry(ledger, student, found, overrides[key], assignment, lang)
+        entry = _without_owner(entry, own[key][0].handed_in.unclear)
         if counts is not None:
             submissions[key] = counts.submission
         verdict = counts.verdict if counts is not None else None
@@ -99,8 +100,16 @@ def class_result(
         seconds=seconds,
         notes=folder.notes,
         identical=identical,
+        unclear=folder.unclear,
         detail=assignment.feedback.handed_back(assignment.policy.deadline, started or _now()),
     )
+
+
+def _without_owner(entry: GradebookEntry, why: str) -> GradebookEntry:
+    """Return the entry without a grade if it is not known whose the submission is."""
+    if not why:
+        return entry
+    return replace(entry, status="unclear", final=None, penalty=0, notes=(*entry.notes, why))
 
 
 def _now() -> datetime:
@@ -157,17 +166,21 @@ def _of_item(
     fault = ledger.fault(item.student, item.key) if item.key else item.fault
     if fault and row is not None:
         notes.append(f"marking it again failed, the earlier verdict still counts: {fault}")
+    recorded = rows.get((item.student, item.submission))
+    # an earlier run may have had the list with the times
+    timed = given if recorded is None or given.has_times else recorded
     attempt = Attempt(
         number=given.attempt,
-        submitted=given.submitted,
+        submitted=timed.submitted,
         late=given.late,
+        late_seconds=timed.late_seconds,
+        extension=timed.extension,
         report=_report(ledger, row),
         problem=item.problem,
         notes=tuple(notes),
         fault=fault,
     )
-    recorded = rows.get((item.student, item.submission))
-    at = given.submitted or (recorded.first_seen if recorded else None)
+    at = timed.submitted or (recorded.first_seen if recorded else None)
     return DatedAttempt(at, attempt, item.submission, row.id if row else None)
 
 
@@ -177,6 +190,8 @@ def _of_row(ledger: Ledger, handed_in: HandedInRow, assignment: str) -> DatedAtt
         number=0,
         submitted=handed_in.submitted,
         late=handed_in.late,
+        late_seconds=handed_in.late_seconds,
+        extension=handed_in.extension,
         report=_report(ledger, row),
         problem="",
         notes=(GONE,),

@@ -22,6 +22,7 @@ STATES: dict[EntryStatus, str] = {
     "error": say("not marked, a fault of the grader"),
     "missing": say("nothing handed in"),
     "elsewhere": say("submitted elsewhere"),
+    "unclear": say("not known whose submission it is"),
     "pending": say("not marked yet"),
 }
 # a sign for each state of a check: colour is never the only difference

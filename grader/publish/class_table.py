@@ -11,7 +11,7 @@ from grader.base.plain_text import one_line, points
 from grader.batch.ledger import Ledger, Regrade
 from grader.batch.model import ClassResult, GradebookEntry
 from grader.batch.points import marks
-from grader.batch.words import lapsed_words
+from grader.batch.words import STATES, lapsed_words
 from grader.report.model import Report
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ STYLES = {
     "error": "bold magenta",
     "missing": "yellow",
     "elsewhere": "yellow",
+    "unclear": "bold magenta",
     "pending": "cyan",
 }
 BY_HAND = "Look at by hand (no grade until you give one: grader override STUDENT --points N)"
@@ -151,6 +152,8 @@ def _reason(entry: GradebookEntry) -> str:
         return one_line(f"not marked: {entry.notes[0] if entry.notes else entry.problem}", most=160)
     if entry.status == "ungradable":
         return "look at by hand"
+    if entry.status == "unclear":
+        return STATES["unclear"]
     if entry.status != "graded":
         return one_line(entry.problem or entry.status, most=120)
     failed = [mark.check.id for mark in marks(entry) if mark.check.status == "failed"]
@@ -171,7 +174,10 @@ def _totals(entries: Sequence[GradebookEntry]) -> str:
     parts = [f"{len(entries)} students", f"{count['graded']} marked ({full} with every check)"]
     words = {"ungradable": "to look at by hand", "missing": "without a submission"}
     words["elsewhere"] = "submitted elsewhere"
+    words["unclear"] = STATES["unclear"]
     words["error"] = "not marked because of a fault of the grader"
     words["pending"] = "still to be marked"
     parts += [f"{count[status]} {text}" for status, text in words.items() if count[status]]
+    if unknown := sum(entry.is_lateness_open for entry in entries):
+        parts.append(f"{unknown} with an unknown time of submission")
     return ", ".join(parts) + "."

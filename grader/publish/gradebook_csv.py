@@ -37,8 +37,8 @@ def gradebook_csv(result: ClassResult, *, bom: bool = False) -> bytes:
     """Return the table in UTF-8: one row per student in class order, hidden checks included.
 
     `bom` adds the byte order mark by which Excel recognises UTF-8. `submitted` is ISO 8601 in UTC,
-    `late` is in seconds. A check's cell is empty if its points are undecided,
-    or if nothing could be marked.
+    `late` is in seconds, or `unknown`, and empty without a submission. A check's cell is empty if its
+    points are undecided, or if nothing could be marked.
     """
     checks = check_ids(result)
     out = io.StringIO()
@@ -78,11 +78,17 @@ def _row(entry: GradebookEntry, checks: Sequence[str]) -> list[str]:
         cells.number(entry.max_score),
         str(entry.attempt),
         _instant(entry.submitted),
-        cells.number(entry.late_seconds),
+        _late(entry),
         *(cells.number(given.get(check)) for check in checks),
         cells.text(_mistakes(entry), most=MOST_NOTES),
         cells.text(" | ".join(_notes(entry)), most=MOST_NOTES),
     ]
+
+
+def _late(entry: GradebookEntry) -> str:
+    if entry.status in ("missing", "elsewhere", "unclear") and entry.report is None:
+        return ""
+    return "unknown" if entry.late_seconds is None else cells.number(entry.late_seconds)
 
 
 def _instant(value: datetime | None) -> str:

@@ -23,6 +23,7 @@ MOST = 200  # characters of a name
 NOTHING = {
     "missing": say("no submission"),
     "elsewhere": say("submitted elsewhere"),
+    "unclear": say("not known whose submission it is"),
     "pending": say("not marked yet"),
 }
 COUNTS = ("tests", "failures", "errors", "skipped")
@@ -81,6 +82,12 @@ def _suite(entry: GradebookEntry) -> ET.Element:
     return suite
 
 
+def _late(entry: GradebookEntry) -> str:
+    if entry.late_seconds is None:
+        return "unknown"
+    return points(entry.late_seconds) if entry.late_seconds else ""
+
+
 def _properties(suite: ET.Element, entry: GradebookEntry) -> None:
     student, translate = entry.student, Translator(entry.lang)
     found = [
@@ -91,7 +98,7 @@ def _properties(suite: ET.Element, entry: GradebookEntry) -> None:
         ("penalty", points(entry.penalty) if entry.penalty else ""),
         ("final", "" if entry.final is None else points(entry.final)),
         ("max_score", points(entry.max_score)),
-        ("late_seconds", points(entry.late_seconds) if entry.late_seconds > 0 else ""),
+        ("late_seconds", _late(entry)),
         ("attempt", f"{entry.attempt} of {entry.attempts}"),
         *(
             ("adjusted", f"{translate(adjustment.why)}: {points(adjustment.points)}")

@@ -49,7 +49,8 @@ def test_nothing_is_late_within_the_grace_time(seconds: float, grace: str, late:
 
 def test_without_a_due_date_nothing_is_late() -> None:
     assert lateness(after(10 * DAY), Policy()) == 0
-    assert lateness(None, Policy()) == 0
+    assert lateness(None, Policy()) is None, "not 0: nothing is known"
+    assert penalty(80, 100, None, policy(per_day="10%")) == 0
 
 
 @pytest.mark.parametrize(

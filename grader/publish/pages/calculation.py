@@ -53,7 +53,10 @@ def _given(report: Report) -> list[str]:
 def _lateness(entry: GradebookEntry) -> str:
     """Return the line about the late penalty, "" if there is none."""
     taken = in_points(entry.penalty)
-    if entry.late_seconds <= 0:
+    if entry.late_seconds is None:
+        unknown = say("The time of submission is unknown: no points taken for lateness.")
+        return unknown if entry.is_lateness_open else ""
+    if not entry.late_seconds:
         return say("Penalty: {points} taken.", points=taken) if entry.penalty else ""
     late = duration(entry.late_seconds)
     if not entry.penalty:

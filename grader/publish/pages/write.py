@@ -119,6 +119,8 @@ def _index(renderer: Renderer, result: ClassResult, *, show_hidden: bool) -> byt
     entries = result.entries
     scores = overview.scores(result)
     groups = {
+        "unclear": result.unclear,
+        "open_lateness": [entry for entry in entries if entry.is_lateness_open],
         "unsure": overview.unsure(result, show_hidden=show_hidden),
         "identical": _identical(result),
         **{
@@ -164,13 +166,14 @@ def _cards(entries: Sequence[GradebookEntry]) -> list[tuple[str, int]]:
         ("students", len(entries)),
         ("graded", count("graded")),
         ("with full marks", len(full)),
-        ("late", sum(entry.late_seconds > 0 for entry in entries)),
+        ("late", sum(bool(entry.late_seconds) for entry in entries)),
         ("to look at by hand", count("ungradable")),
         ("missing", count("missing")),
     ]
     rare = {
         "a fault of the grader": count("error"),
         "submitted elsewhere": count("elsewhere"),
+        STATES["unclear"]: count("unclear"),
         "not marked yet": count("pending"),
     }
     return [*cards, *((name, number) for name, number in rare.items() if number)]
