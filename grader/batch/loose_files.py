@@ -11,7 +11,7 @@ from pathlib import Path
 
 from grader.base.i18n.message import say
 from grader.base.shown import shown
-from grader.batch.join import AMBIGUOUS, STRANGER, Joined, join
+from grader.batch.join import STRANGER, Joined, join
 from grader.batch.model import HandedIn, Student
 from grader.batch.roster import Roster
 from grader.batch.systems.layout import FolderItem
@@ -29,16 +29,16 @@ def with_loose_files(
     if not missing or not loose:
         return joined
     lines = tuple(line for line in roster.lines if _without_key(line.student) in missing)
-    found = [
-        one
-        for one in join(system, loose, replace(roster, lines=lines)).handed_in
-        if not {STRANGER, AMBIGUOUS} & set(one.notes)
-    ]
+    beside = join(system, loose, replace(roster, lines=lines))
+    found = [one for one in beside.handed_in if not one.unclear and STRANGER not in one.notes]
+    unclear = {key: why for key, why in beside.elsewhere.items() if why.is_unclear}
     who = {_without_key(one.student) for one in found}
     return replace(
         joined,
         handed_in=(*joined.handed_in, *found),
         missing=tuple(one for one in joined.missing if _without_key(one) not in who),
+        elsewhere={**joined.elsewhere, **unclear},
+        unclear=(*joined.unclear, *beside.unclear),
     )
 
 

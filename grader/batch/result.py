@@ -70,8 +70,9 @@ def class_result(
     entries: list[GradebookEntry] = []
     submissions: dict[str, str] = {}
     for key, student in students.items():
-        found = [_of_item(ledger, item, verdicts, rows) for item in own[key]]
-        found += [_of_row(ledger, row, assignment.id) for row in earlier.get(key, ())]
+        # what is no longer in the folder came first, if the times are the same
+        found = [_of_row(ledger, row, assignment.id) for row in earlier.get(key, ())]
+        found += [_of_item(ledger, item, verdicts, rows) for item in own[key]]
         entry, counts = _entry(ledger, student, found, overrides[key], assignment, lang)
         entry = _without_owner(entry, own[key][0].handed_in.unclear)
         if counts is not None:
