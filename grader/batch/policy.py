@@ -157,14 +157,14 @@ def _rate(
     max_score: float,
 ) -> GradebookEntry:
     """Return what a student gets for this attempt, without a correction of the total."""
-    known = {"stated": attempt.late_seconds, "extension": attempt.extension}
-    late = lateness(attempt.submitted, policy, **known)
-    due = due_date(policy, attempt.extension)
+    stated, extension = attempt.late_seconds, attempt.extension
+    late = lateness(attempt.submitted, policy, stated=stated, extension=extension)
+    due = due_date(policy, extension)
     notes = list(attempt.notes)
     if attempt.fault and attempt.report is None:
         notes.insert(0, f"the grader failed on it: {attempt.fault}")
-    if attempt.extension is not None:
-        notes.append(f"the due date was extended until {instant(attempt.extension)}")
+    if extension is not None:
+        notes.append(f"the due date was extended until {instant(extension)}")
     if late is None and (due is not None or attempt.late):
         notes.append(joined(UNKNOWN_TIME, CALLED_LATE if attempt.late else "", by="; "))
     entry = GradebookEntry(
@@ -188,7 +188,7 @@ def _rate(
         problem = attempt.problem or attempt.report.message or OUR_FAULT
         return replace(entry, status="error", problem=problem)
     score = rounded(sum(mark.points or 0 for mark in marks(entry)))
-    taken = penalty(score, max_score, attempt.submitted, policy, **known)
+    taken = penalty(score, max_score, attempt.submitted, policy, stated=stated, extension=extension)
     final = rounded(score - taken)
     return replace(entry, status="graded", score=score, penalty=taken, final=final)
 
