@@ -183,15 +183,14 @@ def _without_attempt(
 
 def _rate(student: Student, attempt: Attempt, policy: Policy, max_score: float) -> GradebookEntry:
     """Return what a student gets for this attempt."""
-    late = lateness(
-        attempt.submitted, policy, stated=attempt.late_seconds, extension=attempt.extension
-    )
-    due = due_date(policy, attempt.extension)
+    stated, extension = attempt.late_seconds, attempt.extension
+    late = lateness(attempt.submitted, policy, stated=stated, extension=extension)
+    due = due_date(policy, extension)
     notes = list(attempt.notes)
     if attempt.fault and attempt.report is None:
         notes.insert(0, f"the grader failed on it: {attempt.fault}")
-    if attempt.extension is not None:
-        notes.append(f"the due date was extended until {instant(attempt.extension)}")
+    if extension is not None:
+        notes.append(f"the due date was extended until {instant(extension)}")
     if late is None and (due is not None or attempt.late):
         notes.append(joined(UNKNOWN_TIME, CALLED_LATE if attempt.late else "", by="; "))
     entry = GradebookEntry(
