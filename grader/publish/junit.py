@@ -68,11 +68,11 @@ def _suite(entry: GradebookEntry) -> ET.Element:
         seconds = report.timing.total
         if report.started:
             suite.set("timestamp", one_line(report.started[:19], most=40))
-    cases = marks(entry) if report is not None and entry.status != "ungradable" else ()
-    for mark in cases:
+    judged = marks(entry) if report is not None and entry.status != "ungradable" else ()
+    for mark in judged:
         assert report is not None
         _check_case(suite, mark, report)
-    if not cases:
+    if not judged:
         _submission_case(suite, entry)
     suite.set("time", f"{seconds:.3f}")
     cases = suite.findall("testcase")
