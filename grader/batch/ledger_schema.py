@@ -106,10 +106,20 @@ CHAIN = """
         UNIQUE (place, row)
     );
 """
+CORRECTED = """
+    -- the verdict that it corrects: 0 if there was none, NULL in a row of an earlier grader
+    ALTER TABLE override ADD COLUMN verdict INTEGER;
+"""
+TIMES = """
+    ALTER TABLE handed_in ADD COLUMN late_seconds REAL;
+    ALTER TABLE handed_in ADD COLUMN extension TEXT;
+"""
 # the tables of a step, and what is done with the rows that are there
 STEPS: tuple[tuple[str, Callable[[sqlite3.Connection], None] | None], ...] = (
     (FIRST, None),
     (CHAIN, ledger_chain.adopt),
+    (CORRECTED, None),
+    (TIMES, None),
 )
 
 
