@@ -106,15 +106,21 @@ CHAIN = """
         UNIQUE (place, row)
     );
 """
-TIMES = """
-    ALTER TABLE handed_in ADD COLUMN late_seconds REAL;
-    ALTER TABLE handed_in ADD COLUMN extension TEXT;
-"""
+
+
+def _add_times(connection: sqlite3.Connection) -> None:
+    """Add the columns of what a system says of lateness, unless they are there."""
+    known = {row[1] for row in connection.execute("PRAGMA table_info(handed_in)")}
+    for name, kind in (("late_seconds", "REAL"), ("extension", "TEXT")):
+        if name not in known:
+            connection.execute(f"ALTER TABLE handed_in ADD COLUMN {name} {kind}")
+
+
 # the tables of a step, and what is done with the rows that are there
 STEPS: tuple[tuple[str, Callable[[sqlite3.Connection], None] | None], ...] = (
     (FIRST, None),
     (CHAIN, ledger_chain.adopt),
-    (TIMES, None),
+    ("", _add_times),
 )
 
 
