@@ -23,6 +23,9 @@ OF_ROS = (  # packages of ROS that tutorials run, and that a small installation 
 )
 
 
+NONE: Mapping[str, str] = MappingProxyType({})
+
+
 def _lab(
     slug: str,
     title: str,
@@ -32,12 +35,13 @@ def _lab(
     *,
     seen: str = "",
     unless: str = "",
-    values: Mapping[str, str] = MappingProxyType({}),
-    **variants: Mapping[str, str],
+    values: Mapping[str, str] = NONE,
+    chosen: Mapping[str, str] = NONE,
+    fixes: Mapping[str, str] = NONE,
 ) -> TerminalText:
     return TerminalText(
         id=f"lab.{slug}", stage="terminal", title=title, why=why, fix=fix, link=link, seen=seen,
-        unless=unless, values=values, **variants,
+        unless=unless, values=values, chosen=chosen, fixes=fixes,
     )  # fmt: skip
 
 

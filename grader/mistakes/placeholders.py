@@ -35,7 +35,7 @@ def placeholder_values(
         "executable": assignment.executable,
         "node_name": assignment.node_name,
         "function": assignment.function,
-        "period": repr(output.period),
+        "period": assignment.seconds,
         "start": output.start,
         "step": output.step,
         "line": output.line(0),
