@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import string
-from difflib import SequenceMatcher
+from difflib import SequenceMatcher, get_close_matches
 
 from grader.base.i18n.message import Message, msg, say
 from grader.base.i18n.translator import Translator
@@ -33,11 +33,16 @@ def matching_text(result: CheckResult, old: Files, new: Files, translate: Transl
     tag, start, end, first, last = next(
         (code for code in codes if code[1] <= at < code[2]), ("delete", at, at, 0, 0)
     )
-    passed = [row.strip() for row in after[first:last]] == ["pass"]  # (of which the text speaks)
-    if tag == "delete" or passed:
+    if tag == "delete":
         return fix
-    if tag == "replace" and end - start == last - first == 1:
-        words = {"written": shown(after[first].strip()), "name": shown(before[start].strip())}
+    if tag != "replace":
+        return translate(Message(BELOW))
+    row, group = before[at], before[start:end]
+    own = [new for new in after[first:last] if get_close_matches(new, group, 1, 0) == [row]]
+    if [new.strip() for new in own] in ([], ["pass"]):  # (a text says of itself that pass is left)
+        return fix
+    if len(own) == 1:
+        words = {"written": shown(own[0].strip()), "name": shown(row.strip())}
         return translate(Message(INSTEAD, words))
     return translate(Message(BELOW))
 

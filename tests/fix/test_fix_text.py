@@ -14,7 +14,7 @@ from grader.verdict.fix_text import matching_text
 PATH = "a/node.py"
 OLD = "class A:\n    def f(self):\n        self.x = self.y = 0\n        self.log()\n"
 LINE = "        self.x = self.y = 0\n"
-KINDS = (
+KINDS: tuple[tuple[str, str, dict[str, str]], ...] = (
     ("node.any_change", "removed", {}),
     ("node.logs_before_timer", "", {"callback": "tick"}),
     ("node.calls_itself", "", {"name": "self.f()", "function": "f"}),
@@ -54,6 +54,8 @@ def test_delete_this_line_is_said_only_of_a_line_that_the_change_deletes(
         (OLD.replace(LINE, "        pass\n"), None),
         (OLD.replace(LINE, "        self.y = 0\n"), instead),
         (OLD.replace("self.log()", "self.log(1)"), below),
+        # the line above it is rewritten, as where async def becomes def and the await goes
+        (OLD.replace("    def f(self):\n" + LINE, "    def f(self, more):\n"), None),
         (OLD.replace(LINE, "        self.y = 0\n        self.z = 0\n"), below),
     ):
         text, fits = told(kind, variant, words, new, lang)
