@@ -282,6 +282,7 @@ KINDS = (
              rf"|ModuleNotFoundError: No module named '(?P<package_2>{OWN_INTERFACES})(?:\.(?:msg|srv|action))?'"
              r"|cannot import name '\w{1,100}' from '(?P<package_3>\w{1,100})\.(?:msg|srv|action)' "
              r"\((?!/opt/ros/|/usr/)",
+        values={"package": "my_robot_interfaces", "debian": "my-robot-interfaces"},
         chosen={
             "name": r"cannot import name '\w{1,100}' from '\w{1,100}\.(?:msg|srv|action)'",
             "ros": rf"No module named '(?:{ROS_INTERFACES})(?:\.\w{{1,9}})?'",

@@ -94,10 +94,10 @@ def print_list(*, file: TextIO, reader: Reader) -> None:
 
 def _entry(page: Page, seen: Seen, reader: Reader) -> None:
     kind, params = seen.kind, seen.params
-    known = {**reader.words(kind), **params}
+    own = kind.values if isinstance(kind, TerminalText) else {}
+    known = {**{n: v for n, v in reader.words(kind).items() if n not in own}, **params}
     if "package" in params:  # the names of Debian's packages have dashes
         known["debian"] = params["package"].replace("_", "-")
-    own = kind.values if isinstance(kind, TerminalText) else {}
     values = {**example_values(kind.id), **own, **known}
     why, fix = kind.rationale(values, seen.variant), kind.fix_text(values, seen.variant)
     page.line((kind.id, "bold"), ": ", Message(kind.title))
