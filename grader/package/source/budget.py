@@ -10,8 +10,8 @@ import ast
 
 MOST_BYTES = 100_000
 """A larger hostile file takes seconds and hundreds of megabytes to parse."""
-MOST_PARTS = 20_000
-"""Names, numbers, calls and the like: about 2,500 lines of usual code."""
+MOST_PARTS = 10_000
+"""Names, numbers, calls and the like: about 2,000 lines of usual code."""
 MOST_DEPTH = 200
 """Parts inside each other; Python itself allows 200 brackets and 100 blocks."""
 LARGEST = 10**20
@@ -24,16 +24,17 @@ def first_beyond(tree: ast.Module) -> int:
     Replace numbers beyond `LARGEST` by it: they overflow in calculations, and Python refuses to
     write them as text.
     """
-    count, depth, level = 0, 0, list[ast.AST]([tree])
+    count, depth, line, level = 0, 0, 1, list[ast.AST]([tree])
     while level:
-        count, depth, line = count + len(level), depth + 1, 0
+        count, depth = count + len(level), depth + 1
         for node in level:
             line = getattr(node, "lineno", line)
             if isinstance(node, ast.Constant) and isinstance(node.value, int | float):
                 node.value = _limited(node.value)
-        if line and (count > MOST_PARTS or depth > MOST_DEPTH):
+        if count > MOST_PARTS or depth > MOST_DEPTH:
             return line
-        level = [inner for node in level for inner in ast.iter_child_nodes(node)]
+        inner = (one for node in level for one in ast.iter_child_nodes(node))
+        level = [one for one in inner if not isinstance(one, ast.expr_context | ast.operator)]
     return 0
 
 

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 STOPPED = re.compile(r"^Failed +<<< (\w+)", re.MULTILINE)
+NO_MODULE = re.compile(r"^ModuleNotFoundError: No module named '(\w+)(?:\.\w+)*'", re.MULTILINE)
 MODULE = re.compile(r"/site-packages/(?P<package>\w+)/(?:msg|srv|action)/_\w+\.py")
 """A module that ROS generates for Python, in a traceback."""
 
@@ -87,7 +88,11 @@ def build_stopped(evidence: Evidence, log: str, expected: str) -> Failed | None:
 
 
 def fault_in_traceback(evidence: Evidence, text: str) -> Failed | None:
-    """Return the fault of the interface whose module a program could not import, if that is why."""
+    """Return the fault of the interface that a program could not import, if that is why it ended."""
+    absent = NO_MODULE.search(text)
+    if absent is not None and absent[1] in evidence.assignment.interface_packages:
+        name = absent[1]
+        return None if evidence.submission.package(name) else missing_package(evidence, name)
     for found in reversed(list(MODULE.finditer(text))):
         package = evidence.submission.package(found["package"])
         if package is not None:
@@ -116,7 +121,7 @@ def _is_type(name: str) -> bool | None:
 def _expected(fault: InterfaceFault) -> Message:
     words = fault.words
     if fault.slug == "separator":
-        return say("a .{kind} file with {count} lines that have only ---", **words)
+        return say("a .{kind} file; lines of it that have only ---: {count}", **words)
     return {
         "too_long": say("a file of at most {most} bytes", most=words.get("most", "")),
         "not_utf8": say("text in UTF-8"),
