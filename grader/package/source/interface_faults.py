@@ -269,7 +269,8 @@ def _fits(kind: str, text: str) -> bool:
         return True
     bits = int(match[2] or 8)
     signed = match[2] is not None and not match[1]
-    low, high = (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) if signed else (0, 2**bits - 1)
+    most = 1 << (bits - 1 if signed else bits)
+    low, high = -most if signed else 0, most - 1
     if len(text) > LONGEST_NUMBER:
         return False
     prefixed = re.match(r"[+-]?0[box]", text.lower()) is not None

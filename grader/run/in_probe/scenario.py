@@ -373,7 +373,7 @@ class Scenario:
         """Call a service; the reply comes with this answer or a later one."""
         client = self.clients.get(command["service"])
         request, why = made(command, "Request") if client is not None else (None, "")
-        if request is None:
+        if client is None or request is None:
             return self.undone(deadline, why)
         heard = self.await_ready(client.service_is_ready, deadline)
         if heard:
@@ -396,7 +396,7 @@ class Scenario:
         """Send a goal; what becomes of it comes with this answer or later ones."""
         client = self.actions.get(command["action"])
         goal, why = made(command, "Goal") if client is not None else (None, "")
-        if goal is None:
+        if client is None or goal is None:
             return self.undone(deadline, why)
         heard = self.await_ready(client.server_is_ready, deadline)
         if heard:
