@@ -9,7 +9,7 @@ from typing import Any
 from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.course.assignment import Assignment
-from grader.course.scenario import RunPlan, Start, Stimulus
+from grader.course.scenario import Call, Publish, RunPlan, SendGoal, Start, Stimulus
 from grader.ros.distro import Distro
 from grader.run.in_probe.turtlesim import STEP
 from grader.run.observations import Done, End, Goal, Message, Observations, Parameter, Pose
@@ -77,7 +77,7 @@ def conduct(
     probe.until = until - limits.stop_seconds - END_SECONDS
     probe.ready()
     probe.extend([in_probe(name) for name in MODULES])
-    _prepare(probe, plan)
+    seen.unusable.update(_prepare(probe, assignment, plan))
     begin = time.monotonic()
     terminals: list[Terminal] = []
     try:
@@ -103,8 +103,11 @@ def conduct(
     return run
 
 
-def _prepare(probe: ProbeLink, plan: RunPlan) -> None:
-    """Make the ends that the plan needs; UsageError for what ROS does not have."""
+def _prepare(probe: ProbeLink, assignment: Assignment, plan: RunPlan) -> dict[str, str]:
+    """Make the ends that the plan needs; UsageError for what ROS does not have.
+
+    Return the types of the submission's packages that cannot be used, and why.
+    """
     said = probe.said(
         "prepare",
         seconds=PREPARE_SECONDS,
@@ -114,12 +117,14 @@ def _prepare(probe: ProbeLink, plan: RunPlan) -> None:
         goal=[[one.goal.action, one.goal.type] for one in plan.do if one.goal],
         periods={topic: round(seconds * SECOND) for topic, seconds in plan.periods.items()},
         world=in_probe(plan.world) if plan.world else None,
+        students=assignment.interface_packages,
     )
     for kind in said.get("unknown", ()):
         raise UsageError(
             say("there is no interface {type} in this ROS", type=kind),
             remedy=say("Correct the run '{name}' of the assignment.", name=plan.name),
         )
+    return {str(kind): str(why) for kind, why in said.get("unusable", {}).items()}
 
 
 class _Scene:
@@ -270,12 +275,12 @@ class _Scene:
         done = Done(one.name, one.at)
         self.seen.done.append(done)
         if one.publish is not None:
-            self._act(done, "publish", **one.publish.model_dump())
+            self._send(done, "publish", one.publish)
         elif one.call is not None:
-            self._act(done, "call", name=one.name, **one.call.model_dump())
+            self._send(done, "call", one.call)
         elif one.goal is not None:
             self.seen.goals.append(Goal(one.name, one.at))
-            self._act(done, "goal", name=one.name, **one.goal.model_dump())
+            self._send(done, "goal", one.goal)
         elif one.cancel is not None:
             self._act(done, "cancel", name=one.cancel)
         elif one.spawn is not None:
@@ -287,6 +292,12 @@ class _Scene:
             said = self._act(done, "set", name=name, values=values)
             for parameter, accepted, reason in said["set"]:
                 done.accepted[str(parameter)] = "" if accepted else str(reason) or "refused"
+
+    def _send(self, done: Done, command: str, what: Publish | Call | SendGoal) -> None:
+        """Send something of a type, which may not have the fields that the assignment asks for."""
+        said = self._act(done, command, name=done.name, **what.model_dump())
+        if misfit := said.get("misfit"):
+            self.seen.unusable[what.type] = str(misfit)
 
     def _act(self, done: Done, command: str, **more: object) -> Mapping[str, Any]:
         """Let the probe do something, count who received it, and keep what came of it."""

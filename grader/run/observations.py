@@ -99,6 +99,7 @@ class Observations:
 
     `counts` are the numbers of messages by topic; only the first of a step are in `messages`.
     `parameters` are by the node's full name. `stuck` is the instant from which on no node answered.
+    `unusable` has the types of the submission's own packages that could not be used, and why.
     """
 
     period: float
@@ -112,6 +113,7 @@ class Observations:
     path: list[Pose] = field(default_factory=list)
     events: list[dict[str, Any]] = field(default_factory=list)
     stuck: float | None = None
+    unusable: dict[str, str] = field(default_factory=dict)
     complete: bool = False
 
     def of_topic(self, topic: str) -> list[Message]:

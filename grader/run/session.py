@@ -56,12 +56,19 @@ class Session:
     """Builds and runs one package in an open sandbox; `timing` has the seconds of each stage.
 
     A session may take the limits' `verdict_seconds`, or until `deadline` (of `time.monotonic`); a
-    run that does not fit into what is left of them is not started.
+    run that does not fit into what is left of them is not started. `note` is told of faults of ours
+    that cost no check.
     """
 
     def __init__(
-        self, sandbox: Sandbox, assignment: Assignment, *, deadline: float | None = None
+        self,
+        sandbox: Sandbox,
+        assignment: Assignment,
+        *,
+        deadline: float | None = None,
+        note: Callable[[str], None] = unheard,
     ) -> None:
+        self._note = note
         self.sandbox = sandbox
         self.assignment = assignment
         self.deadline = deadline or time.monotonic() + sandbox.limits.verdict_seconds
@@ -98,18 +105,10 @@ class Session:
         if submission.packages:  # before the student's code runs
             self._interfaces = interfaces_of(self.sandbox, submission)
         self._probe = self._probe or self._new_probe()
-        self._remarks = remarks_on(submission.files)
-        self._reads_real_time = reads_real_time(submission.files)
-        self._reads_command_line = reads_command_line(submission.files)
-        self._waits_for_ros_time = waits_for_ros_time(submission.files)
-        self._periods = timer_periods(submission.files)
-        could_end = any(remark.kind in ("ends", "hides") for remark in self._remarks)
-        self._unforeseen = unforeseen(
-            submission.sha256,
-            could_end=could_end,
-            ends_after=ends_after(submission.files),
-            counts_to=0 if self._reads_real_time else counts_to(submission.files),
-        )
+        try:
+            self._read_sources(submission)
+        except Exception as fault:  # a bug of ours must not lose the build
+            self._note(f"the sources were not read because of a fault of ours: {fault!r}")
         try:
             made = build(self.sandbox, submission, package=self.assignment.package)
             if made.doubts_colcon:
@@ -122,6 +121,21 @@ class Session:
         if not stopped_by and made.status != 0:
             stopped_by = self._limit_on_a_process(made.log)
         return replace(made, stopped_by=stopped_by)
+
+    def _read_sources(self, submission: Submission) -> None:
+        """Read from the sources how the node is best observed."""
+        self._remarks = remarks_on(submission.files)
+        self._reads_real_time = reads_real_time(submission.files)
+        self._reads_command_line = reads_command_line(submission.files)
+        self._waits_for_ros_time = waits_for_ros_time(submission.files)
+        self._periods = timer_periods(submission.files)
+        could_end = any(remark.kind in ("ends", "hides") for remark in self._remarks)
+        self._unforeseen = unforeseen(
+            submission.sha256,
+            could_end=could_end,
+            ends_after=ends_after(submission.files),
+            counts_to=0 if self._reads_real_time else counts_to(submission.files),
+        )
 
     def run(self, on_event: Callable[[Event], None], *, named: Assignment | None = None) -> Run:
         """Run the node and return the result; repeat the run if our own side failed.

@@ -16,11 +16,12 @@ from grader.report.model import CheckResult, CheckStatus, Mistake, Visibility, W
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.checks.declare import Check
 from grader.verdict.evidence import Evidence
-from grader.verdict.outcome import Blocked, Inconclusive, Passed
+from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 from grader.verdict.own_checks import checks_of
 
 if TYPE_CHECKING:
     from grader.mistakes.recognised import RecognisedMistake
+    from grader.verdict.diagnose import Diagnosis
 
 
 @dataclass(frozen=True)
@@ -77,7 +78,8 @@ def evaluate_checks(
 
     Each result is added to `evidence` first. `announce` is called with each check before it is
     evaluated. The first check that needs the build or the run makes it. Raises GraderError;
-    any other exception that is not an outcome becomes a result with the status `error`.
+    any other exception that is not an outcome becomes a result with the status `error`, which
+    blocks no other check: what depends on it is decided by what it finds itself.
     """
     for assigned in assigned_checks(evidence.assignment):
         if only is not None and not {assigned.use.id, assigned.check.id} & set(only):
@@ -178,11 +180,10 @@ def _found(
         return _skipped(assigned, outcome.by, evidence)
     if not outcome.blocks:
         evidence.not_blocking.add(assigned.use.id)
-    from grader.verdict.diagnose import diagnose  # noqa: PLC0415 - it imports all mistakes
-
-    diagnosis = diagnose(outcome, evidence, without, cause)
+    diagnosis, fault = _diagnosis(outcome, evidence, without, cause)
     return _Result(
         status="failed",
+        fault=fault,
         rationale=diagnosis.rationale,
         expected=diagnosis.expected,
         actual=diagnosis.actual,
@@ -194,12 +195,32 @@ def _found(
     )
 
 
+def _diagnosis(
+    failed: Failed,
+    evidence: Evidence,
+    without: Collection[str],
+    cause: RecognisedMistake | None,
+) -> tuple[Diagnosis, str]:
+    """Return the diagnosis of a failed check, and the traceback of a fault of ours in it.
+
+    A check that has failed stays so: without a cause behind it, its own diagnosis is kept.
+    """
+    from grader.verdict.diagnose import Diagnosis, diagnose  # noqa: PLC0415 - it imports all mistakes
+
+    try:
+        return diagnose(failed, evidence, without, cause), ""
+    except GraderError:
+        raise
+    except Exception:
+        return Diagnosis.of(failed), traceback.format_exc(limit=-4)
+
+
 def _blocker(assigned: AssignedCheck, evidence: Evidence) -> str:
     for dependency in assigned.depends:
         result = evidence.results.get(dependency)
         if dependency in evidence.not_blocking:
             continue
-        if result is not None and result.status != "passed":
+        if result is not None and result.status not in ("passed", "error"):
             return result.blocked_by or dependency
     return ""
 

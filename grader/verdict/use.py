@@ -17,6 +17,7 @@ from grader.run.observations import End, Message, Observations, Role
 from grader.run.run import Run
 from grader.verdict.checks.declare import EDGE, Parameters
 from grader.verdict.checks.faults import node_file
+from grader.verdict.checks.own_interface import fault_of_type
 from grader.verdict.evidence import Evidence
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Inconclusive
@@ -65,10 +66,21 @@ class Use(Generic[P_co]):
 
     @property
     def seen(self) -> Observations:
-        """What that run showed."""
+        """What that run showed. Raises Failed if the check needs a type that could not be used."""
         seen = self.run.seen
         assert seen is not None
+        for name in self._types if seen.unusable else ():
+            if name in seen.unusable:
+                raise fault_of_type(self.evidence, name, seen.unusable[name])
         return seen
+
+    @property
+    def _types(self) -> list[str]:
+        """The types that the check needs: its own, its topic's, and that of what it comes after."""
+        own = getattr(self.given, "type", "")
+        topic = self.plan.topics.get(getattr(self.given, "topic", ""), "")
+        before = self.plan.stimulus(self.use.after)
+        return [own, topic, *(one.type for one in (before.typed if before else {}).values())]
 
     @property
     def node(self) -> str:

@@ -30,7 +30,15 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from grader.run.in_probe.goals import Goals
 from grader.run.in_probe.graph import ends_of_others
-from grader.run.in_probe.messages import Values, fill, interface, taken_from, taken_with_info
+from grader.run.in_probe.messages import (
+    LONGEST_REASON,
+    Values,
+    fill,
+    interface,
+    taken_from,
+    taken_with_info,
+    why_unusable,
+)
 from grader.run.in_probe.parameters import read_parameters, set_parameters
 
 SECOND = 1_000_000_000
@@ -88,12 +96,16 @@ class Scenario:
         self.counts: dict[str, int] = {}
 
     def prepare(self, command: dict[str, Any], _: float) -> dict[str, Any]:
-        """Make the ends that the scenario needs."""
+        """Make the ends that the scenario needs, but those of types that cannot be used."""
         named = [*command["watch"], *command["publish"], *command["call"], *command["goal"]]
-        kinds = {name: interface(name) for _, name in named}
+        students = {n for _, n in named if n.partition("/")[0] in command["students"]}
+        unusable = {name: why for name in students if (why := why_unusable(name))}
+        kinds = {name: interface(name) for _, name in named if name not in unusable}
         unknown = [name for name, kind in kinds.items() if kind is None]
         if unknown:
             return {"unknown": unknown}
+        for ends in ("watch", "publish", "call", "goal"):
+            command[ends] = [end for end in command[ends] if end[1] not in unusable]
         for topic, name in command["watch"]:
             self.watched[topic] = [self.subscribe(topic, kinds[name], ReliabilityPolicy.RELIABLE)]
         for topic, name in command["publish"]:
@@ -110,7 +122,7 @@ class Scenario:
         self.periods = command["periods"]
         if command["world"]:
             self.open_world(command["world"])
-        return {"unknown": []}
+        return {"unknown": [], "unusable": unusable}
 
     def open_world(self, source: Sequence[str]) -> None:
         """Make the world of a module, given by its name and text."""
@@ -343,11 +355,14 @@ class Scenario:
 
     def publish(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
         """Publish a message and wait until every subscriber has run its callback."""
-        publisher = self.publishers[command["topic"]]
+        publisher = self.publishers.get(command["topic"])
+        if publisher is None:
+            return self.undone(deadline)
         ours = len(self.watched.get(command["topic"], ()))
         self.await_ready(lambda: publisher.get_subscription_count() > ours, deadline)
-        message = interface(command["type"])()
-        fill(message, command["values"])
+        message, why = made(command, "")
+        if why:
+            return self.undone(deadline, why)
         heard = publisher.get_subscription_count() - ours
         publisher.publish(message)
         publisher.wait_for_all_acked(Duration(seconds=ACK_SECONDS))
@@ -356,14 +371,19 @@ class Scenario:
 
     def call(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
         """Call a service; the reply comes with this answer or a later one."""
-        client = self.clients[command["service"]]
+        client = self.clients.get(command["service"])
+        request, why = made(command, "Request") if client is not None else (None, "")
+        if client is None or request is None:
+            return self.undone(deadline, why)
         heard = self.await_ready(client.service_is_ready, deadline)
         if heard:
-            request = interface(command["type"]).Request()
-            fill(request, command["values"])
             self.calls.append((command["name"], client.call_async(request)))
         barrier = self.react(deadline)
         return {**self.result(barrier), "heard": int(heard)}
+
+    def undone(self, deadline: float, why: str = "") -> dict[str, Any]:
+        """Return the answer for what a type does not allow; `why` is about its fields."""
+        return {**self.result(self.react(deadline)), "heard": 0, "misfit": why[:LONGEST_REASON]}
 
     def place(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
         """Put a turtle into the world: a new one, or one that is there."""
@@ -374,11 +394,12 @@ class Scenario:
 
     def goal(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
         """Send a goal; what becomes of it comes with this answer or later ones."""
-        client = self.actions[command["action"]]
+        client = self.actions.get(command["action"])
+        goal, why = made(command, "Goal") if client is not None else (None, "")
+        if client is None or goal is None:
+            return self.undone(deadline, why)
         heard = self.await_ready(client.server_is_ready, deadline)
         if heard:
-            goal = interface(command["type"]).Goal()
-            fill(goal, command["values"])
             self.goals.send(command["name"], client, goal)
         barrier = self.react(deadline)
         return {**self.result(barrier), "heard": int(heard)}
@@ -407,6 +428,20 @@ class Scenario:
         ends = ends_of_others(self.probe.node, topics)
         self.asked = self.asked or any(end["role"] == "client" for end in ends)
         return {"ends": ends}
+
+
+def made(command: dict[str, Any], part: str) -> tuple[Any, str]:
+    """Return a message with the values of a command, or None and why they do not fit its type.
+
+    The type can be a student's, with other fields than the assignment asks for.
+    """
+    kind = interface(command["type"])
+    message = (getattr(kind, part) if part else kind)()
+    try:
+        fill(message, command["values"])
+    except Exception as error:
+        return None, f"{type(error).__name__}: {error}"
+    return message, ""
 
 
 def commands(probe: Any) -> dict[str, Any]:

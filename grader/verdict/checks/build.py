@@ -30,8 +30,8 @@ from grader.package.source.setup_py import (
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
 from grader.verdict.checks.build_log import is_inside, last_error, setup_error, summary_of
-from grader.verdict.checks.cmake import CMAKE, cmake_error
 from grader.verdict.checks.declare import BUILD, check
+from grader.verdict.checks.own_interface import build_stopped
 from grader.verdict.checks.parsed import (
     data_of,
     has_subpackages,
@@ -275,15 +275,9 @@ def _broken(evidence: Evidence) -> Failed:
             where=Where(file=ignored[0]),
             words={"name": ignored[0]},
         )
-    stop = cmake_error(build.log)
-    if stop is not None and evidence.submission.package(stop.package) is not None:
-        return Failed(
-            "interface.cmake_error",
-            expected=expected,
-            actual=stop.text,
-            where=Where(file=f"{stop.package}/{CMAKE}", line=stop.line),
-            params={"line": stop.line},
-        )
+    stopped = build_stopped(evidence, build.log, expected)
+    if stopped is not None:
+        return stopped
     option = NO_OPTION.search(build.log)
     if option is not None:
         return _unknown_option(evidence, expected, option)

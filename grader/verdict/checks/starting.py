@@ -27,6 +27,7 @@ from grader.verdict.checks.faults import (
     traceback_of,
     words,
 )
+from grader.verdict.checks.own_interface import fault_in_traceback
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Outcome, Passed
 
@@ -116,6 +117,9 @@ def _ended(evidence: Evidence) -> Outcome:
                 distro=evidence.distro.name,
             )
         )
+    interface = fault_in_traceback(evidence, run.transcript) if error else None
+    if interface is not None:
+        return interface
     if error:
         return Failed(
             "run.died_at_start",
