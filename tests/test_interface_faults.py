@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -16,6 +18,7 @@ from grader.report.model import CheckResult, Report
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
 from grader.run.observations import Observations
+from grader.run.probe_link import in_probe
 from grader.run.run import Run
 from grader.run.student_interfaces import texts_of
 from grader.sandbox.limits import Limits
@@ -221,3 +224,34 @@ def test_a_verdict_with_an_unusable_message_is_decided(
     assert [m.id for m in found["message.fields"].mistakes] == [f"interface.{mistake}"]
     assert found["distance.publishes"].status in ("failed", "skipped")
     assert "Traceback" not in report.model_dump_json(include={"checks": {"__all__": {"actual"}}})
+
+
+@pytest.mark.full
+@pytest.mark.prefix
+def test_the_probe_tries_a_type_in_another_process(ros_jazzy: Ros, tmp_path: Path) -> None:
+    """In the sandbox, whose limits cannot be raised: right types can be used, each fault is told."""
+    package = tmp_path / "own" / "msg"
+    package.mkdir(parents=True)
+    (package.parent / "__init__.py").touch()
+    wrong = {"raises": "1 / 0", "exits": "import os; os._exit(7)", "eats": "a = bytearray(1 << 40)"}
+    (package / "__init__.py").write_text(
+        "import sys\nwhich = sys.argv[2].rpartition('/')[2]\n"
+        + "".join(f"if which == {name!r}:\n    {code}\n" for name, code in wrong.items())
+    )
+    right = ("std_msgs/msg/String", "rcl_interfaces/srv/GetParameters")
+    _, text = in_probe("messages")
+    names = [*right, *(f"own/msg/{name}" for name in (*wrong, "lacks"))]
+    code = (
+        f"{text}\nimport os\nos.environ['PYTHONPATH'] += ':' + {str(tmp_path)!r}\n"
+        f"print(json.dumps([why_unusable(name) for name in {names!r}]))\n"
+    )
+    script = f'. "{ros_jazzy.path}/setup.bash"; ulimit -v 2500000; exec python3 -c "$0"'
+    done = subprocess.run(
+        ["bash", "-c", script, code], capture_output=True, text=True, check=True, timeout=300
+    )
+    first, second, raised, exited, eaten, lacking = json.loads(done.stdout)
+    assert first == second == ""
+    assert raised == "ZeroDivisionError: division by zero"
+    assert exited == "status 7"
+    assert eaten == "MemoryError"
+    assert lacking.startswith("AttributeError")

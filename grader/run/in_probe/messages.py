@@ -17,15 +17,18 @@ CHECK_LIMITS = {"RLIMIT_CPU": 10, "RLIMIT_AS": 3 << 30, "RLIMIT_CORE": 0}  # sec
 LONGEST_REASON = 300
 CHECK = """
 import importlib, json, resource, sys
+from rclpy.serialization import serialize_message
 for name, most in json.loads(sys.argv[1]).items():
-    resource.setrlimit(getattr(resource, name), (most, most))
-for name in sys.argv[2:]:
-    package, kind, rest = name.split("/")
-    found = getattr(importlib.import_module(package + "." + kind), rest)
-    from rclpy.serialization import serialize_message
-    parts = [getattr(found, part, None) for part in ("Request", "Response", "Goal", "Result", "Feedback")]
-    for part in [one for one in parts if one is not None and kind != "msg"] or [found]:
-        serialize_message(part())
+    limit = getattr(resource, name)
+    hard = resource.getrlimit(limit)[1]
+    most = most if hard == resource.RLIM_INFINITY else min(most, hard)
+    resource.setrlimit(limit, (most, most))
+print("begins", flush=True)
+package, kind, rest = sys.argv[2].split("/")
+found = getattr(importlib.import_module(package + "." + kind), rest)
+names = {"srv": ("Request", "Response"), "action": ("Goal", "Result", "Feedback")}
+for part in [getattr(found, name) for name in names.get(kind, ())] or [found]:
+    serialize_message(part())
 """
 OF_MESSAGE = re.compile(r"([a-z][a-z0-9_]*)/(\w+)")  # in the type of a list's field
 MOST_VALUES = 400  # numbers and texts of a message
@@ -44,10 +47,13 @@ def interface(name: str) -> Any:
 def why_unusable(name: str) -> str:
     """Return why the class of a type that a student wrote cannot be used; "" if it can.
 
-    Another process tries it first: whatever the class does there, the probe goes on.
+    Another process tries it first: whatever the class does there, the probe goes on. Raises
+    RuntimeError if that process does not begin, and TimeoutExpired: our own side has failed.
     """
     command = [sys.executable, "-c", CHECK, json.dumps(CHECK_LIMITS), name]
     done = subprocess.run(command, capture_output=True, timeout=CHECK_SECONDS, check=False)
+    if not done.stdout.startswith(b"begins"):
+        raise RuntimeError(done.stderr.decode("utf-8", "replace"))
     if done.returncode == 0:
         return ""
     rows = done.stderr.decode("utf-8", "replace").strip().splitlines()
