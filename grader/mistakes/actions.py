@@ -10,6 +10,16 @@ ENDS = msg(
     "The callback of an action decides how the goal ends: it calls succeed(), abort() or canceled() "
     "on the goal handle, and returns the result. Without a call, the goal is aborted."
 )
+SLEEPS = msg(
+    "time.sleep() waits in wall time. All times here are ROS time, which /clock shows: with "
+    "use_sim_time it can pass faster or more slowly than wall time. While the callback sleeps in the "
+    "only thread of the node, no other callback runs."
+)
+SLEEP_FOR = msg(
+    "Wait in ROS time: self.get_clock().sleep_for(Duration(seconds=…)) in place of time.sleep(…), "
+    "with Duration from rclpy.duration, and spin the node with a MultiThreadedExecutor and the "
+    "action's callbacks in a ReentrantCallbackGroup."
+)
 _action = Family("action", links.ACTIONS)
 _graph = Family("graph", links.NODES)
 _files = Family("files", links.PACKAGE)
@@ -111,6 +121,8 @@ KINDS = (
             "A client learns how far the goal is from feedback, which the callback has to publish."
         ),
         msg("Call goal_handle.publish_feedback(…) in the callback of {service}, while it works."),
+        whys={"sleeps": SLEEPS},
+        fixes={"sleeps": SLEEP_FOR},
     ),
     _action(
         "wrong_feedback",
@@ -125,6 +137,8 @@ KINDS = (
         msg("The goal does not end in time"),
         ENDS,
         msg("Let the callback of {service} return the result when the work is done."),
+        whys={"sleeps": SLEEPS},
+        fixes={"sleeps": SLEEP_FOR},
     ),
     _action(
         "wrong_status",
@@ -156,5 +170,7 @@ KINDS = (
             "Pass a cancel_callback to the ActionServer of {service} that returns "
             "CancelResponse.ACCEPT, and check goal_handle.is_cancel_requested while the goal runs."
         ),
+        whys={"sleeps": SLEEPS},
+        fixes={"sleeps": SLEEP_FOR},
     ),
 )

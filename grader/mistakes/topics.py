@@ -696,6 +696,23 @@ KINDS = (
         msg("Let {turtle} drive straight on where there is room, and turn only near the wall."),
     ),
     _world(
+        "bumps",
+        "world",
+        msg("It runs into something"),
+        msg(
+            "What moves goes on with its last command until the next one comes: it has to stop or "
+            "turn early enough before an obstacle."
+        ),
+        msg("Stop or turn {turtle} earlier, or drive more slowly near an obstacle."),
+    ),
+    _world(
+        "too_often",
+        "service",
+        msg("The service is called too often"),
+        msg("Each request that is sent takes effect."),
+        msg("Send the request only when it is due."),
+    ),
+    _world(
         "not_asked",
         "service",
         msg("The service is not called"),
