@@ -40,7 +40,7 @@ class Path(Parameters):
     `turtle` is what moves in the world: the one that it begins with unless it is given.
     """
 
-    turtle: str = ""
+    turtle: str = Field(default="", description="the world's first")
     circle: Circle
 
 
@@ -50,7 +50,7 @@ class Inside(Parameters):
     It moves `at_least` m, and over an area whose longer side is at least `covers` m.
     """
 
-    turtle: str = ""
+    turtle: str = Field(default="", description="the world's first")
     margin: float = Field(default=0.0, ge=0)
     at_least: float = Field(default=1.0, ge=0)
     covers: float = Field(default=0.0, ge=0)
@@ -59,13 +59,13 @@ class Inside(Parameters):
 class Happens(Parameters):
     """How often something happens to the turtle, and the form of fields of the last time.
 
-    The events of each world are [below](#worlds). `bump` must not happen (`at_most: 0`), any other
-    event at least once (`at_least: 1`), unless `at_least` or `at_most` is given. `{event: pen, at_most: 0}`
-    is a turtle whose pen is never changed.
+    The events of each world are [below](#worlds). `bump` must not happen (`at_most: 0`), and any
+    other event must happen at least once (`at_least: 1`), unless the check gives `at_least` or
+    `at_most`: `{event: spawn, turtle: turtle2, at_most: 0}` is that nobody adds this turtle.
     """
 
     event: Literal["pen", "spawn", "kill", "bump"]
-    turtle: str = ""
+    turtle: str = Field(default="", description="the world's first")
     at_least: int | None = Field(default=None, ge=0)
     at_most: int | None = Field(default=None, ge=0)
     each: dict[str, Form] = Field(default_factory=dict)
@@ -73,9 +73,12 @@ class Happens(Parameters):
     @property
     def bounds(self) -> tuple[int, float]:
         """How often it happens at least and at most."""
-        never = self.event == BUMP and not self.at_least
-        most = self.at_most if self.at_most is not None else 0 if never else math.inf
-        return (self.at_least if self.at_least is not None else min(1, int(bool(most)))), most
+        least, most = self.at_least, self.at_most
+        if least is None:
+            least = int(self.event != BUMP and most != 0)
+        if most is None:
+            return least, 0 if self.event == BUMP and not least else math.inf
+        return least, most
 
     @model_validator(mode="after")
     def _can_be(self) -> Happens:
