@@ -113,6 +113,7 @@ def test_a_publisher_a_timer_and_goals_that_change_in_the_run(tmp_path: Path) ->
     assert "wall time" in wait.rationale
     assert "ROS time" in wait.fix
     assert wait.where is not None
+    assert wait.where.line is not None
     assert NODE.splitlines()[wait.where.line - 1].strip() == "time.sleep(0.02)"
 
     # the 18th call of a timer of 0.25 s

@@ -8,10 +8,12 @@ import pytest
 
 from grader.base.errors import AssignmentError
 from grader.cli.update_checks_page import page
+from grader.course.assignment import CheckUse
 from grader.course.load import load_assignment
 from grader.course.worlds import WORLDS
 from grader.run.in_probe import robot, turtlesim
 from grader.verdict.checks.all import CHECKS
+from grader.verdict.checks.world import Happens
 from tests.test_robot_world import ASSIGNMENT
 
 
@@ -45,7 +47,7 @@ def test_a_turtle_bumps_once_each_time_that_it_reaches_the_wall() -> None:
     assert bumps.index(True) == 173  # of 0.032 m each, from the middle: 5.544 m
 
 
-def _load(folder: Path, old: str, new: str) -> dict[str, object]:
+def _load(folder: Path, old: str, new: str) -> dict[str, CheckUse]:
     assert ASSIGNMENT.count(old) == 1
     file = folder / "assignment.yaml"
     file.write_text(ASSIGNMENT.replace(old, new), encoding="utf-8")
@@ -83,7 +85,5 @@ def test_a_bump_must_not_happen_unless_the_check_says_so(
     given: str, bounds: tuple[float, float], tmp_path: Path
 ) -> None:
     use = _load(tmp_path, "event: bump", given)["never"]
-    parameters = CHECKS["world.event"].parameters
-    assert parameters is not None
-    found = parameters.model_validate(use.with_)
+    found = Happens.model_validate(use.with_)
     assert (found.turtle, found.bounds) == ("robot", bounds)

@@ -34,7 +34,7 @@ MILLISECOND = 1_000_000
 PREPARE_SECONDS = 5.0  # wall time to make the probe's ends
 STEP_SECONDS = 2.0  # wall time for one step
 SETTLE_SECONDS = 3.0  # wall time within which a spinning node gives its first answer
-UNKNOWN_STEPS = 10  # of the clock's period, for timers of which the source does not say it
+UNKNOWN_STEPS = 10.0  # of the clock's period, for timers of which the source does not say it
 MOST_STEPS = 50  # of the clock's period
 FINE_TICKS = 8  # before which the clock stops 1 ms earlier too
 UNANSWERED = 5  # unanswered steps in a row after which the nodes count as stuck
@@ -137,7 +137,7 @@ def _grid(plan: RunPlan, timers: TimerPeriods) -> int:
     """
     period = plan.clock.period
     unknown = bool(plan.periods) and not timers.are_known
-    steps = UNKNOWN_STEPS if unknown else 1
+    steps = UNKNOWN_STEPS if unknown else 1.0
     if timers.fastest is not None:
         steps = max(steps, min(MOST_STEPS, period / timers.fastest))
     return round(period / steps * SECOND) if steps > 1 else 0
