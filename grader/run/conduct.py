@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -19,8 +18,10 @@ from grader.run.run import (
     COMPLETE_SECONDS,
     DYING_SECONDS,
     END_SECONDS,
+    FOLLOW_SECONDS,
     Program,
     Run,
+    accepts,
     press_ctrl_c,
     ros2_run,
     start,
@@ -66,7 +67,7 @@ def conduct(
 ) -> Run:
     """Start the nodes, drive clock and world through the plan, press Ctrl+C, return the result.
 
-    The run ends at `until` (by time.monotonic()) at the latest. Raises ProbeError if our own side
+    The run ends at `until` (by the run's clock) at the latest. Raises ProbeError if our own side
     failed, UsageError if the plan names a type or a field that ROS does not have.
     """
     limits = sandbox.limits
@@ -78,7 +79,8 @@ def conduct(
     probe.ready()
     probe.extend([in_probe(name) for name in MODULES])
     _prepare(probe, plan)
-    begin = time.monotonic()
+    run_clock = sandbox.run_clock
+    begin = run_clock.now()
     terminals: list[Terminal] = []
     try:
         terminals += [start(sandbox, command, probe.pipe) for command in commands]
@@ -99,7 +101,7 @@ def conduct(
         for program, terminal in zip(programs, terminals):
             program.transcript = terminal.transcript
         run.flooded = run.flooded or any(terminal.flooded for terminal in terminals)
-        run.seconds = time.monotonic() - begin
+        run.seconds = run_clock.now() - begin
     return run
 
 
@@ -139,7 +141,8 @@ class _Scene:
         self.assignment, self.plan, self.probe = assignment, plan, probe
         self.observer, self.terminals, self.run, self.seen = observer, terminals, run, run.seen
         self._on_event = on_event
-        self.deadline = 0.0  # by time.monotonic()
+        self._run_clock = observer.run_clock
+        self.deadline = 0.0  # by the run's clock
         self.at = 0  # ns
         self._unanswered = 0
         self._dying_left = DYING_SECONDS
@@ -151,7 +154,7 @@ class _Scene:
         """Whether the run cannot go on."""
         ended = all(terminal.ended or terminal.flooded for terminal in self.terminals)
         stuck = self._unanswered >= UNANSWERED
-        return ended or stuck or self.observer.flooded or time.monotonic() > self.deadline
+        return ended or stuck or self.observer.flooded or self._run_clock.now() > self.deadline
 
     def play(self, begin: float, most: float) -> None:
         """Wait for the nodes, then go through all instants of the plan."""
@@ -190,7 +193,7 @@ class _Scene:
             self.run.watch.before_start += events
             self.run.watch.events += events
             self.observer.linked(answer.nodes)
-            now = time.monotonic()
+            now = self._run_clock.now()
             if answer.nodes:
                 first_seen = first_seen or now
                 self.run.nodes = answer.nodes
@@ -209,7 +212,7 @@ class _Scene:
 
     def _settle(self) -> bool:
         """Start the clock at 1 ms; return whether a node answers, that is, whether it spins."""
-        until = min(time.monotonic() + SETTLE_SECONDS, self.deadline)
+        until = min(self._run_clock.now() + SETTLE_SECONDS, self.deadline)
         settled = False
         while not self.over:
             answer = self.probe.ask("clock", seconds=0.25, at=MILLISECOND, until_log=0, patient=1)
@@ -217,11 +220,11 @@ class _Scene:
             settled = settled or bool(answer.barrier)
             if (settled and not answer.silent) or answer.barrier is None:
                 break
-            if time.monotonic() > until:
+            if self._run_clock.now() > until:
                 break
         for node in self.run.nodes:
             if not node.clock and node.answers:
-                self.probe.ask("follow", name=node.name, seconds=1.0)
+                accepts(self.observer, "follow", node.name, FOLLOW_SECONDS)
         return settled
 
     def _tick(self, at: int) -> None:
@@ -238,8 +241,12 @@ class _Scene:
     def _show(self, at: int) -> None:
         self.at = at
         self.observer.now = at / SECOND
+        limit = self._run_clock.limit(STEP_SECONDS)
         said = self.probe.said("tick", seconds=STEP_SECONDS, at=at)
         self._record(said)
+        while said["barrier"] is False and not limit.over and not self.over:
+            said = self.probe.said("tick", seconds=STEP_SECONDS, at=at)
+            self._record(said)
         silent = said["barrier"] is False
         self._unanswered = self._unanswered + 1 if silent else 0
         if said["barrier"] is None:
@@ -252,15 +259,15 @@ class _Scene:
         wait for, all instants of the plan would be over by then.
         """
         do = "look"
-        began, known = time.monotonic(), {node.name for node in self.run.nodes}
-        while not self.over and time.monotonic() - began < self._dying_left:
+        began, known = self._run_clock.now(), {node.name for node in self.run.nodes}
+        while not self.over and self._run_clock.now() - began < self._dying_left:
             answer = self.probe.ask(do, seconds=0.02)
             do = "wait"
             self._take(answer)
             there = sum(node.name in known for node in answer.nodes)
             if there >= sum(not terminal.ended for terminal in self.terminals):
                 break
-        self._dying_left -= time.monotonic() - began
+        self._dying_left -= self._run_clock.now() - began
 
     def _do_all(self, until: float) -> None:
         while self._waiting and self._waiting[0].at <= until + 1e-9 and not self.over:
@@ -289,11 +296,17 @@ class _Scene:
                 done.accepted[str(parameter)] = "" if accepted else str(reason) or "refused"
 
     def _act(self, done: Done, command: str, **more: object) -> Mapping[str, Any]:
-        """Let the probe do something, count who received it, and keep what came of it."""
-        said = self.probe.said(command, seconds=STEP_SECONDS, **more)
-        done.heard += int(said["heard"])
-        self._record(said)
-        return said
+        """Let the probe do something, count who received it, and keep what came of it.
+
+        What nobody was there to receive is done again until the run's clock says that nobody comes.
+        """
+        limit = self._run_clock.limit(STEP_SECONDS)
+        while True:
+            said = self.probe.said(command, seconds=STEP_SECONDS, **more)
+            self._record(said)
+            if said["heard"] or limit.over or self.over:
+                done.heard += int(said["heard"])
+                return said
 
     def _record(self, said: Mapping[str, Any]) -> None:
         """Keep what an answer holds, at the present instant."""
@@ -354,7 +367,10 @@ class _Scene:
         if self.over:
             return
         for name in self._names.values():
+            limit = self._run_clock.limit(LOOK_SECONDS)
             said = self.probe.said("parameters", seconds=LOOK_SECONDS, name=name)
+            while said.get("parameters") is None and not limit.over and not self.over:
+                said = self.probe.said("parameters", seconds=LOOK_SECONDS, name=name)
             if said.get("parameters") is not None:
                 found = [_parameter(one) for one in said["parameters"]]
                 self.seen.parameters[name] = found
@@ -376,9 +392,10 @@ def _end(run: Run, scene: _Scene, seconds: float) -> None:
 
     def go_on(passed: float) -> None:
         scene.at += round(passed * SECOND)
-        scene.probe.ask("clock", at=scene.at, until_log=0, patient=0)
+        scene.observer.take(scene.probe.ask("clock", at=scene.at, until_log=0, patient=0))
 
-    pressed = time.monotonic()
+    now = scene.observer.run_clock.now
+    pressed = now()
     others = list(zip(run.others, scene.terminals[1:]))
     for other, terminal in others:
         other.by_itself = terminal.ended
@@ -388,6 +405,6 @@ def _end(run: Run, scene: _Scene, seconds: float) -> None:
     for other, terminal in others:
         _, ended = terminal.finish(seconds)
         if ended:
-            other.stop_seconds = time.monotonic() - pressed
+            other.stop_seconds = now() - pressed
             other.status, other.signal = terminal.status
-    run.watch.events += scene.observer.take()
+    run.watch.events += scene.observer.take_last()

@@ -27,11 +27,13 @@ from grader.run.probe_link import ProbeError, ProbeLink
 from grader.run.run import Run, counts_plainly, observe
 from grader.run.student_interfaces import interfaces_of
 from grader.run.unforeseen import Unforeseen, unforeseen
-from grader.run.workspace import Build, build, restore, save
-from grader.sandbox.base import Sandbox
+from grader.run.workspace import BUILD, Build, build, restore, save
+from grader.sandbox.base import LOAD, Sandbox
 from grader.sandbox.proof import prove_again
+from grader.sandbox.scheduling import StarvedError
 
 WORKS_SECONDS = 10.0
+BUSY = "the machine was too busy: mark it again when less runs beside it"
 LEAST_HELD = 3  # steps
 REFUSED = {
     "memory": re.compile(r"MemoryError|bad_alloc|Cannot allocate memory"),
@@ -55,7 +57,7 @@ class Unobserved(Exception):  # noqa: N818 - not an error of the node
 class Session:
     """Builds and runs one package in an open sandbox; `timing` has the seconds of each stage.
 
-    A session may take the limits' `verdict_seconds`, or until `deadline` (of `time.monotonic`); a
+    A session may take the limits' `verdict_seconds`, or until `deadline` (of the run's clock); a
     run that does not fit into what is left of them is not started.
     """
 
@@ -64,7 +66,8 @@ class Session:
     ) -> None:
         self.sandbox = sandbox
         self.assignment = assignment
-        self.deadline = deadline or time.monotonic() + sandbox.limits.verdict_seconds
+        self.run_clock = sandbox.run_clock
+        self.deadline = deadline or self.run_clock.now() + sandbox.limits.verdict_seconds
         self.timing = {"build": 0.0, "run": 0.0}
         self._probe: ProbeLink | None = None
         self._interfaces = b""  # those of the submission, for the probe
@@ -96,7 +99,10 @@ class Session:
         """
         begin = time.monotonic()
         if submission.packages:  # before the student's code runs
-            self._interfaces = interfaces_of(self.sandbox, submission)
+            try:
+                self._interfaces = interfaces_of(self.sandbox, submission)
+            except StarvedError:
+                return Build(BUILD, None, "", time.monotonic() - begin, stopped_by=LOAD)
         self._probe = self._probe or self._new_probe()
         self._remarks = remarks_on(submission.files)
         self._reads_real_time = reads_real_time(submission.files)
@@ -112,6 +118,8 @@ class Session:
         )
         try:
             made = build(self.sandbox, submission, package=self.assignment.package)
+            if made.stopped_by == LOAD:
+                made = build(self.sandbox, submission, package=self.assignment.package)
             if made.doubts_colcon:
                 prove_again(self.sandbox)
             if made.status == 0 and (self._is_confirmed() or len(self.assignment.runs) > 1):
@@ -220,9 +228,11 @@ class Session:
         while tries < RUNS and self._has_time():
             tries += 1
             self._probe = self._probe or self._new_probe()
-            until = min(time.monotonic() + self.sandbox.limits.max_run_seconds, self.deadline)
+            self.run_clock.starved = False
             try:
-                run = observed(self._probe, on_event, until=until)
+                run = observed(self._probe, on_event, until=self._until)
+                if self.run_clock.starved:
+                    raise ProbeError(BUSY)
             except ProbeError as error:
                 failure = error
                 continue
@@ -237,6 +247,8 @@ class Session:
             return run
         if failure is None:
             raise Unobserved("the verdict's time limit left no time for a run")
+        if str(failure) == BUSY:
+            raise Unobserved(BUSY)
         prove_again(self.sandbox)
         raise Unobserved(f"the probe failed in all {tries} runs, the last time: {failure}")
 
@@ -305,9 +317,11 @@ class Session:
         tries = 0
         while tries < CONFIRMING_RUNS and self._has_time():
             clean = not self._built or restore(self.sandbox, self._built)
-            until = min(time.monotonic() + self.sandbox.limits.max_run_seconds, self.deadline)
-            if clean and counts_plainly(self.sandbox, named, patience=patience, until=until):
+            self.run_clock.starved = False
+            if clean and counts_plainly(self.sandbox, named, patience=patience, until=self._until):
                 return True
+            if self.run_clock.starved:
+                return None
             tries += 1
         return False if tries == CONFIRMING_RUNS else None
 
@@ -317,7 +331,13 @@ class Session:
 
     def _has_time(self) -> bool:
         """Whether the verdict's time limit leaves time for a whole run."""
-        return self.deadline - time.monotonic() >= self.sandbox.limits.max_run_seconds
+        return self.deadline - self.run_clock.now() >= self.sandbox.limits.max_run_seconds
+
+    @property
+    def _until(self) -> float:
+        """When a run that begins now ends at the latest, by the run's clock."""
+        longest = self.run_clock.now() + self.sandbox.limits.max_run_seconds
+        return min(longest, self.deadline)
 
     def _doubtful(self, run: Run) -> bool:
         """Whether load of the machine may have made this run look worse than the node is."""

@@ -13,10 +13,11 @@ from grader.base.i18n.message import Message, say
 from grader.base.i18n.translator import Translator
 from grader.course.assignment import Assignment, CheckUse
 from grader.report.model import CheckResult, CheckStatus, Mistake, Visibility, Where
+from grader.verdict.causes import UNDECIDED, cause_of, says_why
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.checks.declare import Check
 from grader.verdict.evidence import Evidence
-from grader.verdict.outcome import Blocked, Inconclusive, Passed
+from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 from grader.verdict.own_checks import checks_of
 
 if TYPE_CHECKING:
@@ -168,6 +169,9 @@ def _found(
 ) -> _Result:
     blocker = _blocker(assigned, evidence)
     outcome = Blocked(by=blocker) if blocker else assigned.check.evaluate(evidence, assigned.use)
+    if isinstance(outcome, Blocked):
+        reason = _unasked(outcome.by, evidence)
+        outcome = outcome if reason is None or isinstance(reason, Passed) else reason
     if isinstance(outcome, Passed):
         return _Result(
             status="passed", score=assigned.points, actual=outcome.actual, advice=outcome.advice
@@ -205,14 +209,30 @@ def _blocker(assigned: AssignedCheck, evidence: Evidence) -> str:
 
 
 def _skipped(assigned: AssignedCheck, by: str, evidence: Evidence) -> _Result:
-    cause = evidence.results.get(by)
-    root = (cause.blocked_by if cause is not None else "") or by
+    """Return the result of a check that another one prevents, given by its id or its kind."""
+    uses = {use.id: use for use in evidence.assignment.checks}
+    ids = [by] if by in uses else [use.id for use in uses.values() if use.kind == by]
+    ends = [cause_of(check_id, evidence.results) for check_id in ids]
+    cause = next((end for end in ends if says_why(end)), None)
+    root = cause.id if cause is not None else next(iter(ids), by)
     titles = {one.use.id: one.title for one in assigned_checks(evidence.assignment)}
     title = titles.get(root) or (CHECKS[root].title if root in CHECKS else root)
     if evidence.is_hidden(root) and assigned.visibility == "visible":
         title = say("a hidden check")
-    if cause is not None and cause.status in ("inconclusive", "error"):
+    if cause is not None and cause.status in UNDECIDED:
         unknown = say("not known, because another check could not be decided: {title}", title=title)
         return _Result(status="inconclusive", blocked_by=root, actual=unknown)
     actual = say("skipped because of: {title}", title=title)
     return _Result(status="skipped", blocked_by=root, actual=actual)
+
+
+def _unasked(by: str, evidence: Evidence) -> Passed | Failed | Blocked | Inconclusive | None:
+    """Return the outcome of a check that the assignment does not have; None if it has it.
+
+    What it finds is the reason for which a check that names it fails.
+    """
+    assigned = any(by in (use.id, use.kind) for use in evidence.assignment.checks)
+    asked = CHECKS.get(by)
+    if assigned or asked is None or asked.parameters is not None:
+        return None
+    return asked.evaluate(evidence, CheckUse(id=by, points=0))

@@ -16,10 +16,12 @@ from grader.run.conduct import full_name
 from grader.run.observations import End, Message, Observations, Role
 from grader.run.run import Run
 from grader.verdict.checks.declare import EDGE, Parameters
-from grader.verdict.checks.faults import node_file
+from grader.verdict.checks.faults import file_of_node, node_file
+from grader.verdict.checks.spinning import is_spun, never_spun
+from grader.verdict.checks.starting import not_started
 from grader.verdict.evidence import Evidence
 from grader.verdict.node_files import source_of_node
-from grader.verdict.outcome import Blocked, Inconclusive
+from grader.verdict.outcome import Blocked, Failed, Inconclusive
 
 P_co = TypeVar("P_co", bound=Parameters, covariant=True)
 T = TypeVar("T")
@@ -55,13 +57,34 @@ class Use(Generic[P_co]):
 
     @property
     def run(self) -> Run:
-        """A scenario's run that is judged. Raises Blocked if its nodes did not start."""
+        """A scenario's run that is judged.
+
+        Raises Blocked if its nodes did not start or do not spin and a check has said so; Failed if
+        none has, as where that check judged another run.
+        """
         run = self.observed
         if not run.started:
-            raise Blocked(by="run.starts")
-        if not run.watch.settled and not run.ended_by_itself:
-            raise Blocked(by="run.spins")
+            self._blocked_by_kind("run.starts")
+            raise self._first(not_started(self.evidence, self.file, run))
+        if not run.ended_by_itself and not is_spun(run):
+            self._blocked_by_kind("run.spins")
+            raise self._first(never_spun(self.evidence, self.file, self._name))
         return run
+
+    def _blocked_by_kind(self, kind: str) -> None:
+        """Raise Blocked if a check of this kind did not pass."""
+        for other in self.evidence.assignment.checks:
+            result = self.evidence.results.get(other.id)
+            if other.kind == kind and result is not None and result.status != "passed":
+                raise Blocked(by=other.id)
+
+    def _first(self, failure: Failed) -> Failed | Blocked:
+        """Return a failure of the whole run; Blocked by the check that has already told it."""
+        for other in self.evidence.assignment.checks:
+            same = self.evidence.assignment.plan(other.run).name == self.plan.name
+            if same and self.evidence.has_mistake(other.id, failure.mistake.id):
+                return Blocked(by=other.id)
+        return failure
 
     @property
     def seen(self) -> Observations:
@@ -73,13 +96,24 @@ class Use(Generic[P_co]):
     @property
     def node(self) -> str:
         """The full name of the node that is judged: that of `of`, else the run's first."""
-        assignment, plan = self.evidence.assignment, self.plan
-        begin = next((one for one in plan.start if one.node == self.use.of), plan.start[0])
-        wanted = full_name(assignment, begin)
+        plan, wanted = self.plan, self._name
         names = [node.name for node in self.run.nodes]
         if wanted not in names and len(names) == 1 and len(plan.start) == 1:
             return names[0]  # its name is another check's matter
         return wanted
+
+    @property
+    def _name(self) -> str:
+        """The full name that the judged node must have."""
+        plan = self.plan
+        begin = next((one for one in plan.start if one.node == self.use.of), plan.start[0])
+        return full_name(self.evidence.assignment, begin)
+
+    @property
+    def file(self) -> Where:
+        """The file of the node that is judged."""
+        node = self._judged
+        return node_file(self.evidence) if node is None else file_of_node(self.evidence, node)
 
     @property
     def _judged(self) -> Node | None:

@@ -19,6 +19,7 @@ from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 
 if TYPE_CHECKING:
     from grader.package.source.timer import Timer
+    from grader.report.model import Where
     from grader.run.run import Run
     from grader.verdict.evidence import Evidence
 
@@ -30,7 +31,7 @@ def spins(evidence: Evidence) -> Passed:
     # a flood ends the run: whether the node answered before that would be chance
     if run.confirmed is False or run.flooded:
         raise Blocked(by=going_on(evidence))
-    if not _answers(run) and not _follows(run):
+    if not is_spun(run):
         raise _never(evidence)
     _others_spin(evidence)
     # of a single line, the instant is chance; log.counts says that no more came
@@ -94,13 +95,23 @@ def _others_spin(evidence: Evidence) -> None:
         name = full_name(assignment, begin)
         node = by_name.get(name)
         if node is not None and node.services and not node.answers:
-            raise Failed(
-                "run.never_spins",
-                expected=say("a node that spins: it answers, and ROS calls its callbacks"),
-                actual=say("{node} does not answer: nothing calls its callbacks", node=name),
-                where=file_of_node(evidence, assignment.nodes[begin.node]),
-                words=words(evidence),
-            )
+            raise never_spun(evidence, file_of_node(evidence, assignment.nodes[begin.node]), name)
+
+
+def is_spun(run: Run) -> bool:
+    """Whether something of a run shows that its node spins: what does not is judged nowhere else."""
+    return _answers(run) or _follows(run)
+
+
+def never_spun(evidence: Evidence, where: Where, name: str) -> Failed:
+    """Return the failure of a node of which nothing answers, given its file and its name."""
+    return Failed(
+        "run.never_spins",
+        expected=say("a node that spins: it answers, and ROS calls its callbacks"),
+        actual=say("{node} does not answer: nothing calls its callbacks", node=name),
+        where=where,
+        words=words(evidence),
+    )
 
 
 def _answers(run: Run) -> bool:

@@ -31,6 +31,8 @@ from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Outcome, Passed
 
 if TYPE_CHECKING:
+    from grader.report.model import Where
+    from grader.run.run import Run
     from grader.verdict.evidence import Evidence
 
 OWN_ERROR = re.compile(r"^(?:Name|UnboundLocal|Attribute|Type)Error\b", re.MULTILINE)
@@ -182,12 +184,31 @@ def _others_start(evidence: Evidence) -> None:
         )
 
 
-def _no_node(evidence: Evidence, actual: str) -> Failed:
+def not_started(evidence: Evidence, where: Where, run: Run) -> Failed:
+    """Return the failure of a run of a scenario whose first node did not start, given its file."""
+    if not run.ended_by_itself:
+        seconds = f"{run.seconds - (run.stop_seconds or 0):.0f}"
+        said = say("the program runs, but no node was seen within {seconds} s", seconds=seconds)
+        return _no_node(evidence, said, where)
+    error, line = traceback_of(evidence, run)
+    return Failed(
+        "run.died_at_start" if error else "run.exits_at_once",
+        expected=say("the node starts and runs until Ctrl+C"),
+        actual=say("it stopped on startup with {error}", error=error)
+        if error
+        else say("it ended by itself, with status {status}", status=str(run.status)),
+        where=line or where,
+        params={"error": error.partition(":")[0], "text": error} if error else {},
+        words=words(evidence),
+    )
+
+
+def _no_node(evidence: Evidence, actual: str, where: Where | None = None) -> Failed:
     return Failed(
         "run.no_node",
         expected=say("a node {name} on the ROS graph", name=evidence.assignment.node_name),
         actual=actual,
-        where=node_file(evidence),
+        where=where or node_file(evidence),
         words=words(evidence),
     )
 
