@@ -52,7 +52,7 @@ def no_lost_point() -> Iterator[None]:
 
     `compose` leaves such points open; here they are a bug of the check.
     """
-    from grader.verdict import causes, compose  # noqa: PLC0415 - not every process needs them
+    from grader.verdict import causes, compose
 
     made = compose.with_causes
 

@@ -392,7 +392,7 @@ class VirtualClock:
         while answer.barrier is False and not patient and not events and not limit.over:
             if observer.over:
                 break
-            answer = observer.probe.ask("clock", seconds=seconds, **asked)
+            answer = observer.probe.ask("clock", seconds=limit.rest, **asked)
             events += observer.take(answer) + observer.catch_up(answer.logs)
         quiet = self._run_clock.limit(QUIET_SECONDS)
         while self._unasked and not quiet.over:

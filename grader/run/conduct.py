@@ -245,7 +245,7 @@ class _Scene:
         said = self.probe.said("tick", seconds=STEP_SECONDS, at=at)
         self._record(said)
         while said["barrier"] is False and not limit.over and not self.over:
-            said = self.probe.said("tick", seconds=STEP_SECONDS, at=at)
+            said = self.probe.said("tick", seconds=limit.rest, at=at)
             self._record(said)
         silent = said["barrier"] is False
         self._unanswered = self._unanswered + 1 if silent else 0
@@ -302,7 +302,7 @@ class _Scene:
         """
         limit = self._run_clock.limit(STEP_SECONDS)
         while True:
-            said = self.probe.said(command, seconds=STEP_SECONDS, **more)
+            said = self.probe.said(command, seconds=limit.rest, **more)
             self._record(said)
             if said["heard"] or limit.over or self.over:
                 done.heard += int(said["heard"])
@@ -370,7 +370,7 @@ class _Scene:
             limit = self._run_clock.limit(LOOK_SECONDS)
             said = self.probe.said("parameters", seconds=LOOK_SECONDS, name=name)
             while said.get("parameters") is None and not limit.over and not self.over:
-                said = self.probe.said("parameters", seconds=LOOK_SECONDS, name=name)
+                said = self.probe.said("parameters", seconds=limit.rest, name=name)
             if said.get("parameters") is not None:
                 found = [_parameter(one) for one in said["parameters"]]
                 self.seen.parameters[name] = found

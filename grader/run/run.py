@@ -370,7 +370,7 @@ def accepts(observer: Observer, do: str, name: str, seconds: float) -> bool:
     """Ask a node something until it accepts, or the seconds of the run's clock are over."""
     limit = observer.run_clock.limit(seconds)
     while True:
-        answer = observer.probe.ask(do, name=name, seconds=seconds)
+        answer = observer.probe.ask(do, name=name, seconds=limit.rest)
         observer.take(answer)
         if answer.barrier or limit.over or observer.over:
             return bool(answer.barrier)

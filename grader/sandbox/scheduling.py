@@ -30,6 +30,7 @@ STRETCH = 20.0
 SAMPLE_SECONDS = 0.02  # of wall time between two looks at the processes
 LOOKS_COST = 20  # times its own duration until the next look, so that it takes 5 % of a core
 SLICE_SECONDS = 0.25  # of wall time for which one may wait without asking the clock
+MOST_SPARE = 0.5  # seconds that others had a core, and for which one may wait later
 SHORT_SECONDS = 0.3  # of a limit for which the clock is read anew each time
 NO_EVIDENCE = 0.5  # of a limit: what may pass although processes wait, before it is no evidence
 TICKS = os.sysconf("SC_CLK_TCK")
@@ -84,6 +85,8 @@ class RunClock:
         self._latest = self._look()
         self._now = self._latest.at
         self._next = self._latest.at + SAMPLE_SECONDS
+        self._by_others = 0.0  # seconds that others had a core, and nobody has waited for
+        self._owed = self._longest_before = 0.0
         self.forced = 0.0
         """Seconds by which it went on although processes waited."""
         self.starved = False
@@ -94,13 +97,34 @@ class RunClock:
         if at_once or time.monotonic() >= self._next:
             before, self._latest = self._latest, self._look()
             passed = self._latest.at - before.at
-            own = max(0.0, passed - _starved(before, self._latest))
+            own = passed - self._starved(before, self._latest) - self._owed
+            self._owed = min(max(0.0, -own), self._longest_before)
             least = passed / STRETCH
             self.forced += max(0.0, least - own)
             self._now += max(own, least)
             cost = time.monotonic() - self._latest.at
             self._next = time.monotonic() + max(SAMPLE_SECONDS, LOOKS_COST * cost)
         return self._now
+
+    def _starved(self, before: _Look, after: _Look) -> float:
+        """Return the seconds since a look in which a process waited for a core of others, at most.
+
+        The kernel counts a wait when it is over, so that it may have begun before that look: that
+        part is owed. Others' time on a core counts for a while.
+        """
+        passed = after.at - before.at
+        waited = ran = longest = 0
+        for key, (on_core, waiting) in after.threads.items():
+            ran_before, waited_before = before.threads.get(key, (0, 0))
+            ran += on_core - ran_before
+            waited += waiting - waited_before
+            longest = max(longest, waiting - waited_before)
+        self._longest_before = max(0.0, longest / SECOND - passed)
+        others = max(0.0, after.busy - before.busy - ran / SECOND)
+        self._by_others = min(self._by_others, MOST_SPARE) + others + 2 / TICKS
+        starved = min(waited / SECOND, self._by_others)
+        self._by_others -= starved
+        return starved + after.stolen - before.stolen
 
     def limit(self, seconds: float) -> Limit:
         """Return a limit that begins now."""
@@ -132,6 +156,11 @@ class Limit:
         return min(self.left, SLICE_SECONDS)
 
     @property
+    def rest(self) -> float:
+        """The seconds for which something is tried again: what is left, at least for a look."""
+        return max(self.left, SLICE_SECONDS)
+
+    @property
     def over(self) -> bool:
         """Whether the time is over; notes in the clock if it only seems so."""
         if time.monotonic() < self._begin + self._seconds:  # (it is never faster)
@@ -152,18 +181,6 @@ class Limit:
 
 class StarvedError(SurroundingsError):
     """The machine was too busy: what a limit ended had hardly had a core."""
-
-
-def _starved(before: _Look, after: _Look) -> float:
-    """Return the seconds between two looks in which a process waited for a core of others, at most."""
-    waited = ran = 0
-    for key, (on_core, waiting) in after.threads.items():
-        ran_before, waited_before = before.threads.get(key, (0, 0))
-        ran += on_core - ran_before
-        waited += waiting - waited_before
-    stolen = after.stolen - before.stolen
-    by_others = max(0.0, after.busy - before.busy - ran / SECOND)
-    return min(waited / SECOND, by_others + 2 / TICKS) + stolen
 
 
 def _threads(pids: Collection[int]) -> dict[tuple[int, str], tuple[int, int]]:

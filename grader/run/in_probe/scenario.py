@@ -256,7 +256,7 @@ class Scenario:
             tries += 1
             barrier = self.trips_later(found, deadline)
         for topic in [topic for topic, count in found.items() if count]:
-            if topic in self.latest:
+            if self.latest.get(topic, at) < at:  # (an instant may be shown again)
                 self.gaps[topic] = at - self.latest[topic]
             self.latest[topic] = at
         if self.world is not None:
