@@ -58,6 +58,8 @@ class CheckResult(Part):
     advice: list[str] = Field(default_factory=list)
     mistakes: list[Mistake] = Field(default_factory=list)
     where: Where | None = None
+    node: str = Field(default="", description="the assignment's node that it is about, if any")
+    run: str = Field(default="", description="the name of the run that it is about, if any")
     depends: list[str] = Field(default_factory=list)
     consequence_of: str = Field(
         default="", description="an earlier check that failed because of the same mistake"

@@ -14,7 +14,6 @@ from grader.package.source.remarks import remarks_on
 from grader.package.submission import Submission
 from grader.report import model
 from grader.run.run import Program, Run
-from grader.verdict.checks.faults import ended_program
 from grader.verdict.checks.world import Path as WantedPath
 from grader.verdict.checks.world import circle_from
 from grader.verdict.evidence import Evidence
@@ -117,8 +116,11 @@ def _package_name(submission: Submission) -> str | None:
 
 def _programs(run: Run) -> list[Run | Program]:
     """Return the programs of a run, those first that ended by themselves: what they say matters."""
-    ended = ended_program(run)
-    return sorted((run, *run.others), key=lambda program: program is not ended)
+    return sorted((run, *run.others), key=lambda program: not _ended_by_itself(program))
+
+
+def _ended_by_itself(program: Run | Program) -> bool:
+    return program.ended_by_itself if isinstance(program, Run) else program.by_itself
 
 
 def _observed(run: Run | None, period: float) -> model.Observed:

@@ -16,8 +16,10 @@ from grader.report.model import CheckResult, CheckStatus, Mistake, Visibility, W
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.checks.declare import Check
 from grader.verdict.evidence import Evidence
-from grader.verdict.outcome import Blocked, Inconclusive, Passed
+from grader.verdict.of_node import NodeEvidence, because_of_another, views
+from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 from grader.verdict.own_checks import checks_of
+from grader.verdict.together import together
 
 if TYPE_CHECKING:
     from grader.mistakes.recognised import RecognisedMistake
@@ -127,6 +129,21 @@ def _evaluate(
     without: Collection[str] = (),
     cause: RecognisedMistake | None = None,
 ) -> CheckResult:
+    """Return the result of a check, which is evaluated for each node that it is about."""
+    about = views(evidence, assigned.check, assigned.use)
+    parts = [_part(assigned, one, translate, without, cause) for one in about or [evidence]]
+    if about:
+        evidence.parts[assigned.use.id] = parts
+    return parts[0] if len(parts) == 1 else together(parts, translate)
+
+
+def _part(
+    assigned: AssignedCheck,
+    evidence: Evidence,
+    translate: Translator,
+    without: Collection[str],
+    cause: RecognisedMistake | None,
+) -> CheckResult:
     begin = time.monotonic()
     try:
         found = _found(assigned, evidence, without, cause)
@@ -138,7 +155,7 @@ def _evaluate(
             actual=say("this check of the grader has a bug; the report has the details"),
             fault=traceback.format_exc(limit=-4),
         )
-    return CheckResult(
+    result = CheckResult(
         id=assigned.use.id,
         title=translate(assigned.title),
         status=found.status,
@@ -158,6 +175,10 @@ def _evaluate(
         fault=found.fault,
         seconds=0 if found.status == "skipped" else round(time.monotonic() - begin, 3),
     )
+    if not isinstance(evidence, NodeEvidence):
+        return result
+    here = {"where": evidence.place(found.where), "node": evidence.node, "run": evidence.run_name}
+    return result.model_copy(update=here)
 
 
 def _found(
@@ -168,6 +189,9 @@ def _found(
 ) -> _Result:
     blocker = _blocker(assigned, evidence)
     outcome = Blocked(by=blocker) if blocker else assigned.check.evaluate(evidence, assigned.use)
+    if isinstance(outcome, Failed) and isinstance(evidence, NodeEvidence):
+        other = because_of_another(evidence, assigned.check, assigned.use)
+        outcome = Blocked(by=other) if other else outcome
     if isinstance(outcome, Passed):
         return _Result(
             status="passed", score=assigned.points, actual=outcome.actual, advice=outcome.advice
@@ -206,9 +230,11 @@ def _blocker(assigned: AssignedCheck, evidence: Evidence) -> str:
 
 def _skipped(assigned: AssignedCheck, by: str, evidence: Evidence) -> _Result:
     cause = evidence.results.get(by)
+    by = cause.id if cause is not None else evidence.id_of(by)
     root = (cause.blocked_by if cause is not None else "") or by
     titles = {one.use.id: one.title for one in assigned_checks(evidence.assignment)}
-    title = titles.get(root) or (CHECKS[root].title if root in CHECKS else root)
+    plain = CHECKS[root].title if root in CHECKS and not CHECKS[root].parameters else root
+    title = titles.get(root) or Message(plain)
     if evidence.is_hidden(root) and assigned.visibility == "visible":
         title = say("a hidden check")
     if cause is not None and cause.status in ("inconclusive", "error"):
