@@ -244,6 +244,7 @@ class RunInfo(Part):
     """
 
     name: str
+    node: str = Field(default="", description="of the assignment, which the first program is")
     world: str = ""
     observed: Observed = Field(default_factory=Observed)
     others: list[OtherProgram] = Field(default_factory=list)
@@ -254,11 +255,23 @@ class RunInfo(Part):
     plots: list[TopicPlot] = Field(default_factory=list)
 
 
+class Transcript(Part):
+    """What the program of the assignment's `node` printed in a run, cut in the middle."""
+
+    run: str
+    node: str
+    text: str
+
+
 class Evidence(Part):
-    """The texts on which the verdict is based, cut in the middle to a bounded length."""
+    """The texts on which the verdict is based, cut in the middle to a bounded length.
+
+    `programs` has the parts of the transcript, if several programs ran.
+    """
 
     build_log: str = ""
     transcript: str = ""
+    programs: list[Transcript] = Field(default_factory=list)
 
 
 class Timing(Part):

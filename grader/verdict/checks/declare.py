@@ -14,7 +14,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
-from grader.base.i18n.message import Message, say
+from grader.base.i18n.message import Message, Template, say
 from grader.base.part import Part
 from grader.report.model import Quote
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
@@ -65,7 +65,7 @@ class Check:
     """
 
     id: str
-    title: str  # a template of `grader.base.i18n.message`
+    title: Template
     stage: Stage
     needs: Needs
     depends: tuple[str, ...]
@@ -158,7 +158,7 @@ def _declare(
     covers: Covers,
 ) -> Callable[[Callable[..., Passed | None]], Check]:
     def declare(function: Callable[..., Passed | None]) -> Check:
-        title = (function.__doc__ or check_id).strip().splitlines()[0].rstrip(".")
+        title = Template((function.__doc__ or check_id).strip().splitlines()[0].rstrip("."))
         return Check(
             id=check_id,
             parameters=parameters,
