@@ -31,7 +31,9 @@ if TYPE_CHECKING:  # (slow to import, and an unchanged class needs none of it)
     from grader.verdict.recording import Recording
 
 TRIES = 3  # at most, if the grader itself fails on a submission
-ALONE_TRIES = 2  # of what is undecided: the last one at the end of the class, with nothing beside it
+ALONE_TRIES = (
+    2  # of what is undecided: the last one at the end of the class, with nothing beside it
+)
 MARGIN_SECONDS = 60.0  # on top of a verdict's time limit, before its worker counts as hung
 
 

@@ -14,6 +14,7 @@ from grader.run.in_probe.turtlesim import STEP
 from grader.run.observations import Done, End, Goal, Message, Observations, Parameter, Pose
 from grader.run.observer import SECOND, Event, Observer
 from grader.run.probe_link import Answer, ProbeError, ProbeLink, in_probe
+from grader.run.programs import full_name, names_of
 from grader.run.run import (
     COMPLETE_SECONDS,
     DYING_SECONDS,
@@ -22,6 +23,7 @@ from grader.run.run import (
     Program,
     Run,
     accepts,
+    ends,
     press_ctrl_c,
     ros2_run,
     start,
@@ -35,6 +37,7 @@ PREPARE_SECONDS = 5.0  # wall time to make the probe's ends
 STEP_SECONDS = 2.0  # wall time for one step
 SETTLE_SECONDS = 3.0  # wall time within which a spinning node gives its first answer
 FINE_TICKS = 8  # before which the clock stops 1 ms earlier too
+NOTHING = "false"  # the command in place of a node that has no executable
 UNANSWERED = 5  # unanswered steps in a row after which the nodes count as stuck
 LOOK_SECONDS = 2.0  # wall time to read the graph, and the parameters of one node
 MOST_MESSAGES = 20_000  # of a run
@@ -43,17 +46,12 @@ MOST_POSES = 20_000  # of a turtle in a run: the 16 ms steps of five minutes
 
 
 def command_of(assignment: Assignment, begin: Start, distro: Distro) -> str:
-    """Return the `ros2 run` command that starts a node of a plan."""
+    """Return the `ros2 run` command that starts a node of a plan; "" if it has no executable."""
     node = assignment.nodes[begin.node]
     package = node.package or assignment.package
+    if not node.executable:
+        return ""
     return ros2_run(distro, package, node.executable, "--ros-args", *begin.arguments())
-
-
-def full_name(assignment: Assignment, begin: Start) -> str:
-    """Return the full name of a node that a plan starts."""
-    space = "/" + begin.namespace.strip("/")
-    name = begin.name or assignment.nodes[begin.node].name
-    return f"{space.rstrip('/')}/{name}"
 
 
 def conduct(
@@ -83,7 +81,7 @@ def conduct(
     begin = run_clock.now()
     terminals: list[Terminal] = []
     try:
-        terminals += [start(sandbox, command, probe.pipe) for command in commands]
+        terminals += [start(sandbox, command or NOTHING, probe.pipe) for command in commands]
         observer = Observer(terminals[0], probe, assignment.output, terminals[1:])
         scene = _Scene(assignment, plan, probe, observer, terminals, run, on_event)
         scene.deadline = min(begin + limits.run_seconds, probe.until)
@@ -176,6 +174,9 @@ class _Scene:
         self._await_dying()
         if self._unanswered >= UNANSWERED:
             self.seen.stuck = self.seen.instants[max(0, len(self.seen.instants) - UNANSWERED)]
+            if len(self.terminals) > 1:
+                names = self._names.values()
+                self.seen.silent = [name for name in names if self._asked(name) is None]
         watch.events += self.observer.settle()
         watch.events[:] = self.observer.visible(watch.events)
         if run.nodes:
@@ -206,9 +207,15 @@ class _Scene:
                     break
             elif now - begin > most:
                 return
-        names = [node.name for node in self.run.nodes]
-        if len(names) == 1 and len(self._names) == 1:
-            self._names = dict.fromkeys(self._names, names[0])  # its own name may be another one
+        self._read_names()
+
+    def _read_names(self) -> None:
+        """Learn the names of the nodes on the graph: they may not be those of the assignment."""
+        there = [node.name for node in self.run.nodes]
+        own = names_of(self.assignment, self.plan, there)
+        for begin, names in zip(self.plan.start, own):
+            if len(names) == 1:
+                self._names[begin.node] = names[0]
 
     def _settle(self) -> bool:
         """Start the clock at 1 ms; return whether a node answers, that is, whether it spins."""
@@ -363,17 +370,25 @@ class _Scene:
             end = End(**found)
             if (end.node, end.role, end.name, end.type) not in known:
                 self.seen.ends.append(end)
-        self.run.nodes = self.probe.ask("look").nodes or self.run.nodes
+        now = self.probe.ask("look").nodes
+        left = {node.name: node for node in self.run.nodes if now and self.run.others}
+        there = {**left, **{node.name: node for node in now}}  # (of several, one that has gone too)
+        self.run.nodes = tuple(there.values()) or self.run.nodes
+        self._read_names()
         if self.over:
             return
         for name in self._names.values():
-            limit = self._run_clock.limit(LOOK_SECONDS)
-            said = self.probe.said("parameters", seconds=LOOK_SECONDS, name=name)
-            while said.get("parameters") is None and not limit.over and not self.over:
-                said = self.probe.said("parameters", seconds=limit.rest, name=name)
-            if said.get("parameters") is not None:
-                found = [_parameter(one) for one in said["parameters"]]
-                self.seen.parameters[name] = found
+            found = self._asked(name)
+            if found is not None:
+                self.seen.parameters[name] = [_parameter(one) for one in found]
+
+    def _asked(self, name: str) -> Any:
+        """Return what a node says about its parameters; None if it does not answer."""
+        limit = self._run_clock.limit(LOOK_SECONDS)
+        while True:
+            said = self.probe.said("parameters", seconds=limit.rest, name=name)
+            if said.get("parameters") is not None or limit.over or self.over:
+                return said.get("parameters")
 
 
 def _parameter(found: Mapping[str, Any]) -> Parameter:
@@ -388,7 +403,7 @@ def _parameter(found: Mapping[str, Any]) -> Parameter:
 
 
 def _end(run: Run, scene: _Scene, seconds: float) -> None:
-    """Press Ctrl+C on every terminal; the result is that of the first node."""
+    """Press Ctrl+C on every terminal, and record how each program ends."""
 
     def go_on(passed: float) -> None:
         scene.at += round(passed * SECOND)
@@ -403,8 +418,7 @@ def _end(run: Run, scene: _Scene, seconds: float) -> None:
             terminal.interrupt()
     press_ctrl_c(run, scene.terminals[0], go_on, seconds)
     for other, terminal in others:
-        _, ended = terminal.finish(seconds)
-        if ended:
+        if ends(terminal, go_on, now() + seconds):
             other.stop_seconds = now() - pressed
             other.status, other.signal = terminal.status
     run.watch.events += scene.observer.take_last()

@@ -390,12 +390,18 @@ def press_ctrl_c(
     if not terminal.ended:
         run.interrupted = True
         terminal.interrupt()
-    _, ended = terminal.finish(min(seconds, PASSING_SECONDS))
-    while not ended and (left := pressed + seconds - now()) > 0:
+    if ends(terminal, go_on, pressed + seconds):
+        run.stop_seconds = now() - pressed
+        run.status, run.signal = terminal.status
+
+
+def ends(terminal: Terminal, go_on: Callable[[float], None] | None, until: float) -> bool:
+    """Whether a program ends before `until` (by the run's clock), while ROS time goes on."""
+    now = terminal.run_clock.now
+    _, ended = terminal.finish(min(max(0.0, until - now()), PASSING_SECONDS))
+    while not ended and (left := until - now()) > 0:
         if go_on is not None:
             with contextlib.suppress(ProbeError):
                 go_on(PASSING_SECONDS)
         _, ended = terminal.finish(min(left, PASSING_SECONDS))
-    if ended:
-        run.stop_seconds = now() - pressed
-        run.status, run.signal = terminal.status
+    return ended

@@ -9,19 +9,17 @@ from typing import Generic, TypeVar
 
 from grader.base.i18n.message import say
 from grader.course.assignment import CheckUse
-from grader.course.scenario import Node, RunPlan
-from grader.package.source.node import read_node
+from grader.course.scenario import RunPlan
 from grader.report.model import Where
-from grader.run.conduct import full_name
 from grader.run.observations import End, Message, Observations, Role
+from grader.run.programs import full_name
 from grader.run.run import Run
 from grader.verdict.checks.declare import EDGE, Parameters
-from grader.verdict.checks.faults import file_of_node, node_file
-from grader.verdict.checks.spinning import is_spun, never_spun
-from grader.verdict.checks.starting import not_started
+from grader.verdict.checks.faults import node_file
+from grader.verdict.checks.spinning import is_spun
 from grader.verdict.evidence import Evidence
 from grader.verdict.node_files import source_of_node
-from grader.verdict.outcome import Blocked, Failed, Inconclusive
+from grader.verdict.outcome import Blocked, Inconclusive
 
 P_co = TypeVar("P_co", bound=Parameters, covariant=True)
 T = TypeVar("T")
@@ -39,7 +37,7 @@ class Use(Generic[P_co]):
     @property
     def plan(self) -> RunPlan:
         """The plan of the run that is judged."""
-        return self.evidence.assignment.plan(self.use.run)
+        return self.evidence.assignment.plan(self.evidence.run_name or self.use.run)
 
     @property
     def in_scenario(self) -> bool:
@@ -51,40 +49,25 @@ class Use(Generic[P_co]):
         """The run that is judged, also if its nodes did not start."""
         if not self.in_scenario:
             return self.evidence.run
-        if self._other_package:
-            self.blocked_by("package.beside", package=self._other_package)
-        return self.evidence.run_of(self.plan.name)
+        package = self.evidence.assignment.package
+        if package != self.evidence.asked.package:
+            self.blocked_by("package.beside", package=package)
+        return self.evidence.run
 
     @property
     def run(self) -> Run:
-        """A scenario's run that is judged.
-
-        Raises Blocked if its nodes did not start or do not spin and a check has said so; Failed if
-        none has, as where that check judged another run.
-        """
+        """A scenario's run that is judged. Raises Blocked if its node did not start, or does not spin."""
         run = self.observed
         if not run.started:
-            self._blocked_by_kind("run.starts")
-            raise self._first(not_started(self.evidence, self.file, run))
+            raise Blocked(by="run.starts")
         if not run.ended_by_itself and not is_spun(run):
-            self._blocked_by_kind("run.spins")
-            raise self._first(never_spun(self.evidence, self.file, self._name))
+            raise Blocked(by="run.spins")
         return run
 
-    def _blocked_by_kind(self, kind: str) -> None:
-        """Raise Blocked if a check of this kind did not pass."""
-        for other in self.evidence.assignment.checks:
-            result = self.evidence.results.get(other.id)
-            if other.kind == kind and result is not None and result.status != "passed":
-                raise Blocked(by=other.id)
-
-    def _first(self, failure: Failed) -> Failed | Blocked:
-        """Return a failure of the whole run; Blocked by the check that has already told it."""
-        for other in self.evidence.assignment.checks:
-            same = self.evidence.assignment.plan(other.run).name == self.plan.name
-            if same and self.evidence.has_mistake(other.id, failure.mistake.id):
-                return Blocked(by=other.id)
-        return failure
+    @property
+    def whole_run(self) -> Run:
+        """The same run with the nodes of all its programs."""
+        return self.evidence.run_of(self.run.name) if self.in_scenario else self.run
 
     @property
     def seen(self) -> Observations:
@@ -94,40 +77,15 @@ class Use(Generic[P_co]):
         return seen
 
     @property
+    def wanted(self) -> str:
+        """The full name that the node that is judged must have."""
+        return full_name(self.evidence.assignment, self.plan.start[self.evidence.start])
+
+    @property
     def node(self) -> str:
         """The full name of the node that is judged: that of `of`, else the run's first."""
-        plan, wanted = self.plan, self._name
         names = [node.name for node in self.run.nodes]
-        if wanted not in names and len(names) == 1 and len(plan.start) == 1:
-            return names[0]  # its name is another check's matter
-        return wanted
-
-    @property
-    def _name(self) -> str:
-        """The full name that the judged node must have."""
-        plan = self.plan
-        begin = next((one for one in plan.start if one.node == self.use.of), plan.start[0])
-        return full_name(self.evidence.assignment, begin)
-
-    @property
-    def file(self) -> Where:
-        """The file of the node that is judged."""
-        node = self._judged
-        return node_file(self.evidence) if node is None else file_of_node(self.evidence, node)
-
-    @property
-    def _judged(self) -> Node | None:
-        """The node that is judged, as the assignment describes it."""
-        if not self.in_scenario:
-            return None
-        begin = self.use.of or (self.plan.start[0].node if self.plan.start else "")
-        return self.evidence.assignment.nodes.get(begin)
-
-    @property
-    def _other_package(self) -> str:
-        """The package of the judged node, if it is not the main one."""
-        node, main = self._judged, self.evidence.asked.package
-        return node.package if node is not None and node.package != main else ""
+        return names[0] if len(names) == 1 else self.wanted  # its name is another check's matter
 
     @property
     def end(self) -> float:
@@ -200,32 +158,12 @@ class Use(Generic[P_co]):
 
         A call with the text `mentions` among its arguments comes before the others.
         """
-        if self._other_package:
-            return self._call_in_other(*names, mentions=mentions)
         source = source_of_node(self.evidence)
         found = source.calls_of(*names) if source is not None else []
         if source is None or not found:
             return node_file(self.evidence)
         best = _best(found, mentions)
         return Where(file=source.module_of(best).path, line=best.lineno)
-
-    def _call_in_other(self, *names: str, mentions: str) -> Where:
-        """Return the same as `call`, in the package of the judged node."""
-        node, package = self._judged, self.evidence.submission.package(self._other_package)
-        assert node is not None
-        module, _, function = node.target.partition(":")
-        path = f"{module.partition('.')[0]}/{node.file}"
-        place = Where(file=f"{self._other_package}/{path}")
-        if package is None:
-            return place
-        texts = {file.path: file.data for file in package.files if file.kind == "file"}
-        source = read_node(texts.get, path, function)
-        found = source.calls_of(*names) if source is not None else []
-        if source is None or not found:
-            return place
-        best = _best(found, mentions)
-        file = f"{self._other_package}/{source.module_of(best).path}"
-        return Where(file=file, line=best.lineno)
 
 
 def _best(found: Sequence[ast.Call], mentions: str) -> ast.Call:

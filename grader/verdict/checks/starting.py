@@ -18,25 +18,23 @@ from grader.verdict.checks.actual_node import actual_path
 from grader.verdict.checks.declare import RUN, check
 from grader.verdict.checks.faults import (
     FRAME,
-    file_of_program,
     flood,
     going_on,
     node_file,
-    others_there,
     resource,
     traceback_of,
     words,
 )
+from grader.verdict.checks.installed import executable_must_be_there
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Outcome, Passed
 
 if TYPE_CHECKING:
-    from grader.report.model import Where
-    from grader.run.run import Run
     from grader.verdict.evidence import Evidence
 
 OWN_ERROR = re.compile(r"^(?:Name|UnboundLocal|Attribute|Type)Error\b", re.MULTILINE)
 OF_SPIN = re.compile(r", line \d+, in _?spin")
+NO_EXECUTABLE = "No executable found"  # what `ros2 run` says
 SIGNALLED = 240  # ros2 run exits with minus the signal that ended the node, modulo 256
 
 
@@ -46,12 +44,12 @@ SIGNALLED = 240  # ros2 run exits with minus the signal that ended the node, mod
     depends=["entry_point.executable"],
     after=["package.manifest", "source.node_file", "entry_point.mapping"],
     quotes="transcript",
+    covers="runs",
 )
 def starts(evidence: Evidence) -> Passed:
     """ros2 run starts the node, and the node keeps running."""
     run = evidence.run
     if run.started and not _died_first(evidence):
-        _others_start(evidence)
         seconds = f"{run.node_seconds or 0:.1f}"
         said = say("the node was on the ROS graph after {seconds} s", seconds=seconds)
         return Passed(actual=said, advice=_refused_arguments(evidence))
@@ -96,6 +94,8 @@ def _died_first(evidence: Evidence) -> bool:
 def _ended(evidence: Evidence) -> Outcome:
     """Return the outcome of a program that ended before its node was seen."""
     run = evidence.run
+    if not run.command or NO_EXECUTABLE in run.transcript:
+        executable_must_be_there(evidence)
     for cause in ("source.node_file", "entry_point.mapping"):
         if evidence.has_failed(cause):
             return Blocked(by=cause)
@@ -162,53 +162,12 @@ def _newer_line(evidence: Evidence) -> tuple[int, str]:
     return parsed.newer, older.splitlines()[parsed.newer - 1].strip() if older else ""
 
 
-def _others_start(evidence: Evidence) -> None:
-    """Raise the failure of another program of the scenario that ended before the clock began."""
-    for program in others_there(evidence, evidence.run):
-        if program.started:
-            continue
-        error, where = traceback_of(evidence, program)
-        raise Failed(
-            "run.died_at_start" if error else "run.exits_at_once",
-            expected=say("the node starts and runs until Ctrl+C"),
-            actual=say("{node} stopped on startup with {error}", node=program.node, error=error)
-            if error
-            else say(
-                "{node} ended by itself, with status {status}",
-                node=program.node,
-                status=str(program.status),
-            ),
-            where=where or file_of_program(evidence, program),
-            params={"error": error.partition(":")[0], "text": error} if error else {},
-            words=words(evidence),
-        )
-
-
-def not_started(evidence: Evidence, where: Where, run: Run) -> Failed:
-    """Return the failure of a run of a scenario whose first node did not start, given its file."""
-    if not run.ended_by_itself:
-        seconds = f"{run.seconds - (run.stop_seconds or 0):.0f}"
-        said = say("the program runs, but no node was seen within {seconds} s", seconds=seconds)
-        return _no_node(evidence, said, where)
-    error, line = traceback_of(evidence, run)
-    return Failed(
-        "run.died_at_start" if error else "run.exits_at_once",
-        expected=say("the node starts and runs until Ctrl+C"),
-        actual=say("it stopped on startup with {error}", error=error)
-        if error
-        else say("it ended by itself, with status {status}", status=str(run.status)),
-        where=line or where,
-        params={"error": error.partition(":")[0], "text": error} if error else {},
-        words=words(evidence),
-    )
-
-
-def _no_node(evidence: Evidence, actual: str, where: Where | None = None) -> Failed:
+def _no_node(evidence: Evidence, actual: str) -> Failed:
     return Failed(
         "run.no_node",
         expected=say("a node {name} on the ROS graph", name=evidence.assignment.node_name),
         actual=actual,
-        where=where or node_file(evidence),
+        where=node_file(evidence),
         words=words(evidence),
     )
 
@@ -283,6 +242,7 @@ def _outside_of_try(evidence: Evidence) -> list[str]:
     depends=["run.starts"],
     after=["log.period"],
     quotes="transcript",
+    covers="runs",
 )
 def interrupt(evidence: Evidence) -> Passed:
     """Ctrl+C ends the node."""
