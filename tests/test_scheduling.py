@@ -111,7 +111,7 @@ class Looks:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self._at, self._busy, self._ran, self._waited = 1000.0, 0.0, 0.0, 0.0
-        monkeypatch.setattr(scheduling.time, "monotonic", lambda: self._at)
+        monkeypatch.setattr(time, "monotonic", lambda: self._at)
         monkeypatch.setattr(RunClock, "_look", lambda _: self._seen())
 
     def after(self, seconds: float, *, busy: float, ran: float, waited: float) -> None:

@@ -24,10 +24,12 @@ from grader.run.probe_link import Answer
 from grader.sandbox.scheduling import seconds_waited
 
 MILLISECOND = 1_000_000
-BARRIER_SECONDS = 2.0  # wall time for one barrier
-SETTLE_SECONDS = 2.5  # wall time within which a spinning node gives its first answer
-OTHERS_SECONDS = 1.0  # wall time for the first answers of the other nodes, after one has answered
-QUIET_SECONDS = 0.03  # wall time in which a node without services logs what was due
+BARRIER_SECONDS = 2.0  # of the run's time, for one barrier
+SETTLE_SECONDS = 2.5  # of the run's time, within which a spinning node gives its first answer
+OTHERS_SECONDS = (
+    1.0  # of the run's time, for the first answers of the other nodes, after one has answered
+)
+QUIET_SECONDS = 0.03  # of the run's time, in which a node without services logs what was due
 UNASKED_SECONDS = 2.0  # the same until a tick is missing
 SLOW_BARRIER = 0.2  # seconds of wall time; after a slower barrier a log record ends the next ones
 UNANSWERED = 5  # unanswered barriers in a row after which the node counts as stuck
@@ -507,5 +509,5 @@ def watch_wall(
     if not observer.terminal.ended:
         watch.silent = observer.run_clock.now() - quiet
     if len(stamps) > 2:
-        watch.slack = waited / (len(stamps) - 1)
+        observer.slack = waited / (len(stamps) - 1)
         watch.period = statistics.median(b - a for a, b in zip(stamps, stamps[1:]))

@@ -33,13 +33,13 @@ from grader.sandbox.base import Sandbox
 
 MODULES = ("messages", "parameters", "graph", "goals", "scenario")  # of in_probe, in order of need
 MILLISECOND = 1_000_000
-PREPARE_SECONDS = 5.0  # wall time to make the probe's ends
-STEP_SECONDS = 2.0  # wall time for one step
-SETTLE_SECONDS = 3.0  # wall time within which a spinning node gives its first answer
+PREPARE_SECONDS = 5.0  # of the run's time, to make the probe's ends
+STEP_SECONDS = 2.0  # of the run's time, for one step
+SETTLE_SECONDS = 3.0  # of the run's time, within which a spinning node gives its first answer
 FINE_TICKS = 8  # before which the clock stops 1 ms earlier too
 NOTHING = "false"  # the command in place of a node that has no executable
 UNANSWERED = 5  # unanswered steps in a row after which the nodes count as stuck
-LOOK_SECONDS = 2.0  # wall time to read the graph, and the parameters of one node
+LOOK_SECONDS = 2.0  # of the run's time, to read the graph, and the parameters of one node
 MOST_MESSAGES = 20_000  # of a run
 MOST_FEEDBACK = 1_000  # of a goal
 MOST_POSES = 20_000  # of a turtle in a run: the 16 ms steps of five minutes

@@ -19,7 +19,8 @@ LATE_GRACE = 1.0  # the same for records from before the probe had discovered th
 STAMP_TOLERANCE = SECOND // 4
 NUMBER = re.compile(r"\d+")
 BELOW_RCLPY = re.compile(r"(?:rcl|rcutils|rmw)(?:[._][\w.]{0,80})?")  # names of their loggers
-FLOOD = 200  # lines per second of wall time, above which a program does not wait between them
+FLOOD = 200  # lines per second of the run's time, above which a program does not wait between them
+MOST_SLOWED = 8  # times as many lines as it has had wall time for may be due to a busy machine
 COMPARED = 1_000  # characters of a log line and its record; both are cut later than that
 PREFIX = 60  # bytes, about, that a log line on the terminal has in front of its text
 
@@ -58,8 +59,7 @@ class Watch:
     `while_still` is whether lines came although ROS time stood still, None if this is unknown.
     `still_answers` is whether the node answered at the end of a watch on `/clock`, None if unknown.
     `silent` is the time in seconds of the run's clock without a line of the count at the end of a
-    watch on the wall clock; `slack` is how long the node waited there for a core, in the mean between
-    two lines. `held` has the seconds for which the node held up each step by itself, not by the machine's load.
+    watch on the wall clock. `held` has the seconds for which the node held up each step by itself, not by the machine's load.
     """
 
     clock: Literal["virtual", "wall"] | None = None
@@ -75,7 +75,6 @@ class Watch:
     still_answers: bool | None = None
     silent: float = 0.0
     held: list[float] = field(default_factory=list)
-    slack: float = 0.0
 
     @property
     def counted(self) -> list[Event]:
@@ -180,6 +179,9 @@ class Observer:
         self.records: list[LogRecord] = []
         self._shown: set[int] = set()  # the stamps of the records that a terminal showed
         self.now = 0.0  # virtual seconds
+        self.slack = (
+            0.0  # seconds of a watch on the wall clock: the node's wait for a core, by line
+        )
         self._linked: float | None = None
         self._mirrored = True  # whether log records appear on the terminal
         self.logged = 0  # bytes that the log records would take on a terminal
@@ -296,10 +298,13 @@ class Observer:
         The seconds are of the run's clock: a node that follows the wall clock has had a core.
         """
         before, began = self.terminal.lines, time.monotonic()
+        own = self.run_clock.now()
         limit, events = self.run_clock.limit(seconds), list[Event]()
         while not self.over and not limit.over:
             events += self.take(self.probe.ask("wait", seconds=min(limit.slice, 0.1)))
-        rate = (self.terminal.lines - before) / (time.monotonic() - began)
+        slowed = (time.monotonic() - began) / MOST_SLOWED
+        passed = max(self.run_clock.now() - own, slowed)
+        rate = (self.terminal.lines - before) / passed
         self._flooding = self._flooding or (rate > FLOOD and not self.terminal.ended)
         return events
 

@@ -22,14 +22,21 @@ from grader.run.terminal import Terminal
 from grader.sandbox.base import UNRUNNABLE, Pipe, Sandbox
 
 SIM_TIME = ("--ros-args", "-p", "use_sim_time:=true")
-UNSEEN_SECONDS = 5.0  # wall time from the first line within which a node appears on the graph
-COMPLETE_SECONDS = 2.0  # wall time within which all endpoints of a visible node appear
+UNSEEN_SECONDS = (
+    5.0  # of the run's time, from the first line within which a node appears on the graph
+)
+COMPLETE_SECONDS = 2.0  # of the run's time, within which all endpoints of a visible node appear
 OWN_TRACEBACK = '/bin/ros2", line '  # in a traceback of the ros2 command itself
-DYING_SECONDS = 3.0  # wall time within which a program ends whose nodes have left the graph
-GONE_SECONDS = 0.1  # wall time for one more look at the graph
-FOLLOW_SECONDS = 2.0  # wall time in which a node that spins sets use_sim_time
-TRY_SECONDS = 3.0  # wall time in which one of a node's own services answers
-SETTLE_SECONDS = 0.1  # wall time in which lines come that were logged before the time stood still
+DYING_SECONDS = (
+    3.0  # of the run's time, within which a program ends whose nodes have left the graph
+)
+WALL_TOLERANCE = 0.05  # of a period on the wall clock
+GONE_SECONDS = 0.1  # of the run's time, for one more look at the graph
+FOLLOW_SECONDS = 2.0  # of the run's time, in which a node that spins sets use_sim_time
+TRY_SECONDS = 3.0  # of the run's time, in which one of a node's own services answers
+SETTLE_SECONDS = (
+    0.1  # of the run's time, in which lines come that were logged before the time stood still
+)
 PASSING_SECONDS = 0.25  # by which ROS time goes on at once while the node ends
 END_SECONDS = 10.0  # of a run's time, reserved for killing what does not end by itself
 
@@ -305,6 +312,7 @@ def _watch(
     if not there:
         watch.events += _await_end(observer, deadline)
     run.nodes = there or run.nodes
+    run.inconsistent = off_by_load(watch, output.period, observer.slack)
     run.counting = counting_node(run.nodes, watch.counted)
     if watch.clock == "wall" and watch.counted and not foreign and not observer.over:
         watch.while_still = _count_while_still(run, observer)
@@ -364,6 +372,17 @@ def _still_there(observer: Observer) -> tuple[NodeSeen, ...]:
     while (nodes := observer.probe.ask("wait", seconds=GONE_SECONDS).nodes) and not limit.over:
         continue
     return nodes
+
+
+def off_by_load(watch: Watch, wanted: float, slack: float) -> bool:
+    """Whether a period on the wall clock is wrong, but by no more than the node waited for a core.
+
+    `slack` is its wait between two lines, in seconds as the period: each gap has two ends.
+    """
+    if watch.clock != "wall" or watch.period is None:
+        return False
+    off = abs(watch.period - wanted) - WALL_TOLERANCE * wanted
+    return 0 < off <= 2 * slack
 
 
 def accepts(observer: Observer, do: str, name: str, seconds: float) -> bool:

@@ -24,7 +24,7 @@ from grader.run.clock import GRID
 from grader.run.conduct import conduct
 from grader.run.observer import Event
 from grader.run.probe_link import ProbeError, ProbeLink
-from grader.run.run import Run, counts_plainly, observe
+from grader.run.run import WALL_TOLERANCE, Run, counts_plainly, observe
 from grader.run.student_interfaces import interfaces_of
 from grader.run.unforeseen import Unforeseen, unforeseen
 from grader.run.workspace import BUILD, Build, build, restore, save
@@ -353,7 +353,8 @@ class Session:
 
     def _period_holds(self, run: Run) -> bool:
         wanted = self.assignment.output.period
-        return run.watch.period is None or abs(run.watch.period - wanted) <= 0.05 * wanted
+        tolerance = WALL_TOLERANCE * wanted
+        return run.watch.period is None or abs(run.watch.period - wanted) <= tolerance
 
     def _second_opinion(self, first: Run, second: Run) -> Run:
         if first.watch.clock == second.watch.clock == "virtual":
@@ -361,7 +362,7 @@ class Session:
         if not second.nodes or self._on_time(second):
             return second
         before, after = first.watch.period or 0.0, second.watch.period or 0.0
-        second.inconsistent = abs(before - after) > AGREE * self.assignment.output.period
+        second.inconsistent |= abs(before - after) > AGREE * self.assignment.output.period
         return second
 
     def _resource(self, status: int | None) -> str:

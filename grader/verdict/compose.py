@@ -14,7 +14,7 @@ from grader.package.source.remarks import remarks_on
 from grader.package.submission import Submission
 from grader.report import model
 from grader.run.run import Program, Run
-from grader.verdict.causes import with_causes
+from grader.verdict import causes
 from grader.verdict.checks.world import Path as WantedPath
 from grader.verdict.checks.world import circle_from
 from grader.verdict.evidence import Evidence
@@ -47,7 +47,7 @@ def compose(
 
     No point is lost in it without a check that failed.
     """
-    results = with_causes(results, translate)
+    results = causes.with_causes(results, translate)
     assignment, submission = evidence.assignment, evidence.submission
     build = evidence.build if evidence.was_built else None
     run = evidence.run if evidence.has_run else None

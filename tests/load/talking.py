@@ -204,8 +204,11 @@ install_scripts=$base/lib/{package}
 def write_ros_package(
     folder: Path, package: str, nodes: dict[str, str], entries: dict[str, str]
 ) -> Path:
-    """Write a package with node files (text by name) and entry points (module by executable)."""
-    root = folder / package
+    """Write a package with node files (text by name) and entry points (module by executable).
+
+    Return the folder that is handed in, below `folder`.
+    """
+    root = folder / "handed_in" / package
     for part in (package, "resource"):
         (root / part).mkdir(parents=True)
     (root / "resource" / package).touch()
@@ -217,4 +220,4 @@ def write_ros_package(
     for name, text in nodes.items():
         (root / package / f"{name}.py").write_text(text)
         (root / package / f"{name}.py").chmod(0o755)
-    return folder
+    return root.parent
