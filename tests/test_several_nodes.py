@@ -104,7 +104,7 @@ BROKEN = (
     broken(
         "raises in the callback",
         (LISTENER, "text.data}", "text.dat}"),
-        fails=("run.stays", "node.misspelt_attribute", LISTENER),
+        fails=("run.stays", "node.attribute_unknown", LISTENER),
         line="text.dat}",
         says="AttributeError",
         lost={"listener.logs", "listener.hears", "run.interrupt"},
@@ -125,9 +125,9 @@ BROKEN = (
     broken(
         "never spins",
         (LISTENER, MAIN, "    node = Listener()\n    input()\n"),
-        fails=("run.spins", "node.spin_missing", LISTENER),
+        fails=("run.spins", "node.waits_first", LISTENER),
         says="the node does not answer",
-        lost=OF_LISTENER | {"run.interrupt"},
+        lost=OF_LISTENER | {"run.stays"},
     ),
     broken(
         "the first has no entry",
@@ -139,9 +139,9 @@ BROKEN = (
     broken(
         "the first raises in the callback",
         (TALKER, "self.count += 1", "self.cont += 1"),
-        fails=("run.stays", "node.misspelt_attribute", TALKER),
+        fails=("run.stays", "node.attribute_not_set", TALKER),
         line="self.cont",
-        lost=OF_TALKER | {"listener.hears", "run.interrupt"},
+        lost={"talker.period", "listener.hears", "run.interrupt"},
     ),
     broken(
         "the first publishes elsewhere",

@@ -25,7 +25,7 @@ def together(parts: Sequence[CheckResult], translate: Translator) -> CheckResult
         texts = [_of_node(part, part.actual, parts) for part in (first, *rest) if part.actual]
         update["actual"] = "\n".join(map(translate, texts))
     if nodes > 1 and status == "failed":
-        fixes = [_of_node(part, part.fix, parts) for part in rest if part.fix]
+        fixes = [_fix_of_node(part) for part in rest if part.fix]
         update["advice"] = [*first.advice, *map(translate, fixes)]
     if nodes > 1 and status == "passed":
         update |= {"node": "", "run": ""}
@@ -46,6 +46,15 @@ def _of_node(part: CheckResult, text: str, parts: Sequence[CheckResult]) -> str:
     if part.run and not all(same):
         return say("{node} in the run {run}: {text}", node=part.node, run=part.run, text=text)
     return say("{node}: {text}", node=part.node, text=text)
+
+
+def _fix_of_node(part: CheckResult) -> str:
+    """Return the fix of a further node that fails, with its place."""
+    if part.where is None:
+        return say("{node}: {text}", node=part.node, text=part.fix)
+    line = "" if part.where.line is None else f":{part.where.line}"
+    place = f"{part.where.file}{line}"
+    return say("{node} ({place}): {text}", node=part.node, place=place, text=part.fix)
 
 
 def _advice(parts: Sequence[CheckResult]) -> Iterator[str]:
