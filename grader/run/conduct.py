@@ -225,7 +225,8 @@ class _Scene:
             answer = self.probe.ask("clock", seconds=0.25, at=MILLISECOND, until_log=0, patient=1)
             self._take(answer)
             settled = settled or bool(answer.barrier)
-            if (settled and not answer.silent) or answer.barrier is None:
+            complete = settled and not answer.silent and self._all_answer()
+            if complete or answer.barrier is None:
                 break
             if self._run_clock.now() > until:
                 break
@@ -233,6 +234,13 @@ class _Scene:
             if not node.clock and node.answers:
                 accepts(self.observer, "follow", node.name, FOLLOW_SECONDS)
         return settled
+
+    def _all_answer(self) -> bool:
+        """Whether each node of several programs has answered: one may be known later than another."""
+        if len(self.terminals) == 1:
+            return True
+        self.run.nodes = self.probe.ask("look").nodes or self.run.nodes
+        return all(node.answers for node in self.run.nodes)
 
     def _tick(self, at: int) -> None:
         """Show an instant; at first also the moment before it, when nothing may come yet.

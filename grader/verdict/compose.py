@@ -60,7 +60,7 @@ def compose(
             run=made.name, node=_node(program, made, assignment), text=program.transcript
         )
         for made in evidence.runs
-        for program in (made, *made.others)
+        for program in _programs(made)
     ]
     open_ = sum(r.max_score for r in results if r.status in ("inconclusive", "error"))
     unknown = say("{points} points could be neither given nor taken", points=f"{open_:g}")

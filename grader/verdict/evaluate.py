@@ -131,7 +131,7 @@ def _evaluate(
     cause: RecognisedMistake | None = None,
 ) -> CheckResult:
     """Return the result of a check, which is evaluated for each node that it is about."""
-    about = views(evidence, assigned.check, assigned.use)
+    about: Sequence[Evidence] = views(evidence, assigned.check, assigned.use)
     parts = [_part(assigned, one, translate, without, cause) for one in about or [evidence]]
     if about:
         evidence.parts[assigned.use.id] = parts

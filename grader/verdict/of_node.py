@@ -6,7 +6,7 @@ of them, and for each run that starts the node if it judges runs.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
 
@@ -39,10 +39,10 @@ class NodeEvidence(Evidence):
         self.whole, self.node, self.run_name, self.start = whole, node, run, start
         self.assignment = whole.assignment.about(node)
         self._main = whole.assignment.package
-        self.submission = _of_package(whole.submission, self._main, self.assignment.package)
+        self.submission = _submission(whole.submission, self._main, self.assignment)
 
     @property
-    def build(self) -> Build:  # type: ignore[override] # (it is the same one, made once)
+    def build(self) -> Build:
         """The build; made on first access."""
         return self.whole.build
 
@@ -57,7 +57,7 @@ class NodeEvidence(Evidence):
         return self.whole.named.about(self.node)
 
     @cached_property
-    def run(self) -> Run:  # type: ignore[override]
+    def run(self) -> Run:
         """The run as the node's program showed it; made on first access."""
         name, start = self.run_name, self.start
         if not name:
@@ -101,8 +101,16 @@ class NodeEvidence(Evidence):
         return where.model_copy(update={"file": f"{self.assignment.package}/{where.file}"})
 
 
-def _of_package(submission: Submission, main: str, name: str) -> Submission:
-    """Return a submission whose main package is the one with a name; it has no files if it is not there."""
+def _submission(submission: Submission, main: str, about: Assignment) -> Submission:
+    """Return a submission as it is about a node: its main package is the node's.
+
+    It has no files if that package is not there.
+    """
+    name, file = about.package, about.node_file
+    named = tuple(path for path in submission.node_files if path.rpartition("/")[2] == file)
+    copy = submission.newer_copy if submission.newer_copy.rpartition("/")[2] == file else ""
+    if (named, copy) != (submission.node_files, submission.newer_copy):
+        submission = replace(submission, node_files=named, newer_copy=copy)
     if name == main:
         return submission
     found = submission.package(name)
@@ -151,36 +159,45 @@ def _first_start(evidence: Evidence, node: str) -> tuple[str, int]:
 
 
 def because_of_another(evidence: NodeEvidence, check: Check, use: CheckUse) -> str:
-    """Return the check that failed for another program of the run, if this failure may follow from it.
+    """Return the check that failed for a program of a run of several, if this failure may follow from it.
 
-    It may if the use names no node, or if the node waits for what nobody sends or offers. "" if not.
+    That is the node's own program if it did not go on to the end, else another one: if the use names
+    no node, or if the node waits for what nobody sends or offers to the end. "" if there is none.
     """
     plan = evidence.assignment.plan(evidence.run_name)
-    if not check.is_of_run or len(plan.start) == 1 or not (use.of == "" or _waits(evidence)):
+    if not check.is_of_run or len(plan.start) == 1:
         return ""
-    for n, begin in enumerate(plan.start):
-        if n == evidence.start:
-            continue
-        other = NodeEvidence(evidence.whole, begin.node, plan.name, n)
+    stays = evidence.id_of("run.stays")
+    if evidence.run.ended_by_itself:
+        return stays
+    others = [
+        NodeEvidence(evidence.whole, begin.node, plan.name, n)
+        for n, begin in enumerate(plan.start)
+        if n != evidence.start
+    ]
+    if use.of and not _waits(evidence, others):
+        return ""
+    for other in others:
         found = other.results
         lost = [found[kind] for kind in STARTED if kind in found and found[kind].status != "passed"]
         if lost:
             return lost[0].blocked_by or lost[0].id
-        if other.run.ended_by_itself and (stays := evidence.id_of("run.stays")) != use.id:
+        if other.run.ended_by_itself:
             return stays
-        mine = [one for one in found.values() if one.node == begin.node and one.run == plan.name]
+        mine = [one for one in found.values() if (one.node, one.run) == (other.node, plan.name)]
         failed = [one.id for one in mine if one.status == "failed"]
         if failed:
             return failed[0]
     return ""
 
 
-def _waits(evidence: NodeEvidence) -> bool:
+def _waits(evidence: NodeEvidence, others: Sequence[NodeEvidence]) -> bool:
     """Whether a topic or a service that the node uses has nobody at its other end."""
     run, plan = evidence.run, evidence.assignment.plan(evidence.run_name)
     own = {node.name for node in run.nodes}
+    gone = {node.name for one in others if one.run.ended_by_itself for node in one.run.nodes}
     ends = run.seen.ends if run.seen is not None else []
-    there = {(end.role, end.name) for end in ends if end.node not in own}
+    there = {(end.role, end.name) for end in ends if end.node not in own | gone}
     there |= {("publisher", one.publish.topic) for one in plan.do if one.publish is not None}
     wanted = {"subscription": "publisher", "client": "service"}
     return any(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
@@ -18,19 +18,18 @@ def together(parts: Sequence[CheckResult], translate: Translator) -> CheckResult
     A node has a part for each run that starts it; what it has in several runs is told once.
     """
     status = next(one for one in DECIDES if any(part.status == one for part in parts))
+    nodes = len({part.node for part in parts})
     first, *rest = _one_a_node([part for part in parts if part.status == status])
-    seconds = round(sum(part.seconds for part in parts), 3)
-    if status not in ("failed", "passed") or len({part.node for part in parts}) == 1:
-        advice = list(dict.fromkeys(text for part in (first, *rest) for text in part.advice))
-        return first.model_copy(update={"advice": advice, "seconds": seconds})
-    texts = [say("{node}: {text}", node=part.node, text=part.actual) for part in (first, *rest)]
-    actual = "\n".join(translate(text) for text, part in zip(texts, (first, *rest)) if part.actual)
-    advice = [*first.advice, *(_advice(part, translate) for part in rest if part.fix)]
-    if status == "passed":
-        advice = [text for part in (first, *rest) for text in part.advice]
-    update = {"actual": actual, "advice": list(dict.fromkeys(advice)), "seconds": seconds}
-    if status == "passed":
+    update: dict[str, object] = {"seconds": round(sum(part.seconds for part in parts), 3)}
+    if nodes > 1 and status in ("failed", "passed"):
+        texts = [_of_node(part, part.actual, parts) for part in (first, *rest) if part.actual]
+        update["actual"] = "\n".join(map(translate, texts))
+    if nodes > 1 and status == "failed":
+        fixes = [_fix_of_node(part) for part in rest if part.fix]
+        update["advice"] = [*first.advice, *map(translate, fixes)]
+    if nodes > 1 and status == "passed":
         update |= {"node": "", "run": ""}
+        update["advice"] = list(map(translate, _advice((first, *rest))))
     return first.model_copy(update=update)
 
 
@@ -41,9 +40,28 @@ def _one_a_node(parts: Sequence[CheckResult]) -> list[CheckResult]:
     return list(found.values())
 
 
-def _advice(part: CheckResult, translate: Translator) -> str:
+def _of_node(part: CheckResult, text: str, parts: Sequence[CheckResult]) -> str:
+    """Return a text with the node, and the run if only some of its runs have this status."""
+    same = [other.status == part.status for other in parts if other.node == part.node]
+    if part.run and not all(same):
+        return say("{node} in the run {run}: {text}", node=part.node, run=part.run, text=text)
+    return say("{node}: {text}", node=part.node, text=text)
+
+
+def _fix_of_node(part: CheckResult) -> str:
     """Return the fix of a further node that fails, with its place."""
     if part.where is None:
-        return translate(say("{node}: {text}", node=part.node, text=part.fix))
-    place = part.where.file if part.where.line is None else f"{part.where.file}:{part.where.line}"
-    return translate(say("{node} ({place}): {text}", node=part.node, place=place, text=part.fix))
+        return say("{node}: {text}", node=part.node, text=part.fix)
+    line = "" if part.where.line is None else f":{part.where.line}"
+    place = f"{part.where.file}{line}"
+    return say("{node} ({place}): {text}", node=part.node, place=place, text=part.fix)
+
+
+def _advice(parts: Sequence[CheckResult]) -> Iterator[str]:
+    """Yield the advice of nodes that passed; what holds for all of them once, without a name."""
+    for text in dict.fromkeys(text for part in parts for text in part.advice):
+        having = [part.node for part in parts if text in part.advice]
+        if len(having) == len(parts):
+            yield text
+        else:
+            yield from (say("{node}: {text}", node=node, text=text) for node in having)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import say
 from grader.verdict.checks.declare import RUN, check
 from grader.verdict.checks.faults import flood, node_file, resource, traceback_of, words
-from grader.verdict.outcome import Failed, Passed
+from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
     from grader.run.run import Run
@@ -42,6 +42,8 @@ def stays(evidence: Evidence) -> Passed:
             words=words(evidence),
         )
     if run.seen is not None and run.seen.stuck is not None and _is_stuck(run):
+        if evidence.has_failed("run.spins"):
+            raise Blocked(by="run.spins")
         raise Failed(
             "run.stuck",
             expected=expected,
