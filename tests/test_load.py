@@ -1,7 +1,7 @@
 """A verdict does not depend on the load of the machine.
 
 The long part marks forty packages three times alone and three times beside thirty busy processes,
-and prints a table. `make test-long PYTEST_ARGS="tests/test_load.py -k draw_circle"` takes a part.
+and prints a table. `make test-long PYTEST_ARGS="-n 0 tests/test_load.py -k draw_circle"` takes a part.
 """
 
 from __future__ import annotations

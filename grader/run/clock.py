@@ -9,10 +9,9 @@ of the barrier. Nodes that do not follow `/clock` are watched on the wall clock.
 from __future__ import annotations
 
 import itertools
-import os
 import statistics
 import time
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
@@ -45,24 +44,6 @@ FIRST_SECONDS = 0.5  # of it, in which a flood shows itself
 WALL_SPARE = 3.0  # seconds of wall time in addition to the ticks'
 MOST_AT_ONCE = 16  # lines of the count at one instant, after which the clock is no longer driven
 STILL = 1.3  # periods of wall time without a /clock message, to detect a wall clock
-
-
-class Lap:
-    """Measures how long a step takes, without the time in which its processes waited for a core."""
-
-    def __init__(self, pids: Collection[int]) -> None:
-        self._pids = pids
-        self._begin, self._waited = time.monotonic(), seconds_waited(pids)
-
-    def own_seconds(self) -> float:
-        """Return the seconds since it was made in which the processes ran or slept.
-
-        At most: threads wait side by side. 0 if the processes are unknown.
-        """
-        if not self._pids:
-            return 0.0
-        waited = seconds_waited(self._pids) - self._waited
-        return max(0.0, time.monotonic() - self._begin - waited)
 
 
 class VirtualClock:
@@ -159,7 +140,7 @@ class VirtualClock:
     def _at_due_instants(self, watch: Watch, phase: int, on_event: Callable[[Event], None]) -> bool:
         """Watch the due instants from `phase` on; return whether ticks came at these only."""
         already = len(watch.dues)
-        lap: Lap | None = None
+        lap: float | None = None
         for k in range(already, self._ticks):
             due = phase + (k - already) * self._period
             if k == self._ticks - 1 and self._stay_until:
@@ -168,8 +149,9 @@ class VirtualClock:
                     return False
             early = self._go_to(due - MILLISECOND, fine=k >= self._fine_from)
             if lap is not None:
-                watch.held.append(lap.own_seconds())
-            lap = None if self._fine else Lap(self._pids)
+                held = self._run_clock.now() - lap
+                watch.held.append(held if self._knows_the_node else 0.0)
+            lap = None if self._fine else self._run_clock.now()
             watch.events += early
             if self._many_at(watch, k - 1):
                 return False
@@ -210,11 +192,9 @@ class VirtualClock:
         return not watch.early and not self._over()
 
     @cached_property
-    def _pids(self) -> set[int]:
-        """The processes that a step waits for: the node's and ours."""
-        observer = self._observer
-        node = observer.terminal.processes()
-        return {*node, *observer.probe.pipe.processes(), os.getpid()} if node else set()
+    def _knows_the_node(self) -> bool:
+        """Whether the run's clock stands still while the node waits for a core."""
+        return bool(self._observer.terminal.processes())
 
     def _go_to(self, at: int, *, fine: bool = False) -> list[Event]:
         """Set the clock to an instant, in one step or, if `fine`, in many.

@@ -36,6 +36,7 @@ MILLISECOND = 1_000_000
 PREPARE_SECONDS = 5.0  # of the run's time, to make the probe's ends
 STEP_SECONDS = 2.0  # of the run's time, for one step
 SETTLE_SECONDS = 3.0  # of the run's time, within which a spinning node gives its first answer
+RECEIVED = ("publish", "call", "goal", "set")  # what a node must be there to receive
 FINE_TICKS = 8  # before which the clock stops 1 ms earlier too
 NOTHING = "false"  # the command in place of a node that has no executable
 UNANSWERED = 5  # unanswered steps in a row after which the nodes count as stuck
@@ -313,13 +314,14 @@ class _Scene:
     def _act(self, done: Done, command: str, **more: object) -> Mapping[str, Any]:
         """Let the probe do something, count who received it, and keep what came of it.
 
-        What nobody was there to receive is done again until the run's clock says that nobody comes.
+        What nobody is there to receive waits until the run's clock says that nobody comes.
         """
         limit = self._run_clock.limit(STEP_SECONDS)
         while True:
-            said = self.probe.said(command, seconds=limit.rest, **more)
+            last = limit.over or command not in RECEIVED
+            said = self.probe.said(command, seconds=limit.rest, last=last, **more)
             self._record(said)
-            if said["heard"] or limit.over or self.over:
+            if said["heard"] or last or self.over:
                 done.heard += int(said["heard"])
                 return said
 
