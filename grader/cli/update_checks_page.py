@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import re
 from collections.abc import Iterator
 from typing import Any, get_args, get_origin
@@ -13,6 +14,7 @@ from pydantic_core import PydanticUndefined
 from grader.base.project import CHECKOUT
 from grader.course.shorthands import SHORTHANDS
 from grader.course.values import KEYS, Form
+from grader.course.worlds import WORLDS
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.checks.declare import Check
 
@@ -57,6 +59,7 @@ def page() -> str:
     for check in CHECKS.values():
         if check.parameters is not None:
             lines += list(_kind(check, check.parameters))
+    lines += list(_worlds())
     lines += [
         "## Kinds whose parameters are elsewhere in the file\n",
         "These checks need no `check:` and no `with:`.\n",
@@ -83,10 +86,39 @@ def page() -> str:
     return "\n".join(lines) + "\n"
 
 
+def _worlds() -> Iterator[str]:
+    """Yield what each world offers."""
+    yield "## Worlds\n"
+    yield (
+        "`world:` of a run names one. Positions are in m, angles in rad; y is up, and 0 rad looks to "
+        "larger x.\nA world moves in steps of 0.016 s. Where a node subscribes to what a world "
+        "publishes, `/clock` shows each\nsuch step too, and the world waits until the node has run "
+        "its callbacks: its commands hold from the\nnext step on.\n"
+    )
+    for name, world in WORLDS.items():
+        x, y, theta = world.start
+        yield f"### World `{name}`\n"
+        yield f"{world.about}\n"
+        yield (
+            f"Its field is a square of {world.size:.4g} m, from (0, 0) to ({world.size:.4g}, "
+            f"{world.size:.4g}). `{world.first}` begins at x {x:.4g}, y {y:.4g}, theta\n{theta:g}; "
+            "`turtle:` is this one unless you name another.\n"
+        )
+        yield "| name | type | use |"
+        yield "|---|---|---|"
+        for offer in world.offers:
+            yield f"| `{offer.name}` | `{offer.type}` | {offer.use} |"
+        yield "\n| event | when |"
+        yield "|---|---|"
+        for event, when in world.events.items():
+            yield f"| `{event}` | {when} |"
+        yield ""
+
+
 def _kind(check: Check, model: type[BaseModel]) -> Iterator[str]:
     title = re.sub(r"\{(\w+)\}", r"*\1*", check.title)
     yield f"### `{check.id}`\n"
-    yield f"{title}. {(model.__doc__ or '').strip()}\n"
+    yield f"{title}. {inspect.cleandoc(model.__doc__ or '')}\n"
     yield "| key | type | default |"
     yield "|---|---|---|"
     for name, field in model.model_fields.items():
@@ -96,6 +128,8 @@ def _kind(check: Check, model: type[BaseModel]) -> Iterator[str]:
 
 
 def _default(field: FieldInfo) -> str:
+    if field.description:
+        return field.description
     value = field.get_default(call_default_factory=True)
     assert value is not PydanticUndefined
     return str(value) if value not in (None, "", {}) else "none"

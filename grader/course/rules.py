@@ -28,7 +28,8 @@ from grader.course.scenario import (
     Start,
     Stimulus,
 )
-from grader.course.shorthands import SHORTHANDS
+from grader.course.shorthands import OF_WORLD, SHORTHANDS
+from grader.course.worlds import WORLDS
 from grader.report.detail import FeedbackRules
 
 ARCHIVE = r"(?!\.)(?:[\w.-]|\{student\}){1,100}\.zip"
@@ -275,11 +276,27 @@ def _uses_of_runs(lesson: Lesson) -> Iterator[Fault]:
                 (*place, "after"),
                 f"unknown stimulus '{use.after}'{meant_or_known(use.after, done)}",
             )
+        yield from _of_world(use, plan, place)
         if use.during is not None and use.during[0] > use.during[1]:
             yield (
                 (*place, "during"),
                 "during must be [first, last] in s, the first not above the last",
             )
+
+
+def _of_world(use: CheckUse, plan: RunPlan, place: Loc) -> Iterator[Fault]:
+    """Yield that a check of the world has none, or asks for what its world does not have."""
+    if not use.kind.startswith(OF_WORLD):
+        return
+    world = WORLDS.get(plan.world)
+    event = use.with_.get("event")
+    if world is None:
+        text = f"'{use.kind}' needs a world, the run '{plan.name}' has none"
+        yield (*place, "check" if use.check else "id"), text
+    elif isinstance(event, str) and event not in world.events:
+        hint = meant_or_known(event, tuple(world.events))
+        text = f"the world '{plan.world}' has no event '{event}'{hint}"
+        yield (*place, "with", "event"), text
 
 
 def merge_hidden(

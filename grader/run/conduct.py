@@ -9,6 +9,7 @@ from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.course.assignment import Assignment
 from grader.course.scenario import RunPlan, Start, Stimulus
+from grader.package.source.timer_periods import TimerPeriods
 from grader.ros.distro import Distro
 from grader.run.in_probe.turtlesim import STEP
 from grader.run.observations import Done, End, Goal, Message, Observations, Parameter, Pose
@@ -37,6 +38,8 @@ PREPARE_SECONDS = 5.0  # of the run's time, to make the probe's ends
 STEP_SECONDS = 2.0  # of the run's time, for one step
 SETTLE_SECONDS = 3.0  # of the run's time, within which a spinning node gives its first answer
 RECEIVED = ("publish", "call", "goal", "set")  # what a node must be there to receive
+UNKNOWN_STEPS = 10.0  # of the clock's period, for timers of which the source does not say it
+MOST_STEPS = 50  # of the clock's period
 FINE_TICKS = 8  # before which the clock stops 1 ms earlier too
 NOTHING = "false"  # the command in place of a node that has no executable
 UNANSWERED = 5  # unanswered steps in a row after which the nodes count as stuck
@@ -63,10 +66,12 @@ def conduct(
     on_event: Callable[[Event], None],
     *,
     until: float,
+    timers: TimerPeriods,
 ) -> Run:
     """Start the nodes, drive clock and world through the plan, press Ctrl+C, return the result.
 
-    The run ends at `until` (by the run's clock) at the latest. Raises ProbeError if our own side
+    The run ends at `until` (by the run's clock) at the latest; `timers` are those of the source.
+    Raises ProbeError if our own side
     failed, UsageError if the plan names a type or a field that ROS does not have.
     """
     limits = sandbox.limits
@@ -86,6 +91,7 @@ def conduct(
         observer = Observer(terminals[0], probe, assignment.output, terminals[1:])
         scene = _Scene(assignment, plan, probe, observer, terminals, run, on_event)
         scene.deadline = min(begin + limits.run_seconds, probe.until)
+        scene.grid = _grid(plan, timers)
         scene.play(begin, limits.start_seconds)
         _end(run, scene, limits.stop_seconds)
     except ProbeError:
@@ -123,6 +129,21 @@ def _prepare(probe: ProbeLink, plan: RunPlan) -> None:
         )
 
 
+def _grid(plan: RunPlan, timers: TimerPeriods) -> int:
+    """Return the steps (ns) in which the clock goes on between two instants; 0 for one step.
+
+    A timer fires once after a jump of the clock, however long the jump is: one that is faster than
+    the clock would be as slow as the clock. If the source does not say how fast the timers are, and
+    a check asks for a period, the steps are a part of the clock's.
+    """
+    period = plan.clock.period
+    unknown = bool(plan.periods) and not timers.are_known
+    steps = UNKNOWN_STEPS if unknown else 1.0
+    if timers.fastest is not None:
+        steps = max(steps, min(MOST_STEPS, period / timers.fastest))
+    return round(period / steps * SECOND) if steps > 1 else 0
+
+
 class _Scene:
     """A run that goes on."""
 
@@ -142,10 +163,12 @@ class _Scene:
         self._on_event = on_event
         self._run_clock = observer.run_clock
         self.deadline = 0.0  # by the run's clock
+        self.grid = 0  # ns, the steps of the clock between two instants; 0 for none
         self.at = 0  # ns
         self._unanswered = 0
         self._dying_left = DYING_SECONDS
         self._names = {begin.node: full_name(assignment, begin) for begin in plan.start}
+        self._unknown: set[str] = set()  # topics with messages of publishers that are not known
         self._waiting = sorted(plan.do, key=lambda one: one.at)
 
     @property
@@ -244,24 +267,35 @@ class _Scene:
         return all(node.answers for node in self.run.nodes)
 
     def _tick(self, at: int) -> None:
-        """Show an instant; at first also the moment before it, when nothing may come yet.
+        """Show an instant, and the steps before it; at first also the moment before it.
 
         A timer that is faster than the clock's period shows itself there.
         """
+        if self.grid:
+            first = (self.at // self.grid + 1) * self.grid
+            for step in range(first, at - MILLISECOND, self.grid):
+                if not self.over:
+                    self._show(step)
         if len(self.seen.instants) < FINE_TICKS:
             self._show(at - MILLISECOND)
         self._show(at)
         self.seen.instants.append(round(at / SECOND, 6))
+        heard, self._unknown = self._unknown, set()
+        due = self._waiting and self._waiting[0].at <= at / SECOND + 1e-9
+        if (due or heard) and not self.over:  # (what a stimulus changes, and who sent a message)
+            self._look_at_ends()
         self._do_all(at / SECOND)
 
     def _show(self, at: int) -> None:
+        barriers = 1 + (at // STEP - self.at // STEP if self.plan.world else 0)
         self.at = at
         self.observer.now = at / SECOND
-        limit = self._run_clock.limit(STEP_SECONDS)
-        said = self.probe.said("tick", seconds=STEP_SECONDS, at=at)
+        limit = self._run_clock.limit(barriers * STEP_SECONDS)
+        asked = {"each": STEP_SECONDS * self._run_clock.pace, "at": at}
+        said = self.probe.said("tick", seconds=barriers * STEP_SECONDS, **asked)
         self._record(said)
         while said["barrier"] is False and not limit.over and not self.over:
-            said = self.probe.said("tick", seconds=limit.rest, at=at)
+            said = self.probe.said("tick", seconds=limit.rest, **asked)
             self._record(said)
         silent = said["barrier"] is False
         self._unanswered = self._unanswered + 1 if silent else 0
@@ -335,6 +369,8 @@ class _Scene:
                 sent = min(at, MILLISECOND / SECOND) if before else at
                 seen.messages.append(Message(str(topic), sent, values))
         for topic, count in said.get("counts", {}).items():
+            if topic not in seen.counts and not seen.ends_of("publisher", topic):
+                self._unknown.add(topic)
             seen.counts[topic] = seen.counts.get(topic, 0) + int(count)
         for name, reply in said.get("replies", ()):
             found = seen.stimulus(str(name))
@@ -373,13 +409,8 @@ class _Scene:
             self._on_event(event)
 
     def _look(self) -> None:
-        """Read the graph and the parameters."""
-        known = {(end.node, end.role, end.name, end.type) for end in self.seen.ends}
-        said = self.probe.said("look_closely", seconds=LOOK_SECONDS)
-        for found in said.get("ends", ()):
-            end = End(**found)
-            if (end.node, end.role, end.name, end.type) not in known:
-                self.seen.ends.append(end)
+        """Read the graph and the parameters; a value counts as it was when it was read first."""
+        self._look_at_ends()
         now = self.probe.ask("look").nodes
         left = {node.name: node for node in self.run.nodes if now and self.run.others}
         there = {**left, **{node.name: node for node in now}}  # (of several, one that has gone too)
@@ -388,9 +419,11 @@ class _Scene:
         if self.over:
             return
         for name in self._names.values():
-            found = self._asked(name)
-            if found is not None:
-                self.seen.parameters[name] = [_parameter(one) for one in found]
+            asked = self._asked(name)
+            if asked is not None:
+                found = {one.name: one for one in map(_parameter, asked)}
+                found |= {one.name: one for one in self.seen.parameters.get(name, ())}
+                self.seen.parameters[name] = list(found.values())
 
     def _asked(self, name: str) -> Any:
         """Return what a node says about its parameters; None if it does not answer."""
@@ -399,6 +432,15 @@ class _Scene:
             said = self.probe.said("parameters", seconds=limit.rest, name=name)
             if said.get("parameters") is not None or limit.over or self.over:
                 return said.get("parameters")
+
+    def _look_at_ends(self) -> None:
+        """Read the graph. Ends that were there once stay known: some nodes destroy theirs."""
+        known = {(end.node, end.role, end.name, end.type) for end in self.seen.ends}
+        said = self.probe.said("look_closely", seconds=LOOK_SECONDS)
+        for found in said.get("ends", ()):
+            end = End(**found)
+            if (end.node, end.role, end.name, end.type) not in known:
+                self.seen.ends.append(end)
 
 
 def _parameter(found: Mapping[str, Any]) -> Parameter:

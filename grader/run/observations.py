@@ -39,7 +39,7 @@ class End:
 
 @dataclass(frozen=True)
 class Parameter:
-    """A parameter of a node, as its services describe it at the end of the run."""
+    """A parameter of a node, as its services describe it when it was first seen: at the start."""
 
     name: str
     type: str

@@ -167,7 +167,8 @@ class Session:
             if self._planned:
                 restore(self.sandbox, self._built)
             self._planned = True
-            run = self._observed(partial(conduct, self.sandbox, named, plan), on_event)
+            observed = partial(conduct, self.sandbox, named, plan, timers=self._periods)
+            run = self._observed(observed, on_event)
             if run.doubts_ros2:
                 prove_again(self.sandbox)
             return run

@@ -29,6 +29,7 @@ STRETCH = 20.0
 """How many times its limit of wall time something may take at most, on however busy a machine."""
 SAMPLE_SECONDS = 0.02  # of wall time between two looks at the processes
 LOOKS_COST = 20  # times its own duration until the next look, so that it takes 5 % of a core
+PACE_SECONDS = 1.0  # of wall time over which the pace is measured
 SLICE_SECONDS = 0.25  # of wall time for which one may wait without asking the clock
 MOST_SPARE = 0.5  # seconds that others had a core, and for which one may wait later
 SHORT_SECONDS = 0.3  # of a limit for which the clock is read anew each time
@@ -91,6 +92,9 @@ class RunClock:
         """Seconds by which it went on although processes waited."""
         self.starved = False
         """Whether a limit was reached only so."""
+        self.pace = 1.0
+        """How many seconds of wall time a second has taken lately, from 1 to STRETCH."""
+        self._paced = (self._now, self._now)
 
     def now(self, *, at_once: bool = False) -> float:
         """Return the time; it goes on in small steps, `at_once` too, and never faster than wall time."""
@@ -102,6 +106,10 @@ class RunClock:
             least = passed / STRETCH
             self.forced += max(0.0, least - own)
             self._now += max(own, least)
+            wall, passed = self._latest.at - self._paced[0], self._now - self._paced[1]
+            if wall > PACE_SECONDS:
+                self.pace = max(1.0, min(STRETCH, wall / max(passed, wall / STRETCH)))
+                self._paced = (self._latest.at, self._now)
             cost = time.monotonic() - self._latest.at
             self._next = time.monotonic() + max(SAMPLE_SECONDS, LOOKS_COST * cost)
         return self._now

@@ -5,7 +5,8 @@ prefix's Python: they import nothing else of the grader. `commands(probe)` retur
 - `prepare` makes the subscriptions (`watch`), publishers (`publish`), clients (`call`) and action
   clients (`goal`) that the scenario needs, and the `world`; `unknown` has the types that do not exist;
 - `tick` moves the world to `at`, whose messages go out, publishes this instant on /clock and makes
-  a barrier: round trips, which are behind all of that in each node's queue;
+  a barrier: round trips, which are behind all of that in each node's queue; it does the same at each
+  update of the world before that whose messages a node hears, `each` s of wall time for a barrier;
 - `publish`, `call`, `goal`, `cancel`, `set` and `place` act on the nodes and the world, with a
   barrier after it;
 - `look_closely` returns the whole graph; `parameters` those of the node `name`.
@@ -39,11 +40,10 @@ MOST_MESSAGES = 40  # of a topic in one answer
 ACK_SECONDS = 1.0  # wall time for the acknowledgement of a message
 MATCH_SECONDS = 2.0  # wall time for a publisher and a subscription to find each other
 MISSING_TRIES, MISSING_SECONDS = 12, 0.3  # barriers and wall time after which a message is missing
-ECHO_SECONDS = 0.05  # wall time for those messages, before round trips are made instead
 SERVE_TURNS = 6  # of the executor
 SERVE_SECONDS = 0.005  # wall time after which the executor runs if no answer comes
 MOST_LOGS = 1_000  # records that are taken at once
-MOST_TRIPS = 7  # at once, behind as many messages of a world
+TRIPS = 2  # at once: a node takes one request and one message of a topic at a time
 REACTION_TRIES = 3  # further barriers after a stimulus
 PAUSE_SECONDS = 0.002
 
@@ -79,7 +79,6 @@ class Scenario:
         self.periods: dict[str, int] = {}  # ns between the messages that are awaited on topics
         self.latest: dict[str, int] = {}  # when a message was read last, and how long after another
         self.gaps: dict[str, int] = {}
-        self.echo = ""  # a topic that had a message for each step of the world at the last instant
         self.asked = False  # whether nodes have clients, which may ask the world
         self.at = 0  # ns, the instant that the clock shows
         self.began = 0  # ns of wall time, when the clock showed its first instant
@@ -234,21 +233,17 @@ class Scenario:
         """Move the world and the clock to an instant."""
         self.began = self.began or time.time_ns()
         self.at = at = command["at"]
-        steps = 0
-        if self.world is not None:
-            self.world.collect(at)
-            steps = self.world.advance(at)
         found = dict.fromkeys(self.watched, 0)
-        if steps:  # a node takes one message of a topic and one request at a time
+        if self.world is not None:
+            self.advance_world(at, found, command["each"])
+            deadline = time.monotonic() + command["each"]
             self.probe.show(at)
-            echoed = self.await_echo(steps, found, deadline)
-            barrier = self.trips(1 if echoed else min(steps, MOST_TRIPS) + 1, deadline)
+            barrier = self.trips(TRIPS, deadline)
             if self.asked:
                 self.serve()
         else:
             barrier = self.probe.set_clock(command, deadline)
         self.take_into(found)
-        self.echo = next((topic for topic, count in found.items() if 1 < count == steps), "")
         tries, began = 0, time.monotonic()
         while barrier and any(not found[topic] for topic in found if self.is_due(topic, at)):
             if tries >= MISSING_TRIES and time.monotonic() - began > MISSING_SECONDS:
@@ -263,19 +258,33 @@ class Scenario:
             self.world.collect(at)
         return self.result(barrier)
 
-    def await_echo(self, steps: int, found: dict[str, int], deadline: float) -> bool:
-        """Wait for the messages of a node that answered each step of the world at the last instant.
+    def advance_world(self, at: int, found: dict[str, int], seconds: float) -> None:
+        """Move the world to an instant, update by update.
 
-        One round trip after that is enough, since all others are behind those. Return whether
-        they came; `found` has their number.
+        Where nodes hear what an update sends, the clock shows it and the world waits for what they
+        do, for `seconds` of wall time at most: the next update follows their commands. The last
+        one before the instant is left to the caller, and so are all if nodes do not answer.
         """
-        if not self.echo:
-            return False
-        until = min(deadline, time.monotonic() + ECHO_SECONDS)
-        while found[self.echo] < steps and time.monotonic() < until:
-            self.wait_for(subscriptions=self.watched[self.echo])
+        world, answers = self.world, True
+        world.collect(at)
+        while world.now + world.STEP <= at:
+            world.advance(world.now + world.STEP)
+            if world.now + world.STEP > at or not answers or not self.is_heard(world.sent):
+                continue
+            self.probe.show(world.now)
+            until = time.monotonic() + seconds
+            nodes = sum(peer.answered for peer in self.probe.peers.values())
+            for _ in range(nodes):  # a reaction may go through all of them
+                answers = bool(answers and self.trips(TRIPS, until))
             self.take_into(found)
-        return found[self.echo] >= steps
+            world.collect(world.now)
+
+    def is_heard(self, publishers: Sequence[Any]) -> bool:
+        """Whether somebody else subscribes to one of the world's topics."""
+        return any(
+            one.get_subscription_count() > len(self.watched.get(one.topic_name, ()))
+            for one in publishers
+        )
 
     def is_due(self, topic: str, at: int) -> bool:
         """Whether a message is awaited at an instant: by the checks, or as those before came."""
@@ -372,8 +381,9 @@ class Scenario:
 
     def place(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
         """Put a turtle into the world: a new one, or one that is there."""
-        where = [command[key] for key in ("turtle", "x", "y", "theta")]
-        heard = int(getattr(self.world, command["how"])(*where))
+        where = [command[key] for key in ("x", "y", "theta")]
+        turtle = command["turtle"] or self.world.unnamed(command["how"])
+        heard = int(getattr(self.world, command["how"])(turtle, *where))
         barrier = self.react(deadline)
         return {**self.result(barrier), "heard": heard}
 
