@@ -107,8 +107,11 @@ def class_result(
 
 
 def _without_owner(entry: GradebookEntry, why: str) -> GradebookEntry:
-    """Return the entry without a grade if it is not known whose the submission is."""
-    if not why:
+    """Return the entry without a grade if it is not known whose the submission is.
+
+    The instructor's own points for it stay.
+    """
+    if not why or any(override.check == "" for override in entry.overrides):
         return entry
     return replace(entry, status="unclear", final=None, penalty=0, notes=(*entry.notes, why))
 
@@ -145,7 +148,7 @@ def _with_overrides(
 ) -> tuple[list[Attempt], list[Override]]:
     """Return the attempts with the corrections of their verdicts, and the other corrections."""
     own: dict[int, list[Override]] = defaultdict(list)
-    rest = []
+    rest: list[Override] = []
     for override in overrides:
         places = [
             n for n, one in enumerate(dated) if holds(ledger, override, one.verdict, one.submission)

@@ -18,6 +18,7 @@ from grader.course.worlds import WORLDS
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.checks.declare import Check
 
+COVERS = {"": " ", "files": "node", "runs": "node, runs"}
 PAGE = CHECKOUT / "docs" / "checks.md"
 HEAD = """\
 # The checks
@@ -69,16 +70,19 @@ def page() -> str:
         values = ", ".join(f"`{key}`: `{place}`" for key, place in short.values.items())
         lines.append(f"| `{name}` | `{short.kind}` | {values} |")
     lines += [
-        "\nIn schema 2 `node_name` is the `name` of the first node of the first run. Only schema 1 has "
-        "`output`, which\nalso drives the run: there its kinds are used in this form only.\n",
+        "\nIn schema 2 `run.node_name` is about the `name` of each node, in each run that starts it. Only "
+        "schema 1 has\n`output`, which also drives the run: there its kinds are used in this form only.\n",
         "## Checks without parameters\n",
-        "| id | what is checked | skipped unless |",
-        "|---|---|---|",
+        "One with *node* in the last column covers each node of the assignment; with *runs*, each run "
+        "that starts the\nnode. With `of:` it is about that node alone.\n",
+        "| id | what is checked | skipped unless | covers |",
+        "|---|---|---|---|",
     ]
     for check in CHECKS.values():
         if check.parameters is None:
             depends = ", ".join(f"`{name}`" for name in check.depends) or " "
-            lines.append(f"| `{check.id}` | {check.title} | {depends} |")
+            covers = COVERS[check.covers]
+            lines.append(f"| `{check.id}` | {check.title} | {depends} | {covers} |")
     return "\n".join(lines) + "\n"
 
 

@@ -188,6 +188,24 @@ class Assignment(Part):
         """The period as Python code; "…", which Python cannot read, if the assignment names none."""
         return "…" if self.period is None else repr(self.period)
 
+    def about(self, node: str) -> Assignment:
+        """Return the same with another main node: `node_file` and so on are that node's.
+
+        The package is that of the node. An unknown node, such as "", changes nothing.
+        """
+        found = self.nodes.get(node)
+        if found is None:
+            return self
+        return self.model_copy(
+            update={
+                "package": found.package or self.package,
+                "node_file": found.file,
+                "node_name": found.name,
+                "executable": found.executable,
+                "target": found.target,
+            }
+        )
+
     def plan(self, name: str) -> RunPlan:
         """Return a run's plan; the first one if the name is ""."""
         return next((plan for plan in self.runs if plan.name == name), self.runs[0])

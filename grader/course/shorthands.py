@@ -33,7 +33,9 @@ class Shorthand:
         return any(place.startswith("output.") for place in self.values.values())
 
     def use(self, use: CheckUse, assignment: Assignment) -> CheckUse:
-        """Return a use of the kind, with its parameters."""
+        """Return a use of the kind, with its parameters; those of a node are each node's own."""
+        if assignment.nodes and not self.needs_output:
+            return use.model_copy(update={"check": self.kind, "with_": {}})
         given = {name: attrgetter(place)(assignment) for name, place in self.values.items()}
         return use.model_copy(update={"check": self.kind, "with_": given})
 

@@ -98,7 +98,8 @@ class Observations:
     """The observations of a run; `period` is the clock's, `instants` those that it showed.
 
     `counts` are the numbers of messages by topic; only the first of a step are in `messages`.
-    `parameters` are by the node's full name. `stuck` is the instant from which on no node answered.
+    `parameters` are by the node's full name. `stuck` is the instant from which on not every node
+    answered, `silent` the full names of those of several that do not.
     `unusable` has the types of the submission's own packages that could not be used, and why.
     """
 
@@ -114,6 +115,7 @@ class Observations:
     events: list[dict[str, Any]] = field(default_factory=list)
     stuck: float | None = None
     unusable: dict[str, str] = field(default_factory=dict)
+    silent: list[str] = field(default_factory=list)
     complete: bool = False
 
     def of_topic(self, topic: str) -> list[Message]:

@@ -24,14 +24,16 @@ from grader.run.clock import GRID
 from grader.run.conduct import conduct
 from grader.run.observer import Event
 from grader.run.probe_link import ProbeError, ProbeLink
-from grader.run.run import Run, counts_plainly, observe
+from grader.run.run import WALL_TOLERANCE, Run, counts_plainly, observe
 from grader.run.student_interfaces import interfaces_of
 from grader.run.unforeseen import Unforeseen, unforeseen
-from grader.run.workspace import Build, build, restore, save
-from grader.sandbox.base import Sandbox
+from grader.run.workspace import BUILD, Build, build, restore, save
+from grader.sandbox.base import LOAD, Sandbox
 from grader.sandbox.proof import prove_again
+from grader.sandbox.scheduling import StarvedError
 
 WORKS_SECONDS = 10.0
+BUSY = "the machine was too busy: mark it again when less runs beside it"
 LEAST_HELD = 3  # steps
 REFUSED = {
     "memory": re.compile(r"MemoryError|bad_alloc|Cannot allocate memory"),
@@ -55,7 +57,7 @@ class Unobserved(Exception):  # noqa: N818 - not an error of the node
 class Session:
     """Builds and runs one package in an open sandbox; `timing` has the seconds of each stage.
 
-    A session may take the limits' `verdict_seconds`, or until `deadline` (of `time.monotonic`); a
+    A session may take the limits' `verdict_seconds`, or until `deadline` (of the run's clock); a
     run that does not fit into what is left of them is not started. `note` is told of faults of ours
     that cost no check.
     """
@@ -71,7 +73,8 @@ class Session:
         self._note = note
         self.sandbox = sandbox
         self.assignment = assignment
-        self.deadline = deadline or time.monotonic() + sandbox.limits.verdict_seconds
+        self.run_clock = sandbox.run_clock
+        self.deadline = deadline or self.run_clock.now() + sandbox.limits.verdict_seconds
         self.timing = {"build": 0.0, "run": 0.0}
         self._probe: ProbeLink | None = None
         self._interfaces = b""  # those of the submission, for the probe
@@ -103,7 +106,10 @@ class Session:
         """
         begin = time.monotonic()
         if submission.packages:  # before the student's code runs
-            self._interfaces = interfaces_of(self.sandbox, submission)
+            try:
+                self._interfaces = interfaces_of(self.sandbox, submission)
+            except StarvedError:
+                return Build(BUILD, None, "", time.monotonic() - begin, stopped_by=LOAD)
         self._probe = self._probe or self._new_probe()
         try:
             self._read_sources(submission)
@@ -111,6 +117,8 @@ class Session:
             self._note(f"the sources were not read because of a fault of ours: {fault!r}")
         try:
             made = build(self.sandbox, submission, package=self.assignment.package)
+            if made.stopped_by == LOAD:
+                made = build(self.sandbox, submission, package=self.assignment.package)
             if made.doubts_colcon:
                 prove_again(self.sandbox)
             if made.status == 0 and (self._is_confirmed() or len(self.assignment.runs) > 1):
@@ -235,9 +243,11 @@ class Session:
         while tries < RUNS and self._has_time():
             tries += 1
             self._probe = self._probe or self._new_probe()
-            until = min(time.monotonic() + self.sandbox.limits.max_run_seconds, self.deadline)
+            self.run_clock.starved = False
             try:
-                run = observed(self._probe, on_event, until=until)
+                run = observed(self._probe, on_event, until=self._until)
+                if self.run_clock.starved:
+                    raise ProbeError(BUSY)
             except ProbeError as error:
                 failure = error
                 continue
@@ -252,6 +262,8 @@ class Session:
             return run
         if failure is None:
             raise Unobserved("the verdict's time limit left no time for a run")
+        if str(failure) == BUSY:
+            raise Unobserved(BUSY)
         prove_again(self.sandbox)
         raise Unobserved(f"the probe failed in all {tries} runs, the last time: {failure}")
 
@@ -320,9 +332,11 @@ class Session:
         tries = 0
         while tries < CONFIRMING_RUNS and self._has_time():
             clean = not self._built or restore(self.sandbox, self._built)
-            until = min(time.monotonic() + self.sandbox.limits.max_run_seconds, self.deadline)
-            if clean and counts_plainly(self.sandbox, named, patience=patience, until=until):
+            self.run_clock.starved = False
+            if clean and counts_plainly(self.sandbox, named, patience=patience, until=self._until):
                 return True
+            if self.run_clock.starved:
+                return None
             tries += 1
         return False if tries == CONFIRMING_RUNS else None
 
@@ -332,7 +346,13 @@ class Session:
 
     def _has_time(self) -> bool:
         """Whether the verdict's time limit leaves time for a whole run."""
-        return self.deadline - time.monotonic() >= self.sandbox.limits.max_run_seconds
+        return self.deadline - self.run_clock.now() >= self.sandbox.limits.max_run_seconds
+
+    @property
+    def _until(self) -> float:
+        """When a run that begins now ends at the latest, by the run's clock."""
+        longest = self.run_clock.now() + self.sandbox.limits.max_run_seconds
+        return min(longest, self.deadline)
 
     def _doubtful(self, run: Run) -> bool:
         """Whether load of the machine may have made this run look worse than the node is."""
@@ -348,7 +368,8 @@ class Session:
 
     def _period_holds(self, run: Run) -> bool:
         wanted = self.assignment.output.period
-        return run.watch.period is None or abs(run.watch.period - wanted) <= 0.05 * wanted
+        tolerance = WALL_TOLERANCE * wanted
+        return run.watch.period is None or abs(run.watch.period - wanted) <= tolerance
 
     def _second_opinion(self, first: Run, second: Run) -> Run:
         if first.watch.clock == second.watch.clock == "virtual":
@@ -356,7 +377,7 @@ class Session:
         if not second.nodes or self._on_time(second):
             return second
         before, after = first.watch.period or 0.0, second.watch.period or 0.0
-        second.inconsistent = abs(before - after) > AGREE * self.assignment.output.period
+        second.inconsistent |= abs(before - after) > AGREE * self.assignment.output.period
         return second
 
     def _resource(self, status: int | None) -> str:

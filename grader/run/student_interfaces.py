@@ -23,7 +23,8 @@ from grader.package.submission import Package, Submission
 from grader.ros.distro import HERE
 from grader.ros.interface_package import BUILD, USED, interface_package
 from grader.ros.prefix import Ros
-from grader.sandbox.base import Sandbox
+from grader.sandbox.base import LOAD, Sandbox
+from grader.sandbox.scheduling import StarvedError
 
 FORMAT = 2  # increment it when something else is built
 BUILD_SECONDS = 120.0
@@ -63,6 +64,7 @@ def interfaces_of(sandbox: Sandbox, submission: Submission) -> bytes:
     """Return the built interfaces of a submission as a tar archive; b"" if there are none.
 
     They are b"" too if the texts cannot be built: then the student's own build fails as well.
+    Raises StarvedError if the machine is too busy to build them.
     """
     packages = [texts for texts in map(texts_of, submission.packages) if texts.texts]
     if not packages:
@@ -113,6 +115,8 @@ def _build(sandbox: Sandbox, packages: list[Texts]) -> bytes:
         seconds=BUILD_SECONDS,
         output=MOST_OUTPUT,
     )
+    if outcome.stopped_by == LOAD:
+        raise StarvedError("the machine was too busy to build the interfaces")
     return outcome.output if outcome.status == 0 else b""
 
 

@@ -18,7 +18,7 @@ from grader.run.run import Run
 from grader.run.session import Unobserved
 from grader.run.workspace import Build
 from grader.verdict.outcome import Inconclusive, Outcome
-from grader.verdict.own_names import own_executable, with_own_names
+from grader.verdict.own_names import with_own_executables, with_own_names
 
 if TYPE_CHECKING:
     from grader.run.variants import Trace
@@ -42,8 +42,12 @@ class Evidence:
     the evidence of the package as it is after a fix, or of None; `tried` has what that showed, by
     the fix's SHA-256, and `untried` all results without a fix, once a fix was compared with them.
     `search` looks for small changes after which the node counts; `found_changes` has them (None: not
-    looked for). `follow` follows a short run of the node.
+    looked for). `follow` follows a short run of the node. `parts` has the results of a check for
+    each node that it covers, by the check's id; see `grader.verdict.of_node`.
     """
+
+    node, run_name, start = "", "", 0
+    """The node, the run and its program that all is about, if it is about one."""
 
     def __init__(
         self,
@@ -62,6 +66,7 @@ class Evidence:
         self.submission = submission
         self.results: dict[str, CheckResult] = {}
         self._build_failed = False
+        self.parts: dict[str, list[CheckResult]] = {}
         self.not_blocking: set[str] = set()
         self.distro: Distro | None = None
         self._make_build = build
@@ -103,11 +108,8 @@ class Evidence:
 
     @property
     def named(self) -> Assignment:
-        """The assignment with all names that the built package has, the executable's included."""
-        name = own_executable(self.assignment, self.build.entry_points)
-        if not self.build.installed(f"lib/{self.assignment.package}/{name}"):
-            return self.assignment
-        return self.assignment.model_copy(update={"executable": name})
+        """The assignment with all names that the built package has, the executables' included."""
+        return with_own_executables(self.assignment, self.build)
 
     @property
     def run(self) -> Run:

@@ -195,7 +195,9 @@ def _with_fix(
     def opened(_digest: str, fixed: Submission) -> Iterator[Evidence | None]:
         listener(events.StageStarted("fix", translate(say("Trying a fix of this package"))))
         sandbox = _open(order, session.assignment, unheard)
-        with Session(sandbox, session.assignment, deadline=session.deadline) as again:
+        left = session.deadline - session.run_clock.now()
+        until = sandbox.run_clock.now() + left
+        with Session(sandbox, session.assignment, deadline=until) as again:
             evidence = _evidence(again, fixed, unheard)
             evidence.distro = order.distro
             if sandbox.name in ISOLATING:
