@@ -219,7 +219,7 @@ def test_a_second_program_that_never_spins_is_told(tmp_path: Path) -> None:
         tmp_path, relay=RELAY.replace("rclpy.spin(Relay())", "n = Relay()\n    input()")
     )
     told = next(found for found in report.checks if found.status == "failed")
-    assert (told.id, told.mistakes[0].id) == ("run.spins", "run.never_spins")
+    assert (told.id, told.mistakes[0].id) == ("run.spins", "node.waits_first")
     assert told.actual.startswith("relay: the node does not answer")
     assert told.where is not None and told.where.file == "relaying/relaying/relay.py"
 

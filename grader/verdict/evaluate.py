@@ -135,7 +135,7 @@ def _evaluate(
     """Return the result of a check, which is evaluated for each node that it is about."""
     about: Sequence[Evidence] = views(evidence, assigned.check, assigned.use)
     parts = [_part(assigned, one, translate, without, cause) for one in about or [evidence]]
-    if about:
+    if about and assigned.check.covers:
         evidence.parts[assigned.use.id] = parts
     return parts[0] if len(parts) == 1 else together(parts, translate)
 
