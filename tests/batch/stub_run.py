@@ -77,7 +77,11 @@ def nothing_found(task: Task) -> Report:
 
 def of_task(task: Task, made: Report, *, package: str | None, score: float) -> Report:
     """Return a report with the task's submission and these points."""
-    known = {"name": task.name, "path": str(task.submission.path), "student_id": task.student_id}
+    known: dict[str, str | None] = {
+        "name": task.name,
+        "path": str(task.submission.path),
+        "student_id": task.student_id,
+    }
     known |= {"sha256": task.submission.sha256, "package": package}
     submission = made.submission.model_copy(update=known)
     return made.model_copy(update={"submission": submission, "score": score, "max_score": 100})

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from datetime import datetime, timedelta, timezone
-from typing import Any
+from typing import Any, cast
 from zoneinfo import ZoneInfo
 
 import pytest
@@ -226,7 +226,7 @@ def without_package(**more: Any) -> Attempt:
 
 
 def test_what_holds_no_package_has_no_grade_until_the_instructor_gives_one() -> None:
-    for rules in ({}, {"missing": "zero"}, {"attempts": "best"}):
+    for rules in cast("list[dict[str, Any]]", [{}, {"missing": "zero"}, {"attempts": "best"}]):
         entry = stand(without_package(), **rules)
         assert (entry.status, entry.score, entry.final) == ("ungradable", None, None)
         assert entry.by_hand == ("a.7z is a 7z archive",)
