@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from grader.base.cache import cache_root
-from grader.base.errors import SurroundingsError
+from grader.base.errors import AssignmentError, SurroundingsError
 from grader.base.unheard import unheard
 from grader.cli.main import main
 from grader.course.load import load_assignment
@@ -24,10 +24,11 @@ from grader.ros.distro import find_distro
 from grader.ros.interface_package import interface_package
 from grader.ros.prefix import Ros
 from grader.run.student_interfaces import texts_of
-from grader.verdict.checks.all import CHECKS
+from grader.verdict.checks.all import CHECKS, STATIC
 from grader.verdict.evidence_file import changed_files
 from grader.verdict.mark import grade
 from grader.verdict.order import Order
+from grader.verdict.static import evaluate_static
 from grader.verdict.take_in import take_in_for
 from tests.marking import LIMITS
 from tests.processes import ROOT
@@ -111,7 +112,7 @@ def test_texts_are_bounded_and_the_rest_of_the_package_is_left_out(tmp_path: Pat
         others=["my_robot_interfaces"],
     )
     texts = texts_of(found.packages[0])
-    assert len(texts.texts) == MOST_TEXTS
+    assert len(texts.texts) == MOST_TEXTS - 1  # (Huge.msg is among the first files)
     assert "msg/Huge.msg" not in texts.texts
     assert texts.uses == ("geometry_msgs",)
 
@@ -206,9 +207,6 @@ def test_the_lines_of_a_message() -> None:
 def test_what_the_files_of_an_interface_package_show(
     edit: tuple[str, str, str], check: str, mistake: str, tmp_path: Path
 ) -> None:
-    from grader.verdict.checks.all import STATIC
-    from grader.verdict.static import evaluate_static
-
     assignment = load_assignment(ASSIGNMENT, known_checks=CHECKS)
     found = take_in(
         changed(tmp_path, edit),
@@ -254,3 +252,52 @@ def test_what_a_students_cmake_makes_does_not_get_into_the_cache(tmp_path: Path)
         assert len(libraries) >= 5
     finally:
         made.unlink()
+
+
+@pytest.mark.parametrize(
+    ("fields", "actual", "line"),
+    [
+        ({"led": "int64", "state": "bool", "success": "bool"}, None, None),
+        ({"request.led": "int64", "response.success": "bool"}, None, None),
+        ({"request.success": "bool"}, "response.success", 5),
+        ({"response.led": "int64"}, "request.led", 2),
+        ({"response.sucess": "bool"}, "success", 5),
+        ({"response.success": "string"}, "bool response.success", 5),
+    ],
+)
+def test_the_fields_of_a_service_are_judged_in_their_part(
+    fields: dict[str, str], actual: str | None, line: int | None, tmp_path: Path
+) -> None:
+    copy = changed(tmp_path, (CMAKE, '  "msg/Distance.msg"', '  "srv/SetLed.srv"'))
+    folder = copy / "my_robot_interfaces" / "srv"
+    folder.mkdir()
+    text = "# the LED\nint64 led\nbool state\n---\nbool success\n"
+    (folder / "SetLed.srv").write_text(text, encoding="utf-8")
+    assignment = load_assignment(ASSIGNMENT, known_checks=CHECKS)
+    use = next(one for one in assignment.checks if one.kind == "interface.fields")
+    given = {"type": "my_robot_interfaces/srv/SetLed", "fields": fields}
+    uses = (assignment.checks[0], use.model_copy(update={"with_": given}))
+    found = take_in_for(assignment, copy)
+    (*_, result) = evaluate_static(
+        found, assignment.model_copy(update={"checks": uses}), only=STATIC
+    )
+    if actual is None:
+        assert result.status == "passed"
+    else:
+        assert result.status == "failed"
+        assert actual in result.actual
+        assert result.where is not None
+        assert result.where.line == line
+
+
+def test_a_part_that_a_service_does_not_have_is_told_when_the_file_is_loaded(
+    tmp_path: Path,
+) -> None:
+    text = ASSIGNMENT.read_text(encoding="utf-8").replace(
+        "type: my_robot_interfaces/msg/Distance, fields: {turtle: string",
+        "type: my_robot_interfaces/srv/Distance, fields: {respons.turtle: string",
+    )
+    file = tmp_path / "assignment.yaml"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(AssignmentError, match=r"no part 'respons' .did you mean 'response'"):
+        load_assignment(file, known_checks=CHECKS)

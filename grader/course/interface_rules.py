@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from grader.base.nearest import meant_or_known
 from grader.base.positioned_yaml import Loc
 from grader.base.yaml_model import Fault
 from grader.course.assignment import Assignment, CheckUse
-from grader.course.interfaces import ARRAY, Interfaces, ros_interfaces
+from grader.course.interfaces import ARRAY, PARTS, Interfaces, part_names, ros_interfaces
 from grader.course.scenario import Stimulus
 
 OF_FAMILY = {"topic": "msg", "service": "srv", "action": "action"}  # a kind of check: its types
@@ -82,6 +83,7 @@ class _Judge:
         kind = OF_FAMILY.get(use.kind.partition(".")[0])
         if kind is not None and isinstance(use.with_.get("type"), str):
             yield from self.type(use.with_["type"], kind, (*place, "type"))
+        yield from _part_faults(use, place)
         each = use.with_.get("each")
         message = self._message(use)
         if not message or not isinstance(each, Mapping):
@@ -106,6 +108,19 @@ class _Judge:
         one = plan.stimulus(use.after)
         made = one.typed.get(key) if one is not None else None
         return made.type + part if made is not None else ""
+
+
+def _part_faults(use: CheckUse, place: Loc) -> Iterator[Fault]:
+    """Yield the fields of `interface.fields` whose part the type does not have."""
+    kind = str(use.with_.get("type", "")).split("/")[1:2]
+    if use.kind != "interface.fields" or not kind or kind[0] not in PARTS:
+        return
+    known = part_names(kind[0])
+    for field in use.with_.get("fields", ()):
+        part = str(field).rpartition(".")[0]
+        if part and part not in known:
+            hint = meant_or_known(part, known) if known else " (it has no parts)"
+            yield (*place, "fields", field), f"a {kind[0]} has no part '{part}'{hint}"
 
 
 def value_fault(kind: str, value: Any) -> str:

@@ -147,6 +147,11 @@ def ros_interfaces() -> Interfaces:
     return Interfaces(json.loads(TABLE.read_text(encoding="utf-8")))
 
 
+def part_names(kind: str) -> tuple[str, ...]:
+    """Return the parts of a `srv` or an `action`, as in `response.success`; none of a `msg`."""
+    return tuple(part.strip("_").lower() for part in PARTS[kind] if part)
+
+
 def table_of(share: Path) -> dict[str, dict[str, str]]:
     """Return the table of the packages in a folder such as /opt/ros/jazzy/share."""
     found: dict[str, dict[str, str]] = {}

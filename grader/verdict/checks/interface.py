@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
+from bisect import bisect
 from typing import TYPE_CHECKING
 
 from pydantic import Field
 
 from grader.base.i18n.message import say
 from grader.base.nearest import nearest, with_difference
-from grader.course.interfaces import SEPARATOR
+from grader.course.interfaces import part_names
 from grader.package.source.interface import message_text
 from grader.package.source.manifest import ManifestError, read_manifest
 from grader.report.model import Where
@@ -28,6 +29,7 @@ GENERATE = re.compile(r"rosidl_generate_interfaces\s*\((?P<words>[^)]*)\)")
 COMMENT = re.compile(r"#[^\n]*")
 NAMED = re.compile(r"\b(?:msg|srv|action)/\w+\.(?:msg|srv|action)\b")
 MANIFEST = "package.xml"
+SEPARATOR = "---"  # of the parts of a service or an action
 
 
 class Interfaces(Parameters):
@@ -41,7 +43,10 @@ class Interfaces(Parameters):
 
 
 class Fields(Parameters):
-    """The fields of a message and their types; there may be others."""
+    """The fields of a message, a service or an action and their types; there may be others.
+
+    `response.success` is a field of that part; without a part, the field may be in any.
+    """
 
     type: str
     fields: dict[str, str] = Field(min_length=1)
@@ -160,7 +165,7 @@ def _generated(found: Package, files: tuple[str, ...]) -> None:
     after=["interface.package"],
 )
 def fields(use: Use[Fields]) -> Passed:
-    """The message {type} has the right fields"""
+    """The interface {type} has the right fields"""
     name, folder, message = use.given.type.split("/")
     found, path = _package(use, name), f"{folder}/{message}.{folder}"
     text = found.text(path)
@@ -170,20 +175,27 @@ def fields(use: Use[Fields]) -> Passed:
     fault = fault_in(found, path)
     if fault is not None:
         raise fault
-    declared = message_text(SEPARATOR.sub("", text))
+    lines = text.splitlines()
+    ends = [n for n, line in enumerate(lines, start=1) if line.rstrip() == SEPARATOR]
+    declared = message_text("\n".join("" if n in ends else one for n, one in enumerate(lines, 1)))
     file = f"{name}/{path}"
+    parts = part_names(folder)
     for field, kind_ in use.given.fields.items():
-        own = declared.field(field)
+        part, _, last = field.rpartition(".")
+        same = [one for one in declared.declared if (one.name, one.constant) == (last, "")]
+        in_part = {id(one): parts[bisect(ends, one.line)] for one in same} if part else {}
+        own = next((one for one in same if in_part.get(id(one), "") == part), None)
         if own is None:
             names = [one.name for one in declared.declared]
-            close = nearest(field, names) or ""
-            near = next((one.line for one in declared.declared if one.name == close), None)
+            close = "" if same else nearest(last, names) or ""
+            near = same or [one for one in declared.declared if one.name == close]
+            there = f"{in_part[id(same[0])]}.{last}" if same else ", ".join(names) or "-"
             raise Failed(
                 "interface.field_missing",
                 expected=f"{kind_} {field}",
-                actual=with_difference(close, close, field) if close else ", ".join(names) or "-",
-                where=Where(file=file, line=near),
-                params={"field": field},
+                actual=with_difference(close, close, last) if close else there,
+                where=Where(file=file, line=near[0].line if near else None),
+                params={"field": last},
                 words={"type": kind_},
             )
         if own.type != kind_:
@@ -192,7 +204,7 @@ def fields(use: Use[Fields]) -> Passed:
                 expected=f"{kind_} {field}",
                 actual=f"{own.type} {field}",
                 where=Where(file=file, line=own.line),
-                params={"field": field},
+                params={"field": last},
                 words={"type": kind_},
             )
     return Passed()
