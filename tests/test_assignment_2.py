@@ -153,7 +153,7 @@ def test_a_start_gives_words_and_a_file_of_parameters(tmp_path: Path) -> None:
 
 
 def test_a_whole_number_is_no_double(tmp_path: Path) -> None:
-    text = ASSIGNMENT.replace("type: integer, value: 3", "type: double, value: 3.0")
+    text = ASSIGNMENT.replace("type: integer, value: 2", "type: double, value: 2.0")
     with pytest.raises(AssignmentError, match=r"type double: it cannot be 3 \(did you mean '3.0'"):
         loaded(tmp_path, text=text)
 

@@ -127,7 +127,8 @@ class Interfaces:
         package, last = name.partition("/")[0], name.rpartition("/")[2]
         if f"{package}/{kind}/{last}" in of_kind:
             return f"{package}/{kind}/{last}"
-        same_name = sorted(one for one in of_kind if one.rpartition("/")[2] == last)
+        same_name = [one for one in of_kind if one.rpartition("/")[2] == last]
+        same_name.sort(key=lambda one: (not one.startswith("std_"), one))
         own = [one for one in of_kind if one.partition("/")[0] == package]
         for names in (own, same_name):
             if close := nearest(name, names):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from grader.base.i18n.message import say
+from grader.base.i18n.message import joined, say
 from grader.base.i18n.translator import Translator
 from grader.report.model import CheckResult, CheckStatus
 
@@ -45,13 +45,13 @@ def _of_node(part: CheckResult, text: str, parts: Sequence[CheckResult]) -> str:
     same = [other.status == part.status for other in parts if other.node == part.node]
     if part.run and not all(same):
         return say("{node} in the run {run}: {text}", node=part.node, run=part.run, text=text)
-    return say("{node}: {text}", node=part.node, text=text)
+    return joined(part.node, text, by=": ")
 
 
 def _fix_of_node(part: CheckResult) -> str:
     """Return the fix of a further node that fails, with its place."""
     if part.where is None:
-        return say("{node}: {text}", node=part.node, text=part.fix)
+        return joined(part.node, part.fix, by=": ")
     line = "" if part.where.line is None else f":{part.where.line}"
     place = f"{part.where.file}{line}"
     return say("{node} ({place}): {text}", node=part.node, place=place, text=part.fix)
@@ -64,4 +64,4 @@ def _advice(parts: Sequence[CheckResult]) -> Iterator[str]:
         if len(having) == len(parts):
             yield text
         else:
-            yield from (say("{node}: {text}", node=node, text=text) for node in having)
+            yield from (joined(node, text, by=": ") for node in having)

@@ -64,7 +64,7 @@ def test_undecided_points_are_shown_with_the_total() -> None:
 
 def test_a_grader_failure_is_not_shown_as_the_students_fault() -> None:
     fault = report(status="error", checks=[], score=0, message="no sandbox")
-    view = student_view(entry(1, fault, status="ungradable", final=None), show_hidden=True)
+    view = student_view(entry(1, fault, status="error", final=None), show_hidden=True)
     assert "the fault is in the grader" in view.calculation[0]
     assert view.calculation[1:] == ("Nothing goes into the gradebook yet.",)
 
