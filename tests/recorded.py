@@ -22,7 +22,7 @@ from grader.verdict.mark import Keep, replay
 from grader.verdict.mark import mark as mark_for_real
 from grader.verdict.order import Order
 from grader.verdict.recording import Recording
-from tests import marking, processes
+from tests import filled, marking, processes
 
 FOLDER = processes.ROOT / "tests" / "recordings" / "evidence"
 MODES = ("replay", "record", "real")
@@ -66,6 +66,7 @@ def mark_submission(
         lang=order.lang,
         student_id=order.student_id,
     )
+    assert filled.unfilled(report) == []
     if keep is not None:
         keep(Judged(submission, recording))
     if MODE == "real":

@@ -47,7 +47,7 @@ checks:
   - {id: hears, check: topic.subscribes, points: 1, with: {topic: /number, type: std_msgs/msg/Int32}}
   - {id: eight, check: topic.reacts, points: 1, after: four, with: {topic: /doubled, within: 0.1, at_most: 1, each: {data: 8}}}
   - {id: fifteen, check: topic.reacts, points: 1, after: five, with: {topic: /doubled, within: 0.1, each: {data: 15}}}
-  - {id: factor, check: parameter.declared, points: 1, with: {name: factor, type: integer, value: 3}}
+  - {id: factor, check: parameter.declared, points: 1, with: {name: factor, type: integer, value: 2}}
   - {id: factor.set, check: parameter.accepts, points: 1, after: thrice, with: {name: factor}}
   - {id: offers, check: service.offers, points: 1, with: {service: /reset, type: std_srvs/srv/Trigger}}
   - {id: answers, check: service.answers, points: 1, after: reset, with: {service: /reset, each: {success: true, message: {contains: reset}}}}
@@ -291,6 +291,7 @@ FORMS = (
         "values",
         (
             ("create_timer(0.2", "create_timer(0.4"),
+            ("'factor', 2", "'factor', 5"),
             (
                 "QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)",
                 "QoSProfile(depth=10)",
@@ -314,6 +315,7 @@ FORMS = (
             "beat.period": "topic.wrong_period",
             "beat.values": "topic.wrong_value",
             "eight": "topic.wrong_value",
+            "factor": "parameter.wrong_value",
             "answers": "service.wrong_answer",
             "silent": "log.forbidden",
             "count.period": "log.wrong_period",
@@ -371,7 +373,6 @@ FORMS = (
             "beat.period": "topic.several_at_once",
             "beat.values": "topic.wrong_value",
             "fifteen": "topic.no_reaction",
-            "factor": "parameter.wrong_value",
             "factor.set": "parameter.refused",
             "answers": "service.wrong_answer",
             "says": "log.too_often",
@@ -403,7 +404,7 @@ FORMS = (
             "silent": "log.forbidden",
         },
         (
-            *("beat.period", "beat.values", "fifteen", "factor", "factor.set", "says"),
+            *("beat.period", "beat.values", "fifteen", "factor.set", "says"),
             *("answers", "count", "count.period", "count.logger", "run.interrupt", *TURNS),
         ),
     ),
@@ -518,7 +519,6 @@ FORMS = (
         {
             "count": "log.missing",
             "count.logger": "node.logger_by_name",
-            "factor": "parameter.wrong_value",
             "factor.set": "parameter.refused",
             "fifteen": "topic.wrong_value",
             "answers": "service.wrong_answer",
@@ -544,7 +544,6 @@ FORMS = (
             ("info(f'got", "warn(f'got"),
         ),
         {
-            "factor": "parameter.wrong_value",
             "factor.set": "parameter.refused",
             "fifteen": "topic.wrong_value",
             "says": "log.missing",

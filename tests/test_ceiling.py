@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from types import SimpleNamespace
 from typing import cast
 
 import pytest
@@ -20,6 +19,7 @@ from grader.run.run import Run, observe
 from grader.run.session import Session, Unobserved
 from grader.sandbox.base import Outcome, Sandbox
 from grader.sandbox.limits import Limits
+from grader.sandbox.scheduling import RunClock
 from tests.batch.pool_tasks import tasks
 from tests.corpus.build import write
 from tests.corpus.hostile import HOSTILE
@@ -36,24 +36,27 @@ def test_the_ceiling_allows_a_build_and_two_runs_at_their_limits() -> None:
         assert limits.verdict_seconds > limits.build_seconds + 2 * run
 
 
-class Clock:
+class Clock(RunClock):
     """The clock of a session with simulated runs; each run takes a given time."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, *results: Run | ProbeError) -> None:
-        self.now = 1000.0
+        super().__init__(lambda: ())
+        self.at = 1000.0
         self.runs = 0
         self.proofs: list[Sandbox] = []
         self.seconds: float | None = None  # of each run; None: until its time limit
         self._results = results
-        monkeypatch.setattr(session, "time", SimpleNamespace(monotonic=lambda: self.now))
         monkeypatch.setattr(session, "observe", self._observe)
         monkeypatch.setattr(session, "ProbeLink", lambda sandbox: NoProbe())
         monkeypatch.setattr(session, "prove_again", self.proofs.append)
 
+    def now(self, *, at_once: bool = False) -> float:
+        return self.at
+
     def _observe(self, *args: object, until: float, fine: bool, **more: object) -> Run:
         result = self._results[min(self.runs, len(self._results) - 1)]
         self.runs += 1
-        self.now = until if self.seconds is None else min(until, self.now + self.seconds)
+        self.at = until if self.seconds is None else min(until, self.at + self.seconds)
         if isinstance(result, Run):
             return result
         raise result
@@ -67,8 +70,8 @@ class NoProbe:
 class NoSandbox:
     limits = LIMITS
 
-    def __init__(self, *, works: bool) -> None:
-        self._works = works
+    def __init__(self, clock: Clock, *, works: bool) -> None:
+        self.run_clock, self._works = clock, works
 
     def resource_limit_hit(self) -> str:
         return ""
@@ -80,8 +83,8 @@ class NoSandbox:
         return Outcome(0 if self._works else 1, b"", seconds)
 
 
-def new_session(*, works: bool = True) -> Session:
-    return Session(cast("Sandbox", NoSandbox(works=works)), ASSIGNMENT)
+def new_session(clock: Clock, *, works: bool = True) -> Session:
+    return Session(cast("Sandbox", NoSandbox(clock, works=works)), ASSIGNMENT)
 
 
 def run_with_missing_ticks() -> Run:
@@ -93,12 +96,12 @@ def test_runs_at_their_time_limit_are_repeated_within_the_ceiling(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     clock = Clock(monkeypatch, ProbeError("no answer"))
-    opened, begin = new_session(), clock.now
+    opened, begin = new_session(clock), clock.at
     with pytest.raises(Unobserved, match="no answer"):
         opened.run(unheard)
     assert clock.runs == 2
     assert clock.proofs == [opened.sandbox], "what failed may be ros2 itself"
-    assert clock.now - begin <= LIMITS.verdict_seconds
+    assert clock.at - begin <= LIMITS.verdict_seconds
 
 
 def test_a_build_at_its_limit_leaves_time_for_a_second_run(
@@ -106,25 +109,25 @@ def test_a_build_at_its_limit_leaves_time_for_a_second_run(
 ) -> None:
     first, second = run_with_missing_ticks(), run_with_missing_ticks()
     clock = Clock(monkeypatch, first, second)
-    opened, begin = new_session(), clock.now
-    clock.now += LIMITS.build_seconds
+    opened, begin = new_session(clock), clock.at
+    clock.at += LIMITS.build_seconds
     assert opened.run(unheard) is first
     assert clock.runs == 2
-    assert clock.now - begin <= LIMITS.verdict_seconds
+    assert clock.at - begin <= LIMITS.verdict_seconds
 
 
 def test_quick_grader_faults_are_tried_three_times(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = Clock(monkeypatch, ProbeError("it has ended"))
     clock.seconds = 1.0
     with pytest.raises(Unobserved, match="it has ended"):
-        new_session().run(unheard)
+        new_session(clock).run(unheard)
     assert clock.runs == 3
 
 
 def test_no_run_starts_without_enough_time(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = Clock(monkeypatch, run_with_missing_ticks())
-    opened = new_session()
-    clock.now += LIMITS.verdict_seconds - 1
+    opened = new_session(clock)
+    clock.at += LIMITS.verdict_seconds - 1
     with pytest.raises(Unobserved, match="no time for a run"):
         opened.run(unheard)
     assert clock.runs == 0
@@ -150,7 +153,7 @@ def test_a_node_that_exceeds_a_limit_beside_a_silent_probe_is_blamed(
         monkeypatch.setattr(opened, "probe", lambda argv: probe(["python3", "-c", silent]))
         link = ProbeLink(opened)
         link.ready()
-        begin = time.monotonic()
+        begin = opened.run_clock.now()
         until = begin + 12  # of which ending the node may take ten
         if met:
             run = observe(opened, ASSIGNMENT, link, unheard, until=until)
@@ -158,7 +161,7 @@ def test_a_node_that_exceeds_a_limit_beside_a_silent_probe_is_blamed(
         else:
             with pytest.raises(ProbeError, match="no answer"):
                 observe(opened, ASSIGNMENT, link, unheard, until=until)
-        assert time.monotonic() - begin < 12
+        assert opened.run_clock.now() - begin < 12
         link.close()
 
 

@@ -10,10 +10,11 @@ import pytest
 
 from grader.course.load import load_assignment
 from grader.run.clock import MOST_AT_ONCE, VirtualClock, watch_wall
-from grader.run.observer import SECOND, Event, Observer, Watch
+from grader.run.observer import GRACE, LATE_GRACE, SECOND, Event, Observer, Watch
 from grader.run.probe_link import Answer, LogRecord, ProbeLink
 from grader.run.terminal import Terminal
 from grader.sandbox.base import Console
+from grader.sandbox.scheduling import RunClock
 from tests.test_observer import COURSE
 
 OUTPUT = load_assignment(COURSE).output
@@ -136,6 +137,35 @@ def test_a_line_that_looks_like_a_record_of_the_node_is_judged() -> None:
     console.pieces = [b"[INFO] [5.000000000] [rclpy_node]: Hello time: 0\r\n"]
     events = [*observer.take(), *observer.take(), *observer.settle()]
     assert [(event.source, event.logger) for event in events] == [("faked", "rclpy_node")]
+
+
+class SetClock(RunClock):
+    """A clock of a run that goes on when it is told to."""
+
+    at = 0.0
+
+    def now(self, *, at_once: bool = False) -> float:
+        return self.at
+
+
+def test_a_record_that_waits_for_a_core_is_no_forgery() -> None:
+    console, clock = SlowConsole(), SetClock()
+    observer = Observer(Terminal(console, most=1_000_000, run_clock=clock), Node(console), OUTPUT)
+    console.pieces = [b"[INFO] [5.000000000] [node]: Hello time: 0\r\n"]
+    assert [*observer.take(), *observer.take()] == []
+    time.sleep(2 * GRACE)  # on a busy machine, on which the probe has had no core
+    assert observer.take() == []
+    clock.at += 2 * LATE_GRACE
+    assert [event.source for event in observer.take()] == ["faked"]
+
+
+def test_how_far_a_count_gets_after_ctrl_c_does_not_count() -> None:
+    console, clock = SlowConsole(), SetClock()
+    observer = Observer(Terminal(console, most=1_000_000, run_clock=clock), Node(console), OUTPUT)
+    console.pieces = [b"[INFO] [5.000000000] [node]: Hello time: 9\r\nbye\r\nHello time: 9\r\n"]
+    observer.take()
+    clock.at += 2 * LATE_GRACE
+    assert [event.text for event in observer.take_last()] == ["bye"]
 
 
 def test_a_logger_that_is_not_shown_is_waited_for_only_once() -> None:

@@ -16,13 +16,14 @@ from grader.base.unheard import unheard
 from grader.cli.main import main
 from grader.course.load import load_assignment
 from grader.package.source.interface import message_text
+from grader.package.source.interface_faults import MOST_TEXTS
 from grader.package.submission import take_in
 from grader.report.model import Report
 from grader.ros import interfaces
 from grader.ros.distro import find_distro
 from grader.ros.interface_package import interface_package
 from grader.ros.prefix import Ros
-from grader.run.student_interfaces import MOST_TEXTS, texts_of
+from grader.run.student_interfaces import texts_of
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.evidence_file import changed_files
 from grader.verdict.mark import grade

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from grader.package.source.broken_xml import xml_fault
 from grader.verdict.checks import package, source
 from grader.verdict.static import static_results
 from grader.verdict.take_in import take_in_for
@@ -147,3 +148,30 @@ def test_the_command_that_moves_the_node_is_told(bench: Bench) -> None:
     (bench.root / NODE).rename(bench.root / "my_first_node.py")
     found = bench.fails(source.node_file)
     assert f"In the package's folder, run: mv my_first_node.py {NODE}" in found.fix
+
+
+@pytest.mark.parametrize(
+    ("line", "tag", "wanted"),
+    [
+        ("<depend>turtlesim</turtlesim>", "/turtlesim", "/depend"),
+        ("<exec_depend>std_msgs</std_msgs>", "/std_msgs", "/exec_depend"),
+        ("<license>MIT</version>", "/version", "/license"),
+        ("<rclpy>rclpy</depend>", "rclpy", "depend"),
+    ],
+)
+def test_of_two_tags_that_do_not_match_the_one_is_kept_that_package_xml_has(
+    line: str, tag: str, wanted: str
+) -> None:
+    found = f'<package format="3">\n  <name>a</name>\n  {line}\n</package>\n'.encode()
+    fault = xml_fault(found)
+    assert fault is not None
+    assert (fault.variant, fault.tag, fault.wanted) == ("misspelt", tag, wanted)
+    right = line.replace(f"<{tag}>", f"<{wanted}>").encode()
+    assert fault.fixed == found.replace(line.encode(), right)
+
+
+def test_a_tag_around_the_text_is_missing_where_both_tags_are_known() -> None:
+    line = "<export>ament_python</build_type></export>"
+    fault = xml_fault(f"<package>\n  {line}\n</package>\n".encode())
+    assert fault is not None
+    assert (fault.variant, fault.tag) == ("unopened", "/build_type")

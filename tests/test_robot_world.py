@@ -23,14 +23,15 @@ runs:
   - name: drives
     world: robot
     start: [{node: halt}]
-    clock: {period: 0.08, ticks: 100}
+    clock: {period: 0.5, ticks: 16}
     do:
-      - {name: moved, at: 4.0, move: {turtle: robot, x: 2.0, y: 6.0, theta: 3.141593}}
+      - {name: moved, at: 4.0, move: {x: 2.0, y: 6.0, theta: 3.141593}}
 checks:
   - {id: run.starts, points: 1}
   - {id: run.spins, points: 1}
   - {id: hears, check: topic.subscribes, points: 1, with: {topic: /scan, type: sensor_msgs/msg/LaserScan}}
-  - {id: inside, check: world.stays, points: 1, with: {turtle: robot, margin: 0.5, at_least: 3.0}}
+  - {id: inside, check: world.stays, points: 1, with: {margin: 0.85, at_least: 3.0}}
+  - {id: never, check: world.event, points: 1, with: {event: bump}}
 """
 NODE = """\
 import rclpy
@@ -125,13 +126,19 @@ def test_where_the_robot_fits() -> None:
     ("old", "new", "fails"),
     [
         ("", "", {}),
-        ("ranges[0] > 1.0", "ranges[0] > 0.3", {"inside": "world.hits_wall"}),
+        ("ranges[0] > 1.0", "ranges[0] > 0.8", {"inside": "world.hits_wall"}),
+        (
+            "1.0 if scan.ranges[0] > 1.0 else 0.0",
+            "1.0",
+            {"inside": "world.hits_wall", "never": "world.bumps"},
+        ),
         ("1.0 if scan.ranges[0] > 1.0 else 0.0", "0.2", {"inside": "world.too_short"}),
     ],
 )
 def test_a_package_is_judged_in_it(
     old: str, new: str, fails: dict[str, str], tmp_path: Path
 ) -> None:
+    # it reacts to scans, of which several come in each period of the clock
     report = judged(ASSIGNMENT, NODE.replace(old, new) if old else NODE, tmp_path)
     failed = {c.id: c.mistakes[0].id for c in report.checks if c.status == "failed"}
     assert failed == fails

@@ -18,6 +18,7 @@ from grader.run.session import Session
 from grader.run.unforeseen import Unforeseen
 from grader.sandbox.base import Outcome, Sandbox
 from grader.sandbox.limits import Limits
+from grader.sandbox.scheduling import RunClock
 from tests.marking import ASSIGNMENT
 
 ASKS = Remark("asks", "node.py", 3, "sys.argv")
@@ -26,6 +27,9 @@ ASKS = Remark("asks", "node.py", 3, "sys.argv")
 class NoSandbox:
     limits = Limits()
     held = "cgroup"
+
+    def __init__(self) -> None:
+        self.run_clock = RunClock()
 
     def held_by(self) -> dict[str, str]:
         return {"memory": self.held, "processes": self.held}

@@ -96,7 +96,7 @@ def test_a_node_that_ends_at_once_is_judged_only_if_the_sandbox_still_works(
     run = ended_at_once()
     clock = Clock(monkeypatch, run)
     clock.seconds = 1.0
-    opened = new_session(works=works)
+    opened = new_session(clock, works=works)
     if works:
         assert opened.run(unheard) is run
         assert clock.runs == 1

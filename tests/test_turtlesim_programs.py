@@ -137,7 +137,7 @@ class Terminals:
 
 @pytest.fixture
 def terminals(tmp_path: Path) -> Iterator[Terminals]:
-    opened = Terminals(proven_ros(find_distro("jazzy"), interfaces=True).path, tmp_path)
+    opened = Terminals(proven_ros(find_distro("jazzy"), interfaces=("turtlesim",)).path, tmp_path)
     yield opened
     opened.close()
 
@@ -348,7 +348,7 @@ say(x=first.x, y=first.y, speed=mimicking.linear_velocity)
 
 @pytest.mark.long  # it makes another prefix
 def test_kilted_has_the_package_beside_that_of_the_messages(tmp_path: Path) -> None:
-    kilted = Terminals(proven_ros(find_distro("kilted"), interfaces=True).path, tmp_path)
+    kilted = Terminals(proven_ros(find_distro("kilted"), interfaces=("turtlesim",)).path, tmp_path)
     try:
         listed = kilted.run("ros2 pkg executables turtlesim").stdout
         assert "turtlesim turtlesim_node\n" in listed

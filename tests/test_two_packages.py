@@ -203,7 +203,7 @@ def test_a_second_program_that_dies_is_told(
     report = marked(tmp_path, relay=relay)
     told = next(found for found in report.checks if found.status == "failed")
     assert (told.id, told.mistakes[0].id) == (check, mistake)
-    assert told.actual.startswith("relay ") and word in told.actual
+    assert told.actual.startswith("relay: ") and word in told.actual
     assert told.where is not None and told.where.file == "relaying/relaying/relay.py"
     assert line in relay.splitlines()[(told.where.line or 1) - 1]
     other = report.runs[0].others[0]
@@ -219,8 +219,8 @@ def test_a_second_program_that_never_spins_is_told(tmp_path: Path) -> None:
         tmp_path, relay=RELAY.replace("rclpy.spin(Relay())", "n = Relay()\n    input()")
     )
     told = next(found for found in report.checks if found.status == "failed")
-    assert (told.id, told.mistakes[0].id) == ("run.spins", "run.never_spins")
-    assert told.actual.startswith("/relay does not answer")
+    assert (told.id, told.mistakes[0].id) == ("run.spins", "node.waits_first")
+    assert told.actual.startswith("relay: the node does not answer")
     assert told.where is not None and told.where.file == "relaying/relaying/relay.py"
 
 

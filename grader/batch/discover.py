@@ -5,11 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from datetime import tzinfo
 from pathlib import Path
 
 from grader.base.errors import UsageError
 from grader.base.shown import shown
 from grader.batch.join import join
+from grader.batch.loose_files import with_loose_files
 from grader.batch.model import ClassFolder, HandedIn
 from grader.batch.roster import Roster, read_roster
 from grader.batch.systems import plain
@@ -22,7 +24,7 @@ from grader.batch.systems.known import (
     layouts,
     recognised,
 )
-from grader.batch.systems.layout import Layout, Reading, look_at, seen
+from grader.batch.systems.layout import NO_SUBMISSION, FolderItem, Layout, Reading, look_at, seen
 from grader.batch.systems.notes import Notes, printable
 from grader.batch.systems.single_package import is_class, one_package
 from grader.batch.systems.system import System
@@ -47,24 +49,38 @@ class Request:
 
 
 def discover(
-    path: Path, *, system: str = "auto", roster: Path | Roster | None = None, unpack: Path
+    path: Path,
+    *,
+    system: str = "auto",
+    roster: Path | Roster | None = None,
+    unpack: Path,
+    zone: tzinfo | None = None,
 ) -> ClassFolder:
     """Return all submissions of a class; `path` is a folder, or an archive of one.
 
-    `unpack` is the grader's folder for unpacked and gathered files. Raises UsageError if the path
+    `unpack` is the grader's folder for unpacked and gathered files, `zone` that of the times in the
+    roster that have none. Raises UsageError if the path
     is not a class, the system is unknown or the roster cannot be used.
     """
     check_system(system)
     request = Request(resolved(path), system, unpack.resolve())
     students = read_roster(roster) if isinstance(roster, Path) else roster
+    if students is not None:
+        students = students.in_zone(zone)
     notes = Notes()
     unpacked = Unpacked(request.path)
     if not request.path.is_dir():
         unpacked = unpack_class(request.path, request.unpack)
-    layout, system_found, handed_in = _read(request, unpacked, notes)
+    layout, system_found, handed_in, files = _read(request, unpacked, notes)
     handed_in = _with_remarks(handed_in, unpacked, notes)
     handed_in = _with_modes(system_found, handed_in, unpacked, notes)
     joined = join(system_found, _numbered(handed_in), students)
+    if students is not None:
+        joined = with_loose_files(system_found, joined, layout.path, files, students)
+    used = {one.path.name for one in joined.handed_in}
+    left = [item.name for item in files if item.name not in used]
+    if left:
+        notes.add_names(NO_SUBMISSION, left)
     for reason, names in layout.left_out.items():
         notes.add_names(reason, names)
     return ClassFolder(
@@ -76,6 +92,7 @@ def discover(
         elsewhere=joined.elsewhere,
         on_roster=joined.on_roster,
         notes=(*notes.lines(), *joined.notes),
+        unclear=joined.unclear,
     )
 
 
@@ -88,7 +105,8 @@ def _look(path: Path, request: Request, unpacked: Unpacked) -> Layout:
 
 def _read(
     request: Request, unpacked: Unpacked, notes: Notes
-) -> tuple[Layout, System, list[HandedIn]]:
+) -> tuple[Layout, System, list[HandedIn], list[FolderItem]]:
+    """Return the layout, its system, the submissions, and the files that are none."""
     layout = _look(unpacked.folder, request, unpacked)
     single = one_package(layout)
     if single:
@@ -112,11 +130,12 @@ def _read(
             f"{shown(str(request.path))} is not {download.title}: {seen(layout)}", remedy=layouts()
         )
     taken = {one.student.key for one in handed_in}
-    for one in plain.read_items(layout.path, read.rest, reading):
+    files = [item for item in read.rest if not item.may_be_submission]
+    for one in plain.read_items(layout.path, read.rest):
         handed_in.append(_beside(one, taken, download.title))
     how = "as requested" if request.system != "auto" else "by its names"
     notes.add(f"read as {download.title} ({system.name}), {how}")
-    return layout, system, handed_in
+    return layout, system, handed_in, files
 
 
 def _beside(one: HandedIn, taken: set[str], words: str) -> HandedIn:

@@ -26,12 +26,12 @@ class Groups:
     """The rows of each group's members, and the group's name, by the submission's key.
 
     `ambiguous` are submissions that may be of several groups, `unsure` the rows that may be in such
-    a group, with the reason.
+    a group, each with the reason.
     """
 
     rows: dict[str, list[int]] = field(default_factory=dict)
     names: dict[str, str] = field(default_factory=dict)
-    ambiguous: set[str] = field(default_factory=set)
+    ambiguous: dict[str, str] = field(default_factory=dict)
     unsure: dict[int, str] = field(default_factory=dict)
 
 
@@ -40,7 +40,7 @@ def find_groups(students: Sequence[Student], lines: Sequence[RosterLine]) -> Gro
     found = Groups()
     cells = _rows_by_group(lines)
     for form in (_as_moodle_writes, _loosely):
-        known = found.rows.keys() | found.ambiguous
+        known = found.rows.keys() | found.ambiguous.keys()
         left = [student for student in students if student.key not in known]
         free = {cell: rows for cell, rows in cells.items() if cell not in found.names.values()}
         _match(found, left, free, form)
@@ -94,20 +94,20 @@ def _match(
         elif claimants[0].key not in found.ambiguous:
             found.rows[claimants[0].key] = list(cells[cell])
             found.names[claimants[0].key] = cell
-    for key in found.ambiguous & found.rows.keys():
+    for key in found.ambiguous.keys() & found.rows.keys():
         del found.rows[key], found.names[key]
 
 
 def _mark_ambiguous(
     found: Groups,
-    students: Iterable[Student],
+    students: Sequence[Student],
     names: Iterable[str],
     cells: Mapping[str, list[int]],
 ) -> None:
-    found.ambiguous.update(student.key for student in students)
     for name in names:
         why = f"the group '{name}' may have handed in: more than one group or submission fits"
         found.unsure |= dict.fromkeys(cells[name], why)
+        found.ambiguous |= {student.key: why for student in students}
 
 
 def _without_double_members(found: Groups, lines: Sequence[RosterLine]) -> None:

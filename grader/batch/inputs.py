@@ -11,6 +11,7 @@ from pathlib import Path
 
 from grader.base.plain_text import one_line
 from grader.batch.accept import counted, refuse_poor_join
+from grader.batch.dated import with_times
 from grader.batch.discover import discover
 from grader.batch.earlier_gradebook import EarlierGradebook, read_earlier_gradebook
 from grader.batch.model import ClassFolder
@@ -19,6 +20,7 @@ from grader.course.assignment import Assignment
 
 UNPACKED = "unpacked"
 GRADEBOOK = "gradebook.csv"
+MOST_WHY = 600  # characters
 
 
 @dataclass(frozen=True)
@@ -55,7 +57,9 @@ def read_inputs(
         system=system,
         roster=rosters[0] if rosters else None,
         unpack=out / UNPACKED,
+        zone=assignment.policy.zone,
     )
+    found = with_times(found, opened.rosters, assignment.policy)
     _say_found(found, notify)
     folder = _with_elsewhere(found, opened, gradebook)
     students = {one.student.key: one.student for one in folder.handed_in}
@@ -68,11 +72,13 @@ def _with_elsewhere(
     folder: ClassFolder, opened: OpenSheets, gradebook: EarlierGradebook
 ) -> ClassFolder:
     """Return the class with what the files and the gradebook say about missing students."""
-    elsewhere = {**opened.elsewhere(folder.missing, folder.system), **folder.elsewhere}
-    for student in folder.missing:
-        had = gradebook.elsewhere(student)
-        if had is not None:
-            elsewhere[student.key] = replace(elsewhere.get(student.key, had), final=had.final)
+    # a name must be unique in the whole class, not only among the missing
+    class_ = [*{one.student.key: one.student for one in folder.handed_in}.values(), *folder.missing]
+    missing = {student.key for student in folder.missing}
+    known = opened.elsewhere(class_, folder.system)
+    elsewhere = {**{key: known[key] for key in known.keys() & missing}, **folder.elsewhere}
+    for key, had in gradebook.elsewhere(folder.missing, class_).items():
+        elsewhere[key] = replace(elsewhere.get(key, had), final=had.final)
     return replace(folder, elsewhere=elsewhere)
 
 
@@ -84,3 +90,5 @@ def _say_found(folder: ClassFolder, notify: Callable[[str], None]) -> None:
     notify(f"found {counted(len(students))}{more}{missing} ({folder.system.name})")
     for note in folder.notes:
         notify(f"  {one_line(note)}")
+    for why in folder.unclear:
+        notify(f"needs attention: {one_line(why, most=MOST_WHY)}")

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from datetime import datetime
 
 from grader.base.nearest import without_accents
 from grader.base.plain_text import one_line
@@ -13,9 +13,10 @@ from grader.batch.match import Match, fallback_rules, is_same_name, match_more, 
 from grader.batch.model import Elsewhere, HandedIn, OnRoster, Student
 from grader.batch.roster import Roster
 from grader.batch.systems.system import System
+from grader.batch.times import timed
+from grader.batch.unclear import Unclear, unclear_groups
 
 STRANGER = "not on the roster"
-AMBIGUOUS = "fits more than one line of the roster, or its line fits more than one submission"
 BY_NAME = "found on the roster by name only"
 ALONE_TOO = "also handed in alone: both are attempts"
 
@@ -25,6 +26,7 @@ class Joined:
     """The class in the order of the roster, then by name.
 
     `elsewhere` are the missing students, by key, who are known to have handed in elsewhere.
+    `unclear` says which submissions were not joined because several students or submissions fit.
     """
 
     handed_in: tuple[HandedIn, ...]
@@ -32,6 +34,7 @@ class Joined:
     elsewhere: Mapping[str, Elsewhere] = field(default_factory=dict)
     on_roster: OnRoster | None = None
     notes: tuple[str, ...] = ()
+    unclear: tuple[str, ...] = ()
 
 
 def join(system: System, handed_in: Iterable[HandedIn], roster: Roster | None) -> Joined:
@@ -46,7 +49,7 @@ def join(system: System, handed_in: Iterable[HandedIn], roster: Roster | None) -
     if roster is None:
         return Joined(tuple(_by_student_name(by_key.values())))
     students = [group[0].student for group in by_key.values()]
-    roster, notes = _with_groups(system, students, roster)
+    roster, notes = _with_groups(system, students, _with_own_keys(roster))
     match = Match()
     match_more(match, sure_rules(system, students, roster), students, roster)
     # a group `Team Lee` may have the number of a participant Ann Lee
@@ -100,29 +103,65 @@ def _joined(
         student = _fuller(by_key[key][0].student, roster.students[row])
         by_name = (BY_NAME,) if key in match.by_name else ()
         own = [replace(o, student=student, notes=(*o.notes, *by_name)) for o in by_key[key]]
-        found[row] = _timed(own, roster.lines[row].submitted)
+        found[row] = own
     for key, rows in groups.rows.items():
         for row in rows:
             own = found.get(row, [])
             student = own[0].student if own else _with_free_key(roster.students[row], taken)
             found[row] = [*_of_group(by_key[key], student, groups.names[key], alone=own), *own]
+    for row, own in found.items():
+        found[row] = timed(own, {own[0].student.key: roster.lines[row].times})
+    unclear = _unclear(by_key, match, groups, roster, found)
     for key, attempts in by_key.items():
         if key not in match.rows and not groups.rows.get(key):
-            reason = AMBIGUOUS if key in match.ambiguous | groups.ambiguous else STRANGER
-            strangers.append([replace(one, notes=(*one.notes, reason)) for one in attempts])
+            why = next((one.reason for one in unclear if key in one.keys), "")
+            notes_of = () if why else (STRANGER,)
+            strangers.append(
+                [replace(o, notes=(*o.notes, *notes_of), unclear=why) for o in attempts]
+            )
     missing = [
         (row, _with_free_key(line.student, taken))
         for row, line in enumerate(roster.lines)
         if row not in found
     ]
-    why = {s.key: groups.unsure.get(row) or roster.lines[row].evidence for row, s in missing}
+    elsewhere: dict[str, Elsewhere] = {}
+    for row, student in missing:
+        why = next((one.reason for one in unclear if row in one.rows), "")
+        if why or roster.lines[row].evidence:
+            reason = why or roster.lines[row].evidence
+            elsewhere[student.key] = Elsewhere(reason, is_unclear=bool(why))
     return Joined(
         handed_in=(*(o for row in sorted(found) for o in found[row]), *_by_student_name(strangers)),
         missing=tuple(student for _, student in missing),
-        elsewhere={key: Elsewhere(reason) for key, reason in why.items() if reason},
+        elsewhere=elsewhere,
         on_roster=_roster_counts(by_key, strangers, roster),
         notes=(*roster.notes, *notes, *_group_notes(groups)),
+        unclear=tuple(one.reason for one in unclear),
     )
+
+
+def _unclear(
+    by_key: Mapping[str, list[HandedIn]],
+    match: Match,
+    groups: Groups,
+    roster: Roster,
+    found: Mapping[int, list[HandedIn]],
+) -> list[Unclear]:
+    """Return the submissions that were not joined because several fit, with the possible rows."""
+    unclear = {key: set(rows) for key, rows in match.unclear.items() if key not in groups.rows}
+    students = {key: attempts[0].student for key, attempts in by_key.items()}
+    one_by_one = unclear_groups(unclear, students, roster.students)
+    of_groups = {
+        why: Unclear(
+            why,
+            frozenset(key for key, reason in groups.ambiguous.items() if reason == why),
+            frozenset(row for row, reason in groups.unsure.items() if reason == why),
+        )
+        for why in (*groups.ambiguous.values(), *groups.unsure.values())
+    }
+    return [
+        one for one in (*one_by_one, *of_groups.values()) if one.keys or one.rows - found.keys()
+    ]
 
 
 def _roster_counts(
@@ -131,7 +170,7 @@ def _roster_counts(
     return OnRoster(
         roster=roster.name,
         submissions=len(by_key),
-        strangers=tuple(group[0].student.name for group in strangers),
+        strangers=tuple(g[0].student.name for g in strangers if not g[0].unclear),
         lines=len(roster.lines),
     )
 
@@ -155,13 +194,6 @@ def _group_notes(groups: Groups) -> Iterator[str]:
         yield f"{what}: each of the {members} members gets the group's verdict"
 
 
-def _timed(group: list[HandedIn], at: datetime | None) -> list[HandedIn]:
-    """Return a student's only submission with the roster's time, unless it has its own."""
-    if at is None or len(group) > 1 or group[0].submitted is not None:
-        return group
-    return [replace(group[0], submitted=at)]
-
-
 def _by_student_name(groups: Iterable[list[HandedIn]]) -> Iterator[HandedIn]:
     def place(group: list[HandedIn]) -> tuple[str, str]:
         return without_accents(group[0].student.name), group[0].student.key
@@ -180,6 +212,20 @@ def _fuller(own: Student, line: Student) -> Student:
         id_number=line.id_number or own.id_number,
         section=line.section or own.section,
     )
+
+
+def _with_own_keys(roster: Roster) -> Roster:
+    """Return the roster with different keys for students of one name who have nothing else."""
+    counts = Counter(line.student.key for line in roster.lines)
+    lines = (
+        replace(
+            line, student=replace(line.student, key=f"{line.student.key} (line {line.row + 1})")
+        )
+        if counts[line.student.key] > 1
+        else line
+        for line in roster.lines
+    )
+    return replace(roster, lines=tuple(lines))
 
 
 def _with_free_key(student: Student, taken: set[str]) -> Student:

@@ -18,6 +18,7 @@ from grader.base.errors import SurroundingsError
 from grader.base.signing import PublicKey, SigningKey, own_key
 from grader.batch import ledger_chain
 from grader.batch.ledger_file import LedgerFile
+from grader.batch.ledger_overrides import recorded_overrides
 from grader.batch.model import Override, Student
 from grader.report.model import Report
 
@@ -51,6 +52,8 @@ class HandedInRow:
     late: bool | None
     path: str
     first_seen: datetime
+    late_seconds: float | None = None
+    extension: datetime | None = None
 
 
 @dataclass(frozen=True)
@@ -139,6 +142,11 @@ class Ledger:
         )
         return VerdictRow(*rows[0]) if rows else None
 
+    def submission_of(self, verdict: int) -> str:
+        """Return the hash of the submission that a verdict is about, "" if there is no such verdict."""
+        rows = self._file.rows("SELECT submission FROM verdict WHERE id = ?", (verdict,))
+        return str(rows[0][0]) if rows else ""
+
     def report(self, verdict: int) -> Report:
         """Return the report of a verdict; raise KeyError if there is none of this id.
 
@@ -218,12 +226,15 @@ class Ledger:
         with self._file.write() as connection:
             connection.executemany(
                 "INSERT INTO handed_in (student, assignment, submission, submitted, late, path, "
-                "first_seen) VALUES (?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO UPDATE SET "
-                "submitted = excluded.submitted, late = excluded.late, path = excluded.path",
+                "first_seen, late_seconds, extension) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?) "
+                "ON CONFLICT DO UPDATE SET submitted = excluded.submitted, late = excluded.late, "
+                "path = excluded.path, late_seconds = excluded.late_seconds, "
+                "extension = excluded.extension",
                 [
                     (
                         *(row.student, assignment, row.submission, _text(row.submitted)),
                         *(row.late, row.path, _text(row.first_seen)),
+                        *(row.late_seconds, _text(row.extension)),
                     )
                     for row in rows
                 ],
@@ -232,16 +243,17 @@ class Ledger:
     def handed_in(self, assignment: str) -> list[HandedInRow]:
         """Return all submissions so far, in the order in which they were first seen."""
         rows = self._file.rows(
-            "SELECT student, submission, submitted, late, path, first_seen FROM handed_in "
-            "WHERE assignment = ? ORDER BY id",
+            "SELECT student, submission, submitted, late, path, first_seen, late_seconds, extension "
+            "FROM handed_in WHERE assignment = ? ORDER BY id",
             (assignment,),
         )
         return [
             HandedInRow(
                 *(student, submission, _instant(submitted)),
                 *(None if late is None else bool(late), path, datetime.fromisoformat(first)),
+                *(late_seconds, _instant(extension)),
             )
-            for student, submission, submitted, late, path, first in rows
+            for student, submission, submitted, late, path, first, late_seconds, extension in rows
         ]
 
     def enrol(self, assignment: str, students: Iterable[Student]) -> None:
@@ -264,7 +276,7 @@ class Ledger:
         return [Student(*row) for row in rows]
 
     def override(self, assignment: str, override: Override) -> None:
-        """Record an instructor's correction; it replaces an earlier one of the same check."""
+        """Record an instructor's correction; it replaces one of the same check and submission."""
         self._put_override(assignment, override, override.points)
 
     def drop_override(self, assignment: str, override: Override) -> None:
@@ -275,27 +287,21 @@ class Ledger:
         at = _text(override.at) or _now()
         with self._file.write() as connection:
             cursor = connection.execute(
-                "INSERT INTO override (student, assignment, check_id, points, because, by, at) "
-                "VALUES (?, ?, ?, ?, ?, ?, ?)",
+                "INSERT INTO override (student, assignment, check_id, points, because, by, at, "
+                "verdict) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
                 (
                     *(override.student, assignment, override.check, points),
-                    *(override.because, override.by, at),
+                    *(override.because, override.by, at, override.verdict),
                 ),
             )
             ledger_chain.append(connection, "override", int(cursor.lastrowid or 0), self._signing)
 
     def overrides(self, assignment: str) -> list[Override]:
-        """Return the corrections in force: the last one of each student and check."""
-        rows = self._file.rows(
-            "SELECT student, check_id, points, because, by, at FROM override WHERE id IN "
-            "(SELECT max(id) FROM override WHERE assignment = ? GROUP BY student, check_id) "
-            "AND points IS NOT NULL ORDER BY id",
-            (assignment,),
-        )
-        return [
-            Override(student, check, points, because, by, _instant(at))
-            for student, check, points, because, by, at in rows
-        ]
+        """Return the corrections that were not removed, in the order in which they were made.
+
+        They are the last ones of each student and check, for each submission that was corrected.
+        """
+        return recorded_overrides(self._file, assignment)
 
     def corrected_since(self, at: datetime) -> set[str]:
         """Return the students with a correction that was made or removed since then."""

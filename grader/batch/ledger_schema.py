@@ -106,10 +106,28 @@ CHAIN = """
         UNIQUE (place, row)
     );
 """
+
+
+def _add(table: str, **columns: str) -> Callable[[sqlite3.Connection], None]:
+    """Return what adds columns to a table, unless they are there."""
+
+    def add(connection: sqlite3.Connection) -> None:
+        known = {row[1] for row in connection.execute(f"PRAGMA table_info({table})")}
+        for name, kind in columns.items():
+            if name not in known:
+                connection.execute(f"ALTER TABLE {table} ADD COLUMN {name} {kind}")
+
+    return add
+
+
 # the tables of a step, and what is done with the rows that are there
 STEPS: tuple[tuple[str, Callable[[sqlite3.Connection], None] | None], ...] = (
     (FIRST, None),
     (CHAIN, ledger_chain.adopt),
+    # the verdict that a correction is of: 0 if there was none, NULL in a row of an earlier grader
+    ("", _add("override", verdict="INTEGER")),
+    # what the system says of lateness
+    ("", _add("handed_in", late_seconds="REAL", extension="TEXT")),
 )
 
 

@@ -22,6 +22,7 @@ from grader.base.project import CHECKOUT
 from grader.batch.idleness import Idleness
 from grader.batch.sandbox_proof import prove
 from grader.batch.work import Answer, Done, Job, Task, Trial
+from grader.sandbox.scheduling import Limit, RunClock, family
 
 END_SECONDS = 10.0  # for a worker to end, with its sandbox, before it is killed
 CHUNK = 1 << 20
@@ -43,7 +44,7 @@ class Worker:
     process: subprocess.Popen[bytes]
     errors: IO[bytes]
     trial: Trial | None = None
-    deadline: float = 0
+    limit: Limit | None = None
     buffer: bytearray = field(default_factory=bytearray)
 
     @property
@@ -78,6 +79,7 @@ class LocalPool:
         self._seconds = job.seconds if seconds is None else seconds
         self._workers: list[Worker] = []
         self._again: deque[Trial] = deque()
+        self._alone: deque[Trial] = deque()  # what the machine's load may have left undecided
 
     def run(
         self, tasks: Iterable[Task], *, started: Callable[[Task], None]
@@ -112,16 +114,27 @@ class LocalPool:
             if busy >= self._count and not self._may_add_worker(busy):
                 return
             idle = next((worker for worker in self._workers if worker.trial is None), None)
-            trial = self._again.popleft() if self._again else None
+            trial = self._next_trial(waiting, busy)
             if trial is None:
-                task = next(waiting, None)
-                if task is None:
-                    return
-                trial = Trial(task, self._seconds)
+                return
             worker = idle or self._start(selector)
             if trial.tries == 0:
                 started(trial.task)
             self._give(worker, trial)
+
+    def _next_trial(self, waiting: Iterator[Task], busy: int) -> Trial | None:
+        """Return what to mark next beside `busy` others, None if nothing can be.
+
+        What was left undecided is tried again at the end, with nothing beside it.
+        """
+        if any(worker.trial is not None and worker.trial.undecided for worker in self._workers):
+            return None
+        if self._again:
+            return self._again.popleft()
+        task = next(waiting, None)
+        if task is not None:
+            return Trial(task, self._seconds)
+        return self._alone.popleft() if self._alone and not busy else None
 
     def _may_add_worker(self, busy: int) -> bool:
         """Whether a core is idle: a node on the wall clock, or one that hangs, only waits."""
@@ -146,7 +159,8 @@ class LocalPool:
 
     def _give(self, worker: Worker, trial: Trial) -> None:
         worker.trial = trial
-        worker.deadline = time.monotonic() + self._seconds
+        pid = worker.process.pid
+        worker.limit = RunClock(lambda: family(pid)).limit(self._seconds)
         trial.tries += 1
         _send(worker, trial.task.to_text())
 
@@ -158,9 +172,8 @@ class LocalPool:
         started: Callable[[Task], None],
     ) -> Iterator[Done]:
         """Wait for the next answer, crash or deadline, and yield the finished tasks."""
-        until = min(worker.deadline for worker in busy) - time.monotonic()
-        until = min(until, IDLE_SECONDS) if self._most > self._count else until
-        ready = [key.data for key, _ in selector.select(max(0.0, until))]
+        until = min(worker.limit.slice for worker in busy if worker.limit is not None)
+        ready = [key.data for key, _ in selector.select(until)]
         for worker in ready:
             answer = self._read(worker, selector)
             if answer is None:
@@ -170,7 +183,7 @@ class LocalPool:
             if trial is not None:
                 yield from self._done(trial, answer)
         for worker in busy:
-            if worker.trial is not None and time.monotonic() > worker.deadline:
+            if worker.trial is not None and worker.limit is not None and worker.limit.over:
                 trial = worker.trial
                 self._remove(worker, selector)
                 why = f"it was not done within {self._seconds:.0f} s, so its worker was killed"
@@ -196,10 +209,10 @@ class LocalPool:
         return found
 
     def _done(self, trial: Trial, answer: Answer) -> Iterator[Done]:
-        """Yield the task if it is done; queue it again if another try may yield more."""
+        """Yield the task if it is done; put it aside if another try may yield more."""
         done = trial.add(answer)
         if done is None:
-            self._again.append(trial)
+            (self._alone if trial.undecided else self._again).append(trial)
         else:
             yield done
 

@@ -40,6 +40,8 @@ def lowered(entry: GradebookEntry, before: str, where: str) -> Lowered | None:
     if before.strip() in NONE or any(override.check == "" for override in entry.overrides):
         return None
     number = as_number(before)
+    if entry.status == "ungradable" and number is not None and number <= 0:
+        return None  # (an earlier grader gave no points for what it could not open)
     if number is not None and entry.final is not None:
         taken = sum(
             max(0.0, mark.check.score - (mark.points or 0))
@@ -60,7 +62,7 @@ def lowered(entry: GradebookEntry, before: str, where: str) -> Lowered | None:
 def is_without_verdict(entry: GradebookEntry) -> bool:
     """Whether a student has neither a submission here nor a corrected total."""
     corrected = any(override.check == "" for override in entry.overrides)
-    return entry.status in ("missing", "elsewhere") and not corrected
+    return entry.status in ("missing", "elsewhere", "unclear") and not corrected
 
 
 def as_number(text: str) -> float | None:

@@ -1,4 +1,7 @@
-"""Finds students on a roster: by an identifier, or else by a name that only one of them has."""
+"""Finds students on a roster: by an identifier, or else by a name that only one of them has.
+
+A name that several have joins nobody, even if only one of them is left: who that is, is not known.
+"""
 
 from __future__ import annotations
 
@@ -18,11 +21,24 @@ MOST_PARTS = 5  # of a name that is written as one word
 
 @dataclass
 class Match:
-    """The roster's row of each key; the keys found by name alone, and the ambiguous ones."""
+    """The roster's row of each key, and the keys that were found by name alone.
+
+    `candidates` are the rows that fit a key if it is not clear which one it is.
+    """
 
     rows: dict[str, int] = field(default_factory=dict)
     by_name: set[str] = field(default_factory=set)
-    ambiguous: set[str] = field(default_factory=set)
+    candidates: dict[str, set[int]] = field(default_factory=dict)
+
+    @property
+    def unclear(self) -> dict[str, set[int]]:
+        """The possible rows of each key that has none because several fit."""
+        return {key: rows for key, rows in self.candidates.items() if key not in self.rows}
+
+    def add_candidates(self, key: str, rows: Iterable[int]) -> None:
+        """Note that these rows fit a key, and that it is not clear which one it is."""
+        if found := set(rows):
+            self.candidates.setdefault(key, set()).update(found)
 
 
 @dataclass(frozen=True)
@@ -44,24 +60,28 @@ def match_more(
     """Find a row for each student without one; a row has one key, and the first rule wins."""
     lines = roster.students
     for rule in rules:
-        rows = _rows_by_identifier(rule, lines, without=set(match.rows.values()))
+        taken = set(match.rows.values())
+        # a name must be unique in the whole class: who already has a row counts too
+        rows = _rows_by_identifier(rule, lines, without=set() if rule.by_name else taken)
         claims: dict[int, list[str]] = {}
         for student in students:
-            if student.key in match.rows:
+            if student.key in match.rows and not rule.by_name:
                 continue
             found = {row for own in rule.of_student(student) for row in rows.get(own, ())}
             fit = {row for row in found if rule.fits is None or rule.fits(student, lines[row])}
             if len(fit) == 1:
                 claims.setdefault(fit.pop(), []).append(student.key)
-            elif fit:
-                match.ambiguous.add(student.key)
-        for row, keys in claims.items():
-            if len(keys) > 1:
-                match.ambiguous.update(keys)
-                continue
-            match.rows[keys[0]] = row
-            if rule.by_name:
-                match.by_name.add(keys[0])
+            elif student.key not in match.rows:
+                match.add_candidates(student.key, fit)
+        for row in claims.keys() - taken:
+            keys = [key for key in claims[row] if key not in match.rows]
+            if len(claims[row]) > 1:
+                for key in keys:
+                    match.add_candidates(key, [row])
+            elif keys:
+                match.rows[keys[0]] = row
+                if rule.by_name:
+                    match.by_name.add(keys[0])
 
 
 def sure_rules(system: System, students: Sequence[Student], roster: Roster) -> Iterator[MatchRule]:
@@ -86,7 +106,7 @@ def fallback_rules(system: System, roster: Roster) -> Iterator[MatchRule]:
     """Yield the last rules to try: by the number of a student without a name, and by name."""
     if _has_numbers_of(system, roster):
         yield MatchRule(_number, _number, fits=_is_nameless)
-    yield from NAME_RULES
+    yield BY_NAME
 
 
 def rules_for_people(
@@ -107,6 +127,11 @@ def _has_numbers_of(system: System, roster: Roster) -> bool:
 def names_agree(own: Student, line: Student) -> bool:
     """Whether two names can be one person's: they share a word or have the same letters."""
     return bool({*_words(own)} & {*_words(line)}) or is_same_name(own, line)
+
+
+def is_participant(own: Student, line: Student | None) -> bool:
+    """Whether a line with a student's number can be this student's."""
+    return line is not None and (names_agree(own, line) or _is_nameless(own, line))
 
 
 def is_same_name(own: Student, line: Student) -> bool:
@@ -213,7 +238,17 @@ def _words_in_any_order(student: Student) -> Iterator[str]:
             yield "".join(order)
 
 
-NAME_RULES = (
-    MatchRule(_sorted_words, _sorted_words, by_name=True),
-    MatchRule(_one_word, _words_in_any_order, by_name=True),
-)
+def written_names(student: Student) -> Iterator[str]:
+    """Yield a name as it may be written in a list: in any order of its words, or as one word."""
+    yield from _sorted_words(student)
+    yield from _one_word(student)
+
+
+def possible_names(line: Student) -> Iterator[str]:
+    """Yield what `written_names` of the same name can be."""
+    yield from _sorted_words(line)
+    yield from _words_in_any_order(line)
+
+
+# one rule: `Kim Minji` and `KimMinji` are the same name
+BY_NAME = MatchRule(written_names, possible_names, by_name=True)

@@ -20,7 +20,7 @@ from grader.report.model import Report
 if TYPE_CHECKING:
     from grader.batch.systems.system import System
 
-EntryStatus = Literal["graded", "ungradable", "error", "missing", "elsewhere", "pending"]
+EntryStatus = Literal["graded", "ungradable", "error", "missing", "elsewhere", "unclear", "pending"]
 
 
 @dataclass(frozen=True)
@@ -39,10 +39,13 @@ class Student:
 class HandedIn:
     """One attempt of a student: `path` is a folder or an archive on this machine.
 
-    `problem` says why it cannot be marked (a corrupt archive, for example); `notes` are for the
-    instructor. `submitted` is the system's own time stamp, `late` its own statement; each is None
-    if the system does not say. `modes_kept` is False if loose files lost their exec bits on the way
-    (uploaded one by one, for example); `take_in` needs to know.
+    `problem` says why it cannot be marked (a corrupt archive, for example); `unclear` why it is not
+    known whose it is (nobody gets its grade); `notes` are for the instructor.
+
+    `submitted` is the system's own time stamp, `late` and `late_seconds` its own statements (0: not
+    late), `extension` the later due date that it granted; each is None if the system does not say.
+    `modes_kept` is False if loose files lost their exec bits on the way (uploaded one by one, for
+    example); `take_in` needs to know.
     """
 
     student: Student
@@ -50,20 +53,30 @@ class HandedIn:
     attempt: int = 1
     submitted: datetime | None = None
     late: bool | None = None
+    late_seconds: float | None = None
+    extension: datetime | None = None
     notes: tuple[str, ...] = ()
     problem: str = ""
     modes_kept: bool = True
+    unclear: str = ""
+
+    @property
+    def has_times(self) -> bool:
+        """Whether it is known when it was handed in, or how late that was."""
+        return (self.submitted, self.late_seconds, self.extension) != (None, None, None)
 
 
 @dataclass(frozen=True)
 class Elsewhere:
     """Why a student without a submission here is known to have handed in elsewhere.
 
-    `final` are the points that the student already has, None if they are not known.
+    `final` are the points that the student already has, None if they are not known. `is_unclear`:
+    a submission is here that may be this student's.
     """
 
     reason: str
     final: float | None = None
+    is_unclear: bool = False
 
 
 @dataclass(frozen=True)
@@ -81,6 +94,7 @@ class ClassFolder:
     """A class as it was downloaded: every attempt, and the roster's students without one.
 
     `elsewhere` are the missing students, by key, who are known to have handed in elsewhere.
+    `unclear` says for each group of submissions and students why they were not joined.
     """
 
     system: System
@@ -90,11 +104,19 @@ class ClassFolder:
     elsewhere: Mapping[str, Elsewhere] = field(default_factory=dict)
     on_roster: OnRoster | None = None
     notes: tuple[str, ...] = ()
+    unclear: tuple[str, ...] = ()
+
+
+UNKNOWN = -1  # the verdict of a correction in the ledger of an earlier grader, if it is not certain
 
 
 @dataclass(frozen=True)
 class Override:
-    """An instructor's correction, kept across reruns and regrades; `check` "" is the total."""
+    """An instructor's correction of one verdict; `check` "" is the total.
+
+    `verdict` is the id in the ledger, 0 if the student had no verdict, or UNKNOWN; `submission` the
+    hash of what that verdict is about, "" if there is none.
+    """
 
     student: str
     check: str
@@ -102,6 +124,19 @@ class Override:
     because: str
     by: str = ""
     at: datetime | None = None
+    verdict: int = 0
+    submission: str = ""
+
+
+@dataclass(frozen=True)
+class LapsedOverride:
+    """A correction of another verdict than the one that counts now.
+
+    `attempt` is the number of the attempt that it belongs to, 0 if there is no such attempt.
+    """
+
+    override: Override
+    attempt: int = 0
 
 
 class LazyReport:
@@ -133,9 +168,11 @@ class GradebookEntry:
     """What one student gets: the report that counts, and the points after policy and corrections.
 
     `score` is the report's score with overrides (None without a report); `penalty` the points taken
-    for lateness; `final` the grade for the gradebook, or None. None means: an ungradable submission
+    for lateness, `late_seconds` is None if it is not known how late it is; `due` the student's own
+    due date; `final` the grade for the gradebook, or None. None means: an ungradable submission
     waits for the instructor, one with `error` for the grader's next run. A missing submission
-    follows the assignment's policy; a student who handed in elsewhere keeps the existing grade.
+    follows the assignment's policy; a student who handed in elsewhere keeps the existing grade, and
+    so does one whose submission may be here but is `unclear`, as that submission itself is.
     The student reads `problem`, only the instructor reads `notes`.
     """
 
@@ -149,16 +186,38 @@ class GradebookEntry:
     attempt: int = 1
     attempts: int = 1
     submitted: datetime | None = None
-    late_seconds: float = 0
+    late_seconds: float | None = 0
+    due: datetime | None = None
     problem: str = ""
     notes: tuple[str, ...] = ()
     overrides: tuple[Override, ...] = ()
+    lapsed: tuple[LapsedOverride, ...] = ()
+    """Corrections for the instructor to repeat or to remove: they count no longer."""
+    unmarked_later: tuple[str, ...] = ()
+    """Why later attempts than the one that counts could not be marked."""
     same_as: tuple[str, ...] = ()
     """Keys of students with the same content, not all of them: see `ClassResult.identical`."""
     verdict: int | None = None
     """The id of the report's verdict in the ledger."""
     lang: str = "en"
     """The language of the student's texts: the report's, if there is one."""
+
+    @property
+    def by_hand(self) -> tuple[str, ...]:
+        """Why the instructor must look at the submission by hand; () if that is not needed."""
+        own = (self.problem,) if self.status == "ungradable" else ()
+        return (*own, *self.unmarked_later)
+
+    @property
+    def is_lateness_open(self) -> bool:
+        """Whether there is a due date, and it is not known how late the submission is."""
+        return self.late_seconds is None and self.due is not None
+
+    @property
+    def keeps_grade(self) -> bool:
+        """Whether no grade is written for the student, and one that exists elsewhere stays."""
+        corrected = any(override.check == "" for override in self.overrides)
+        return self.status in ("elsewhere", "unclear") and not corrected
 
     def for_student(self, detail: Detail, *, show_hidden: bool = False) -> GradebookEntry:
         """Return the entry with a report that a student may read (see `with_feedback`)."""
@@ -188,6 +247,8 @@ class ClassResult:
     notes: tuple[str, ...] = ()
     identical: tuple[tuple[str, ...], ...] = field(default=())
     """Groups of keys whose submissions are the same apart from white space and comments."""
+    unclear: tuple[str, ...] = ()
+    """Why submissions were not joined with students: one reason for each group of them."""
     detail: Detail = Detail.LINE
     """What students get to know of a failed check."""
 

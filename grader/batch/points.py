@@ -137,7 +137,7 @@ def _total_words(entry: GradebookEntry) -> str:
 
 
 def _late_words(entry: GradebookEntry) -> str:
-    if entry.late_seconds > 0:
+    if entry.late_seconds:
         return say("Handed in {duration} late", duration=duration(entry.late_seconds))
     if entry.penalty:
         return say("Points taken for lateness")

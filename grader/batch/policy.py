@@ -9,11 +9,19 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from datetime import datetime
+from datetime import datetime, timedelta
 
 from grader.base.i18n.message import joined, say
-from grader.batch.model import Elsewhere, GradebookEntry, Override, Student
+from grader.batch.model import (
+    Elsewhere,
+    EntryStatus,
+    GradebookEntry,
+    LapsedOverride,
+    Override,
+    Student,
+)
 from grader.batch.points import marks, rounded
+from grader.batch.words import instant
 from grader.course.policy import Policy, amount
 from grader.report.model import Report
 
@@ -23,6 +31,8 @@ OUR_FAULT = say(
     "Not marked: the grader failed on this submission. This is not your fault, and your "
     "instructor knows about it."
 )
+FOUND = "package.found"
+NO_PACKAGE = say("no package was found in it")
 CALLED_LATE = say("the learning management system calls it late")
 
 
@@ -31,7 +41,8 @@ class Attempt:
     """One attempt of a student, with its report if it has been marked.
 
     `problem` says why the attempt cannot be marked, `fault` how the grader failed on it; without
-    either it is still to be marked. `late` is what the learning management system says.
+    either it is still to be marked. `late`, `late_seconds` and `extension` are what the learning
+    management system says. `overrides` are the corrections of its verdict.
     """
 
     number: int
@@ -41,31 +52,67 @@ class Attempt:
     problem: str = ""
     notes: tuple[str, ...] = ()
     fault: str = ""
+    late_seconds: float | None = None
+    extension: datetime | None = None
+    overrides: tuple[Override, ...] = ()
 
 
-def lateness(submitted: datetime | None, policy: Policy) -> float | None:
-    """Return the seconds since the due date, 0 until the grace time ends.
+def due_date(policy: Policy, extension: datetime | None = None) -> datetime | None:
+    """Return a student's due date: the policy's, or the later one that the student was granted."""
+    dates = [at for at in (policy.deadline, extension) if at is not None]
+    return max(dates, default=None)
 
-    None if there is a due date and the time of submission is not known.
+
+def lateness(
+    submitted: datetime | None,
+    policy: Policy,
+    *,
+    stated: float | None = None,
+    extension: datetime | None = None,
+) -> float | None:
+    """Return the seconds since the due date, 0 until the grace time ends; None if not known.
+
+    `stated` is what the learning management system says: it counts, because the system knows each
+    student's due date. It is cut off to its smallest unit, so the exact time counts if it agrees.
     """
-    due = policy.deadline
-    if due is None:
-        return 0
-    if submitted is None:
+    due = due_date(policy, extension)
+    exact = (submitted - due).total_seconds() if submitted and due else None
+    late = exact
+    if stated is not None:
+        agrees = exact is not None and stated <= exact < stated + _precision(stated)
+        late = exact if agrees and stated else stated
+    elif due is None and submitted is not None:
+        late = 0
+    if late is None:
         return None
-    late = (submitted - due).total_seconds()
     return late if late > policy.grace_seconds else 0
 
 
-def penalty(score: float, max_score: float, submitted: datetime | None, policy: Policy) -> float:
+def _precision(stated: float) -> float:
+    """Return the unit to which a system cuts off a time of two units: 2 days 3 hours."""
+    return HOUR if stated >= DAY else 60 if stated >= HOUR else 1
+
+
+def penalty(
+    score: float,
+    max_score: float,
+    submitted: datetime | None,
+    policy: Policy,
+    *,
+    stated: float | None = None,
+    extension: datetime | None = None,
+) -> float:
     """Return the points that lateness takes from a score; each begun day (hour) counts as a whole.
 
-    At most the score and the policy's `most`; the whole score from the policy's `until` on.
+    At most the score and the policy's `most`; the whole score from the policy's `until` on (or an
+    extension that ends later). Nothing if it is not known how late the submission is.
     """
-    late = lateness(submitted, policy)
-    if not late or submitted is None:
+    late = lateness(submitted, policy, stated=stated, extension=extension)
+    due = due_date(policy, extension)
+    if not late:
         return 0
-    if policy.end is not None and submitted >= policy.end:
+    at = submitted if submitted is not None or due is None else due + timedelta(seconds=late)
+    if policy.end is not None and at is not None and at >= max(policy.end, due or policy.end):
         return score
     rules = policy.late
     each, unit = (rules.per_day, DAY) if rules.per_day else (rules.per_hour, HOUR)
@@ -85,16 +132,38 @@ def standing(
 ) -> GradebookEntry:
     """Return what a student gets; `attempts` are in the order of submission.
 
-    A corrected check counts before the penalty for lateness; a corrected total is final. A student
-    who handed in `elsewhere` keeps the existing grade, whatever the policy says about missing
-    submissions.
+    `overrides` are corrections of no verdict on these attempts. A corrected check counts before the
+    penalty for lateness; a corrected total is final. A student who handed in `elsewhere` keeps the
+    existing grade, whatever the policy says about missing submissions.
     """
     if not attempts:
         entry = _without_attempt(student, policy, max_score, elsewhere)
-        return _corrected(replace(entry, overrides=tuple(overrides)))
-    rated = [_rate(student, attempt, overrides, policy, max_score) for attempt in attempts]
-    entry = rated[_chosen(rated, policy)]
-    return _corrected(replace(entry, attempts=len(rated)))
+        own = tuple(override for override in overrides if override.verdict == 0)
+        others = [LapsedOverride(override) for override in overrides if override.verdict != 0]
+        return _with_lapsed(_corrected(replace(entry, overrides=own)), others)
+    rated = [_rate(student, attempt, policy, max_score) for attempt in attempts]
+    chosen = _chosen(rated, policy)
+    entry = replace(rated[chosen], attempts=len(rated))
+    others = [LapsedOverride(override) for override in overrides]
+    others += [
+        LapsedOverride(override, other.attempt)
+        for other in (*rated[:chosen], *rated[chosen + 1 :])
+        for override in other.overrides
+    ]
+    later = rated[chosen + 1 :] if policy.attempts == "best" else ()
+    unmarked = tuple(
+        f"attempt {one.attempt}, later than the one that counts: {one.problem}"
+        for one in later
+        if one.status == "ungradable"
+    )
+    return replace(_with_lapsed(entry, others), unmarked_later=unmarked)
+
+
+def _with_lapsed(entry: GradebookEntry, others: Sequence[LapsedOverride]) -> GradebookEntry:
+    """Return the entry with the corrections of other verdicts that are not made for this one."""
+    own = {override.check for override in entry.overrides}
+    lapsed = () if "" in own else tuple(one for one in others if one.override.check not in own)
+    return replace(entry, lapsed=lapsed)
 
 
 def _without_attempt(
@@ -103,7 +172,7 @@ def _without_attempt(
     if elsewhere is not None:
         return GradebookEntry(
             student,
-            "elsewhere",
+            "unclear" if elsewhere.is_unclear else "elsewhere",
             final=elsewhere.final,
             max_score=max_score,
             notes=(elsewhere.reason,),
@@ -112,19 +181,17 @@ def _without_attempt(
     return GradebookEntry(student, "missing", final=nothing, max_score=max_score)
 
 
-def _rate(
-    student: Student,
-    attempt: Attempt,
-    overrides: Sequence[Override],
-    policy: Policy,
-    max_score: float,
-) -> GradebookEntry:
-    """Return what a student gets for this attempt, without a correction of the total."""
-    late = lateness(attempt.submitted, policy)
+def _rate(student: Student, attempt: Attempt, policy: Policy, max_score: float) -> GradebookEntry:
+    """Return what a student gets for this attempt."""
+    stated, extension = attempt.late_seconds, attempt.extension
+    late = lateness(attempt.submitted, policy, stated=stated, extension=extension)
+    due = due_date(policy, extension)
     notes = list(attempt.notes)
     if attempt.fault and attempt.report is None:
         notes.insert(0, f"the grader failed on it: {attempt.fault}")
-    if late is None:
+    if extension is not None:
+        notes.append(f"the due date was extended until {instant(extension)}")
+    if late is None and (due is not None or attempt.late):
         notes.append(joined(UNKNOWN_TIME, CALLED_LATE if attempt.late else "", by="; "))
     entry = GradebookEntry(
         student,
@@ -133,11 +200,17 @@ def _rate(
         max_score=max_score,
         attempt=attempt.number,
         submitted=attempt.submitted,
-        late_seconds=late or 0,
+        late_seconds=late,
+        due=due,
         problem=attempt.problem,
         notes=tuple(notes),
-        overrides=tuple(overrides),
+        overrides=attempt.overrides,
     )
+    return _corrected(_with_points(entry, attempt, policy))
+
+
+def _with_points(entry: GradebookEntry, attempt: Attempt, policy: Policy) -> GradebookEntry:
+    """Return the entry with the points of its report, without a correction of the total."""
     if attempt.fault and attempt.report is None:
         return replace(entry, status="error", problem=OUR_FAULT)
     if attempt.report is None:
@@ -145,10 +218,25 @@ def _rate(
     if attempt.report.status == "error":
         problem = attempt.problem or attempt.report.message or OUR_FAULT
         return replace(entry, status="error", problem=problem)
+    if attempt.report.submission.package is None:
+        return replace(entry, status="ungradable", problem=_nothing_marked(attempt.report))
     score = rounded(sum(mark.points or 0 for mark in marks(entry)))
-    taken = penalty(score, max_score, attempt.submitted, policy)
+    taken = penalty(
+        score,
+        entry.max_score,
+        attempt.submitted,
+        policy,
+        stated=attempt.late_seconds,
+        extension=attempt.extension,
+    )
     final = rounded(score - taken)
     return replace(entry, status="graded", score=score, penalty=taken, final=final)
+
+
+def _nothing_marked(report: Report) -> str:
+    """Return why no package was found in a submission, in the report's language."""
+    found = (check.actual for check in report.checks if check.id == FOUND and check.actual)
+    return next(found, NO_PACKAGE)
 
 
 def _chosen(rated: Sequence[GradebookEntry], policy: Policy) -> int:
@@ -168,4 +256,5 @@ def _corrected(entry: GradebookEntry) -> GradebookEntry:
     whole = {override.check: override.points for override in entry.overrides}.get("")
     if whole is None:
         return entry
-    return replace(entry, score=rounded(whole), penalty=0, final=rounded(whole))
+    status: EntryStatus = "graded" if entry.status == "ungradable" else entry.status
+    return replace(entry, status=status, score=rounded(whole), penalty=0, final=rounded(whole))

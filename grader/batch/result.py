@@ -9,6 +9,7 @@ from datetime import datetime, timezone
 from functools import partial
 
 from grader.base.shown import utf8_name
+from grader.batch.correction import holds
 from grader.batch.earlier_submissions import EarlierSubmissions
 from grader.batch.intake import IntakeItem
 from grader.batch.ledger import HandedInRow, Ledger, VerdictRow
@@ -69,9 +70,11 @@ def class_result(
     entries: list[GradebookEntry] = []
     submissions: dict[str, str] = {}
     for key, student in students.items():
-        found = [_of_item(ledger, item, verdicts, rows) for item in own[key]]
-        found += [_of_row(ledger, row, assignment.id) for row in earlier.get(key, ())]
-        entry, counts = _entry(student, found, overrides[key], assignment, lang)
+        # what is no longer in the folder came first, if the times are the same
+        found = [_of_row(ledger, row, assignment.id) for row in earlier.get(key, ())]
+        found += [_of_item(ledger, item, verdicts, rows) for item in own[key]]
+        entry, counts = _entry(ledger, student, found, overrides[key], assignment, lang)
+        entry = _without_owner(entry, own[key][0].handed_in.unclear)
         if counts is not None:
             submissions[key] = counts.submission
         verdict = counts.verdict if counts is not None else None
@@ -81,7 +84,9 @@ def class_result(
         known = recorded.with_known_key(student)
         found = [_of_row(ledger, row, assignment.id) for row in earlier.get(known.key, ())]
         elsewhere = folder.elsewhere.get(student.key)
-        entry, counts = _entry(known, found, overrides[known.key], assignment, lang, elsewhere)
+        entry, counts = _entry(
+            ledger, known, found, overrides[known.key], assignment, lang, elsewhere
+        )
         verdict = counts.verdict if counts is not None else None
         entries.append(replace(entry, report=None, verdict=verdict))
     identical = _identical(ledger, submissions, _paths(items))
@@ -96,8 +101,19 @@ def class_result(
         seconds=seconds,
         notes=folder.notes,
         identical=identical,
+        unclear=folder.unclear,
         detail=assignment.feedback.handed_back(assignment.policy.deadline, started or _now()),
     )
+
+
+def _without_owner(entry: GradebookEntry, why: str) -> GradebookEntry:
+    """Return the entry without a grade if it is not known whose the submission is.
+
+    The instructor's own points for it stay.
+    """
+    if not why or any(override.check == "" for override in entry.overrides):
+        return entry
+    return replace(entry, status="unclear", final=None, penalty=0, notes=(*entry.notes, why))
 
 
 def _now() -> datetime:
@@ -105,6 +121,7 @@ def _now() -> datetime:
 
 
 def _entry(
+    ledger: Ledger,
     student: Student,
     found: list[DatedAttempt],
     overrides: Sequence[Override],
@@ -115,11 +132,30 @@ def _entry(
     """Return a student's entry, and the attempt that counts (None without a report)."""
     dated = sorted(found, key=lambda f: (f.at is not None, f.at.timestamp() if f.at else 0))
     attempts = [replace(f.attempt, number=n) for n, f in enumerate(dated, start=1)]
+    attempts, rest = _with_overrides(ledger, dated, attempts, overrides)
     policy, most = assignment.policy, assignment.max_score
-    entry = standing(student, attempts, overrides, policy, most, elsewhere=elsewhere)
+    entry = standing(student, attempts, rest, policy, most, elsewhere=elsewhere)
     if entry.report is None:
         return replace(entry, lang=lang), None
     return replace(entry, lang=entry.report.lang), dated[entry.attempt - 1]
+
+
+def _with_overrides(
+    ledger: Ledger,
+    dated: Sequence[DatedAttempt],
+    attempts: Sequence[Attempt],
+    overrides: Sequence[Override],
+) -> tuple[list[Attempt], list[Override]]:
+    """Return the attempts with the corrections of their verdicts, and the other corrections."""
+    own: dict[int, list[Override]] = defaultdict(list)
+    rest: list[Override] = []
+    for override in overrides:
+        places = [
+            n for n, one in enumerate(dated) if holds(ledger, override, one.verdict, one.submission)
+        ]
+        # (without any verdict, a correction is about the last attempt)
+        (own[places[-1]] if places else rest).append(override)
+    return [replace(one, overrides=tuple(own[n])) for n, one in enumerate(attempts)], rest
 
 
 def _of_item(
@@ -134,17 +170,21 @@ def _of_item(
     fault = ledger.fault(item.student, item.key) if item.key else item.fault
     if fault and row is not None:
         notes.append(f"marking it again failed, the earlier verdict still counts: {fault}")
+    recorded = rows.get((item.student, item.submission))
+    # an earlier run may have had the list with the times
+    timed = given if recorded is None or given.has_times else recorded
     attempt = Attempt(
         number=given.attempt,
-        submitted=given.submitted,
+        submitted=timed.submitted,
         late=given.late,
+        late_seconds=timed.late_seconds,
+        extension=timed.extension,
         report=_report(ledger, row),
         problem=item.problem,
         notes=tuple(notes),
         fault=fault,
     )
-    recorded = rows.get((item.student, item.submission))
-    at = given.submitted or (recorded.first_seen if recorded else None)
+    at = timed.submitted or (recorded.first_seen if recorded else None)
     return DatedAttempt(at, attempt, item.submission, row.id if row else None)
 
 
@@ -154,6 +194,8 @@ def _of_row(ledger: Ledger, handed_in: HandedInRow, assignment: str) -> DatedAtt
         number=0,
         submitted=handed_in.submitted,
         late=handed_in.late,
+        late_seconds=handed_in.late_seconds,
+        extension=handed_in.extension,
         report=_report(ledger, row),
         problem="",
         notes=(GONE,),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from datetime import datetime
+from datetime import tzinfo
 from pathlib import Path
 
 from grader.base.errors import UsageError
@@ -19,6 +19,7 @@ from grader.batch.roster_guess import EMAIL
 from grader.batch.sheet import Sheet
 from grader.batch.systems.gradescope.metadata import instant
 from grader.batch.systems.system import RosterForm, System
+from grader.batch.times import Times
 from grader.package.intake.reading import MEGABYTE, Unread, read_bytes
 
 LARGEST = 20 * MEGABYTE
@@ -32,15 +33,15 @@ class RosterLine:
     """A student's line: `row` is its number in the sheet, `group` the student's group.
 
     `evidence` says in words which submission or grade of the student the system knows, "" if none.
-    `submitted` is the system's time of submission (UTC), None if it does not say. `unknown` are the
-    cells of unrecognised columns, by the columns' names.
+    `times` is what the system says about the time of submission. `unknown` are the cells of
+    unrecognised columns, by the columns' names.
     """
 
     student: Student
     row: int = 0
     group: str = ""
     evidence: str = ""
-    submitted: datetime | None = None
+    times: Times = field(default_factory=Times)
     unknown: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -57,6 +58,16 @@ class Roster:
     def students(self) -> tuple[Student, ...]:
         """The students of the lines."""
         return tuple(line.student for line in self.lines)
+
+    @property
+    def has_times(self) -> bool:
+        """Whether the list says when a submission was handed in."""
+        return any(line.times.say_something for line in self.lines)
+
+    def in_zone(self, zone: tzinfo | None) -> Roster:
+        """Return the roster with all times in UTC; those without a zone are in `zone`."""
+        lines = (replace(line, times=line.times.in_zone(zone)) for line in self.lines)
+        return replace(self, lines=tuple(lines))
 
     @property
     def form(self) -> RosterForm:
@@ -104,7 +115,7 @@ def roster_of(sheet: Sheet, name: str, columns: RosterColumns | None = None) -> 
             row=row,
             group=_cell(sheet, row, columns, "group"),
             evidence=_evidence(sheet, row, columns),
-            submitted=_submitted(sheet, row, columns),
+            times=_times(sheet, row, columns),
             unknown={sheet.header[i]: sheet.value(row, i) for i in columns.unknown},
         )
         for row in range(1, len(sheet.rows))
@@ -177,10 +188,13 @@ def _student(sheet: Sheet, row: int, columns: RosterColumns) -> Student | None:
     )
 
 
-def _submitted(sheet: Sheet, row: int, columns: RosterColumns) -> datetime | None:
-    """Return the time of submission in a row; None if the cell is empty or not a time."""
+def _times(sheet: Sheet, row: int, columns: RosterColumns) -> Times:
+    """Return what a row says about the time of submission."""
+    form = columns.form
+    if form.times is not None:
+        return form.times({field: _cell(sheet, row, columns, field) for field in form.fields})
     stamps = (instant(sheet.value(row, index)) for index in columns.of("submitted"))
-    return next((stamp for stamp in stamps if stamp is not None), None)
+    return Times(submitted=next((stamp for stamp in stamps if stamp is not None), None))
 
 
 def _first_name_first(name: str) -> str:

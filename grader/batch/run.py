@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import datetime, timezone
 from functools import partial
 
@@ -234,7 +234,16 @@ def _record_attempts(ledger: Ledger, items: Sequence[IntakeItem], assignment: st
             late=given.late,
             path=utf8_name(given.path),
             first_seen=before.first_seen if before else now,
+            late_seconds=given.late_seconds,
+            extension=given.extension,
         )
+        if before is not None and not given.has_times:  # without the list that has them, this time
+            row = replace(
+                row,
+                submitted=before.submitted,
+                late_seconds=before.late_seconds,
+                extension=before.extension,
+            )
         if row != before:
             rows.append(row)
     if rows:

@@ -64,8 +64,9 @@ class OpenSheets:
     def covered(self, students: Sequence[Student], system: System) -> Iterator[OnRoster]:
         """Yield for each file how many of the students have a row in it."""
         for sheet in self.by_output.values():
-            rows = sheet.match(students, system).rows
-            strangers = tuple(one.name for one in students if one.key not in rows)
+            match = sheet.match(students, system)
+            known = match.rows.keys() | match.unclear.keys()
+            strangers = tuple(one.name for one in students if one.key not in known)
             roster = sheet.roster
             yield OnRoster(roster.name, len(students), strangers, len(roster.lines))
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from datetime import datetime, timezone
 
 from grader.base.i18n.message import Message, joined, msg, say
-from grader.batch.model import EntryStatus
+from grader.base.plain_text import one_line, points
+from grader.batch.model import EntryStatus, LapsedOverride
 
 MINUTE, HOUR, DAY = 60, 3_600, 86_400  # seconds
 UNITS = (
@@ -17,10 +18,11 @@ UNITS = (
 
 STATES: dict[EntryStatus, str] = {
     "graded": say("graded"),
-    "ungradable": say("ungradable"),
+    "ungradable": say("to be looked at by hand"),
     "error": say("not marked, a fault of the grader"),
     "missing": say("nothing handed in"),
     "elsewhere": say("submitted elsewhere"),
+    "unclear": say("not known whose submission it is"),
     "pending": say("not marked yet"),
 }
 # a sign for each state of a check: colour is never the only difference
@@ -49,6 +51,15 @@ def duration(seconds: float) -> str:
 
 def _counted(words: str, count: int) -> Message:
     return Message(words, {"count": count})
+
+
+def lapsed_words(lapsed: LapsedOverride) -> str:
+    """Return a correction that no longer applies, as one line for the instructor."""
+    made = lapsed.override
+    attempt = f"attempt {lapsed.attempt}" if lapsed.attempt else "an earlier verdict"
+    signed = ", ".join(part for part in (made.by, instant(made.at)) if part)
+    what = f"{made.check or 'the total'} of {attempt} was corrected to {points(made.points)}"
+    return f"{what}, because: {one_line(made.because)}{f' ({signed})' if signed else ''}"
 
 
 def plural(count: int, one: str, many: str = "") -> str:

@@ -31,6 +31,9 @@ if TYPE_CHECKING:  # (slow to import, and an unchanged class needs none of it)
     from grader.verdict.recording import Recording
 
 TRIES = 3  # at most, if the grader itself fails on a submission
+ALONE_TRIES = (
+    2  # of what is undecided: the last one at the end of the class, with nothing beside it
+)
 MARGIN_SECONDS = 60.0  # on top of a verdict's time limit, before its worker counts as hung
 
 
@@ -47,7 +50,7 @@ class Job:
 
     @property
     def seconds(self) -> float:
-        """The wall time after which the worker that marks a submission counts as hung."""
+        """The time (of a run's clock) after which the worker that marks a submission counts as hung."""
         return self.limits.verdict_seconds + MARGIN_SECONDS
 
     def to_text(self) -> str:
@@ -169,10 +172,10 @@ class Done:
 
 @dataclass(eq=False)
 class Trial:
-    """A task with its tries so far and the best answer; only the grader's own failures are retried.
+    """A task with its tries so far and the best answer.
 
-    `most` is the time limit of one try in seconds: once the tries together have taken longer, there
-    is no further one.
+    What the grader itself failed on is retried; what it left undecided too, alone. `most` is the time
+    limit of one try in seconds: once failed tries together have taken longer, there is no further one.
     """
 
     task: Task
@@ -181,11 +184,17 @@ class Trial:
     spent: float = 0
     best: Answer | None = None
 
+    @property
+    def undecided(self) -> bool:
+        """Whether it was marked and left checks undecided, as the machine's load can cause."""
+        return self.best is not None and self.best.report is not None
+
     def add(self, answer: Answer) -> Done | None:
         """Count an answer; return the finished task, or None if it is to be tried again."""
         self.best = answer.better(self.best)
         self.spent += answer.seconds
-        if self.best.worth_retrying and self.tries < TRIES and self.spent <= self.most:
+        more = self.tries < ALONE_TRIES if self.undecided else self.spent <= self.most
+        if self.best.worth_retrying and self.tries < TRIES and more:
             return None
         return Done(self.task, self._with_attempts(self.best), self.tries)
 

@@ -16,7 +16,7 @@ from grader.cli.piped import interrupts_ignored, read_and_echo
 
 if TYPE_CHECKING:
     from grader.course.assignment import Assignment
-    from grader.mistakes.explanation import Reader
+    from grader.explain.explanation import Reader
 
 
 @click.command(
@@ -37,7 +37,7 @@ def explain(
     mistake: str | None, assignment: str | None, distro: str | None, lang: str | None
 ) -> int:
     """Explain a mistake of the catalogue, or the output of a terminal."""
-    from grader.mistakes import explanation  # noqa: PLC0415 - keeps --help fast
+    from grader.explain import explanation  # noqa: PLC0415 - keeps --help fast
     from grader.ros.distro import find_distro, sourced  # noqa: PLC0415
 
     lang = lang or chosen_language(os.environ)
@@ -57,7 +57,7 @@ def explain(
 
 
 def _explain_input(reader: Reader) -> int:
-    from grader.mistakes.explanation import print_recognised  # noqa: PLC0415
+    from grader.explain.explanation import print_recognised  # noqa: PLC0415
 
     if sys.stdin is not None and sys.stdin.isatty():
         hint = say("Paste the output of the terminal here, then press Ctrl+D on an empty line.")

@@ -16,7 +16,7 @@ from grader.cli import options
 @click.option("--points", type=float, help="The points for this student.")
 @click.option("--because", default="", help="The reason; the student reads it.")
 @click.option("--remove", is_flag=True, help="Remove the correction.")
-@click.option("--list", "list_all", is_flag=True, help="List the corrections in effect.")
+@click.option("--list", "list_all", is_flag=True, help="List the corrections.")
 @click.option("--force", is_flag=True, help="Allow points below 0 or above the maximum.")
 @options.assignment
 @options.keys
@@ -39,8 +39,9 @@ def override(
 ) -> int:
     """Correct a verdict by hand: grader override STUDENT --check ID --points N --because WHY.
 
-    The correction survives reruns and regrades; the next `grader grade-all` writes it into every
-    output. Without --check it corrects the total.
+    The correction belongs to the verdict that counts now: it stays if the same files are marked
+    again, and is listed for you if the student hands in again. The next `grader grade-all` writes it
+    into every output. Without --check it corrects the total.
     """
     from grader.batch import override as corrections  # noqa: PLC0415 - keeps --help fast
     from grader.batch.ledger import Ledger  # noqa: PLC0415

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import re
 from collections.abc import Iterator
 from typing import Any, get_args, get_origin
@@ -13,9 +14,11 @@ from pydantic_core import PydanticUndefined
 from grader.base.project import CHECKOUT
 from grader.course.shorthands import SHORTHANDS
 from grader.course.values import KEYS, Form
+from grader.course.worlds import WORLDS
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.checks.declare import Check
 
+COVERS = {"": " ", "files": "node", "runs": "node, runs"}
 PAGE = CHECKOUT / "docs" / "checks.md"
 HEAD = """\
 # The checks
@@ -56,6 +59,7 @@ def page() -> str:
     for check in CHECKS.values():
         if check.parameters is not None:
             lines += list(_kind(check, check.parameters))
+    lines += list(_worlds())
     lines += [
         "## Kinds whose parameters are elsewhere in the file\n",
         "These checks need no `check:` and no `with:`.\n",
@@ -66,23 +70,55 @@ def page() -> str:
         values = ", ".join(f"`{key}`: `{place}`" for key, place in short.values.items())
         lines.append(f"| `{name}` | `{short.kind}` | {values} |")
     lines += [
-        "\nIn schema 2 `node_name` is the `name` of the first node of the first run. Only schema 1 has "
-        "`output`, which\nalso drives the run: there its kinds are used in this form only.\n",
+        "\nIn schema 2 `run.node_name` is about the `name` of each node, in each run that starts it. Only "
+        "schema 1 has\n`output`, which also drives the run: there its kinds are used in this form only.\n",
         "## Checks without parameters\n",
-        "| id | what is checked | skipped unless |",
-        "|---|---|---|",
+        "One with *node* in the last column covers each node of the assignment; with *runs*, each run "
+        "that starts the\nnode. With `of:` it is about that node alone.\n",
+        "| id | what is checked | skipped unless | covers |",
+        "|---|---|---|---|",
     ]
     for check in CHECKS.values():
         if check.parameters is None:
             depends = ", ".join(f"`{name}`" for name in check.depends) or " "
-            lines.append(f"| `{check.id}` | {check.title} | {depends} |")
+            covers = COVERS[check.covers]
+            lines.append(f"| `{check.id}` | {check.title} | {depends} | {covers} |")
     return "\n".join(lines) + "\n"
+
+
+def _worlds() -> Iterator[str]:
+    """Yield what each world offers."""
+    yield "## Worlds\n"
+    yield (
+        "`world:` of a run names one. Positions are in m, angles in rad; y is up, and 0 rad looks to "
+        "larger x.\nA world moves in steps of 0.016 s. Where a node subscribes to what a world "
+        "publishes, `/clock` shows each\nsuch step too, and the world waits until the node has run "
+        "its callbacks: its commands hold from the\nnext step on.\n"
+    )
+    for name, world in WORLDS.items():
+        x, y, theta = world.start
+        yield f"### World `{name}`\n"
+        yield f"{world.about}\n"
+        yield (
+            f"Its field is a square of {world.size:.4g} m, from (0, 0) to ({world.size:.4g}, "
+            f"{world.size:.4g}). `{world.first}` begins at x {x:.4g}, y {y:.4g}, theta\n{theta:g}; "
+            "`turtle:` is this one unless you name another.\n"
+        )
+        yield "| name | type | use |"
+        yield "|---|---|---|"
+        for offer in world.offers:
+            yield f"| `{offer.name}` | `{offer.type}` | {offer.use} |"
+        yield "\n| event | when |"
+        yield "|---|---|"
+        for event, when in world.events.items():
+            yield f"| `{event}` | {when} |"
+        yield ""
 
 
 def _kind(check: Check, model: type[BaseModel]) -> Iterator[str]:
     title = re.sub(r"\{(\w+)\}", r"*\1*", check.title)
     yield f"### `{check.id}`\n"
-    yield f"{title}. {(model.__doc__ or '').strip()}\n"
+    yield f"{title}. {inspect.cleandoc(model.__doc__ or '')}\n"
     yield "| key | type | default |"
     yield "|---|---|---|"
     for name, field in model.model_fields.items():
@@ -92,6 +128,8 @@ def _kind(check: Check, model: type[BaseModel]) -> Iterator[str]:
 
 
 def _default(field: FieldInfo) -> str:
+    if field.description:
+        return field.description
     value = field.get_default(call_default_factory=True)
     assert value is not PydanticUndefined
     return str(value) if value not in (None, "", {}) else "none"

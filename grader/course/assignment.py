@@ -173,6 +173,39 @@ class Assignment(Part):
         names = dict.fromkeys((*self.interface_packages, *of_nodes))
         return tuple(name for name in names if name not in ("", self.package))
 
+    @property
+    def period(self) -> float | None:
+        """The s of ROS time between two lines or messages of the main node; None if it names no one."""
+        if not self.runs:
+            return self.output.period
+        main = self.runs[0].start[0].node
+        given = [use.with_.get("period") for use in self.checks if use.of in ("", main)]
+        named = {float(value) for value in given if isinstance(value, int | float)}
+        return named.pop() if len(named) == 1 else None
+
+    @property
+    def seconds(self) -> str:
+        """The period as Python code; "…", which Python cannot read, if the assignment names none."""
+        return "…" if self.period is None else repr(self.period)
+
+    def about(self, node: str) -> Assignment:
+        """Return the same with another main node: `node_file` and so on are that node's.
+
+        The package is that of the node. An unknown node, such as "", changes nothing.
+        """
+        found = self.nodes.get(node)
+        if found is None:
+            return self
+        return self.model_copy(
+            update={
+                "package": found.package or self.package,
+                "node_file": found.file,
+                "node_name": found.name,
+                "executable": found.executable,
+                "target": found.target,
+            }
+        )
+
     def plan(self, name: str) -> RunPlan:
         """Return a run's plan; the first one if the name is ""."""
         return next((plan for plan in self.runs if plan.name == name), self.runs[0])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from datetime import datetime, timezone
+from datetime import datetime, timezone, tzinfo
 from typing import Annotated, Literal
 from zoneinfo import ZoneInfo
 
@@ -64,6 +64,13 @@ class Policy(Part):
     def end(self) -> datetime | None:
         """The time (UTC) from which no submission is accepted."""
         return self._instant(self.late.until)
+
+    @property
+    def zone(self) -> tzinfo | None:
+        """The time zone of the course: `time_zone`, or else the offset of the due date."""
+        if self.time_zone:
+            return ZoneInfo(self.time_zone)
+        return self.due.tzinfo if self.due is not None else None
 
     @property
     def grace_seconds(self) -> float:

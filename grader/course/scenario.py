@@ -107,9 +107,12 @@ class SendGoal(_Part):
 
 
 class Place(_Part):
-    """Where a turtle is put: in m, and the heading in rad."""
+    """Where a turtle is put: in m, and the heading in rad.
 
-    turtle: str = "turtle1"
+    The turtle is the world's first one unless it is named; a new one gets a new name.
+    """
+
+    turtle: str = ""
     x: float
     y: float
     theta: float = 0.0

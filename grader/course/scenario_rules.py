@@ -13,9 +13,10 @@ from grader.base.yaml_model import Fault
 from grader.course.assignment import Assignment, CheckUse, Lesson
 from grader.course.names import NAMES
 from grader.course.scenario import RunPlan, Start, Stimulus
+from grader.course.shorthands import OF_WORLD
+from grader.course.worlds import WORLDS
 
 EDGE = 1e-6  # s by which an instant may be off the clock's
-HEARD = {"turtlesim": r"/\w+/cmd_vel", "robot": "/cmd_vel"}  # the topics that a world hears
 TYPES = {"bool": bool, "integer": int, "double": float, "string": str}  # of a parameter's values
 
 
@@ -148,7 +149,11 @@ def _topics(plan: RunPlan, lesson: Lesson) -> set[str]:
     judged = (use.with_.get("topic") for use in lesson.checks)
     given = (name for begin in plan.start for name in begin.remap.values())
     names = {str(name) for name in (*judged, *given, *plan.topics) if name}
-    return {re.escape(name) for name in names} | ({HEARD[plan.world]} if plan.world else set())
+    found = {re.escape(name) for name in names}
+    if plan.world:
+        world = WORLDS[plan.world]
+        found |= {offer.name.replace(world.first, r"\w+") for offer in world.offers}
+    return found
 
 
 def _values(values: Mapping[str, Any], node: str, lesson: Lesson, place: Loc) -> Iterator[Fault]:
@@ -203,6 +208,7 @@ def use_faults(
             yield (*place, "after"), f"unknown stimulus '{use.after}'{hint}"
         elif known is not None and use.kind in known:
             yield from _after_faults(use, plan, known[use.kind].stimulus, place)
+        yield from _of_world(use, plan, place)
         yield from _window_faults(use, plan, place)
 
 
@@ -227,6 +233,21 @@ def _after_faults(
     elif one.goal is not None and use.with_.get("action", one.goal.action) != one.goal.action:
         text = f"the stimulus '{use.after}' sends its goal to {one.goal.action}"
         yield (*place, "with", "action"), text
+
+
+def _of_world(use: CheckUse, plan: RunPlan, place: Loc) -> Iterator[Fault]:
+    """Yield that a check of the world has none, or asks for what its world does not have."""
+    if not use.kind.startswith(OF_WORLD):
+        return
+    world = WORLDS.get(plan.world)
+    event = use.with_.get("event")
+    if world is None:
+        text = f"'{use.kind}' needs a world, the run '{plan.name}' has none"
+        yield (*place, "check" if use.check else "id"), text
+    elif isinstance(event, str) and event not in world.events:
+        hint = meant_or_known(event, tuple(world.events))
+        text = f"the world '{plan.world}' has no event '{event}'{hint}"
+        yield (*place, "with", "event"), text
 
 
 def _window_faults(use: CheckUse, plan: RunPlan, place: Loc) -> Iterator[Fault]:

@@ -1,4 +1,4 @@
-"""The catalogue: actions, the ROS graph, and what the world is asked for, as a run shows them."""
+"""The catalogue: the world, files, the ROS graph and actions, as a run shows them."""
 
 from __future__ import annotations
 
@@ -10,10 +10,106 @@ ENDS = msg(
     "The callback of an action decides how the goal ends: it calls succeed(), abort() or canceled() "
     "on the goal handle, and returns the result. Without a call, the goal is aborted."
 )
+SLEEPS = msg(
+    "time.sleep() waits in wall time. All times here are ROS time, which /clock shows: with "
+    "use_sim_time it can pass faster or more slowly than wall time. While the callback sleeps in the "
+    "only thread of the node, no other callback runs."
+)
+SLEEP_FOR = msg(
+    "Wait in ROS time: self.get_clock().sleep_for(Duration(seconds=…)) in place of time.sleep(…), "
+    "with Duration from rclpy.duration, and spin the node with a MultiThreadedExecutor and the "
+    "action's callbacks in a ReentrantCallbackGroup."
+)
 _action = Family("action", links.ACTIONS)
 _graph = Family("graph", links.NODES)
+_world = Family("world", links.TOPICS)
 _files = Family("files", links.PACKAGE)
 KINDS = (
+    _world(
+        "off_path",
+        "world",
+        msg("The turtle drives another way"),
+        msg(
+            "With a speed v and a turning speed w, a robot drives on a circle with the radius v / w."
+        ),
+        msg("Choose angular.z so that linear.x divided by angular.z is {radius}."),
+    ),
+    _world(
+        "stands_still",
+        "world",
+        msg("The turtle does not move"),
+        msg(
+            "A velocity command holds for one second. Without a new one, and with a speed of 0, the "
+            "turtle stands still."
+        ),
+        msg("Publish a velocity for {turtle} again and again, with linear.x above 0."),
+    ),
+    _world(
+        "hits_wall",
+        "world",
+        msg("The turtle hits the wall"),
+        msg(
+            "The turtle goes on with its last command until the next one comes: it has to turn "
+            "early enough before the wall."
+        ),
+        msg("Turn earlier, or drive more slowly near the wall."),
+        fixes={
+            "straight": msg(
+                "The turtle never turns: set angular.z of the message when a wall is near."
+            )
+        },
+    ),
+    _world(
+        "too_short",
+        "world",
+        msg("The turtle drives too little"),
+        msg(
+            "A velocity command holds for one second. Without a new one, and while it only turns, the "
+            "turtle does not get ahead."
+        ),
+        msg("Let {turtle} drive faster, and go on until the end."),
+    ),
+    _world(
+        "one_place",
+        "world",
+        msg("The turtle stays in one place"),
+        msg("A turtle that only turns, or drives in a small circle, sees little of the field."),
+        msg("Let {turtle} drive straight on where there is room, and turn only near the wall."),
+    ),
+    _world(
+        "bumps",
+        "world",
+        msg("It runs into something"),
+        msg(
+            "What moves goes on with its last command until the next one comes: it has to stop or "
+            "turn early enough before an obstacle."
+        ),
+        msg("Stop or turn {turtle} earlier, or drive more slowly near an obstacle."),
+    ),
+    _world(
+        "too_often",
+        "service",
+        msg("The service is called too often"),
+        msg("Each request that is sent takes effect."),
+        msg("Send the request only when it is due."),
+    ),
+    _world(
+        "not_asked",
+        "service",
+        msg("The service is not called"),
+        msg("A client does nothing by itself: each call needs a request that is sent."),
+        msg(
+            "Send the request with self.client_.call_async(request), with parentheses, when it is "
+            "due."
+        ),
+    ),
+    _world(
+        "wrong_request",
+        "service",
+        msg("The request has a different value"),
+        msg("Fields of a request that are not set are 0, or empty."),
+        msg("Set {field} of the request before call_async()."),
+    ),
     _files(
         "missing",
         "file",
@@ -111,6 +207,8 @@ KINDS = (
             "A client learns how far the goal is from feedback, which the callback has to publish."
         ),
         msg("Call goal_handle.publish_feedback(…) in the callback of {service}, while it works."),
+        whys={"sleeps": SLEEPS},
+        fixes={"sleeps": SLEEP_FOR},
     ),
     _action(
         "wrong_feedback",
@@ -125,6 +223,8 @@ KINDS = (
         msg("The goal does not end in time"),
         ENDS,
         msg("Let the callback of {service} return the result when the work is done."),
+        whys={"sleeps": SLEEPS},
+        fixes={"sleeps": SLEEP_FOR},
     ),
     _action(
         "wrong_status",
@@ -156,5 +256,7 @@ KINDS = (
             "Pass a cancel_callback to the ActionServer of {service} that returns "
             "CancelResponse.ACCEPT, and check goal_handle.is_cancel_requested while the goal runs."
         ),
+        whys={"sleeps": SLEEPS},
+        fixes={"sleeps": SLEEP_FOR},
     ),
 )

@@ -245,7 +245,7 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return elsewhere
     for timer in raised.source.timers:
         if dotted(timer.period or timer.call) == f"self.{name}" and not close:
-            period = repr(raised.assignment.output.period)
+            period = raised.assignment.seconds
             found = raised.finding("attribute_not_set", name=f"self.{name}", written=period)
             return replace(found, variant="period", words={**found.words, "name": name})
     for node in raised.source.own_nodes:

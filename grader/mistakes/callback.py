@@ -104,14 +104,10 @@ def _sleeps(suspect: Suspect) -> RecognisedMistake | None:
     slept = longest_sleep(suspect.source)
     timers = [timer.seconds for timer in suspect.source.timers]
     total = sum(seconds for _, seconds in literal_sleeps(suspect.source))
-    if (
-        slept is None
-        or total <= suspect.output.period
-        or timers not in ([suspect.output.period], [None])
-    ):
+    if slept is None or total <= suspect.period or timers not in ([suspect.period], [None]):
         return None
     found = suspect.finding("sleeps_in_callback", slept[0], seconds=slept[1])
-    if slept[1] <= suspect.output.period:
+    if slept[1] <= suspect.period:
         words = {**found.words, "total": f"{total:g}"}
         return replace(found, words=words, variant="several")
     method = suspect.source.function_around(slept[0])

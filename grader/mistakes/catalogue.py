@@ -135,7 +135,6 @@ from grader.mistakes import (
     static_self,
     submission,
     template_places,
-    terminal,
     tested_init,
     text_calls,
     thread_arguments,
@@ -317,7 +316,6 @@ CATALOGUE: Mapping[str, Kind] = MappingProxyType(
             small_change,
             run,
             log_lines,
-            terminal,
         )
         for kind in module.KINDS
     }

@@ -165,7 +165,7 @@ def _and_period(look: FromSource) -> FromSource:
         mistake, timers = look(suspect), suspect.source.timers
         period = timers[0].period if len(timers) == 1 else None
         seconds = seconds_of(suspect.source, period) if period is not None else None
-        if mistake is None or seconds is None or is_right(seconds, suspect.output.period):
+        if mistake is None or seconds is None or is_right(seconds, suspect.period):
             return mistake
         words = {**mistake.words, "seconds": f"{seconds:g}"}
         return replace(mistake, words=words, variant="period")

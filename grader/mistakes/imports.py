@@ -712,7 +712,6 @@ KINDS = (
                 "the program at an import of a module that it does not find."
             ),
         },
-        seen=r"ModuleNotFoundError: No module named '(?P<name>(?!rclpy')\w{1,120})'",
         raised={r"No module named '(?P<name>[\w.]{1,200})'": _no_module},
         fixed_by=(lines.written, node_names.without_unused, node_names.rclpy, rename.imported),
         examples=(

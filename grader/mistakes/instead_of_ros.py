@@ -67,7 +67,7 @@ def _thread_timer(suspect: Suspect) -> RecognisedMistake | None:
     if found is None:
         return None
     made = f"{found.kept} = " if found.kept else ""
-    written = f"{made}self.create_timer({suspect.output.period!r}, self.{found.method})"
+    written = f"{made}self.create_timer({suspect.assignment.seconds}, self.{found.method})"
     mistake = suspect.finding("thread_timer", found.call, name=found.method, written=written)
     at = found.first.lineno if found.first is not None else 0
     words = {**mistake.words, "line": at, "lines": row_ranges(found.rows)}
@@ -186,7 +186,7 @@ def _duration(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     value = period
     if period is not None and not isinstance(period, ast.Call):
         value = value_of(source, period)
-    written = repr(raised.assignment.output.period)
+    written = raised.assignment.seconds
     if not isinstance(value, ast.Call):
         return raised.finding("period_duration", at=timers[0].call, written=written)
     name = source.module_of(value).text.code(value)

@@ -130,4 +130,110 @@ KINDS = (
         msg("Two programs understand a message only if the types of its fields are equal."),
         msg("Write: {type} {field}"),
     ),
+    _interface(
+        "too_long",
+        "file",
+        msg("The file of an interface is too long"),
+        msg(
+            "The grader builds the interfaces of a submission itself, to exchange messages with its "
+            "nodes. It reads up to {most} bytes of a file."
+        ),
+        msg("Shorten the comments of the file: it has {size} bytes, and at most {most} are read."),
+    ),
+    _interface(
+        "not_utf8",
+        "file",
+        msg("The file of an interface is not UTF-8 text"),
+        msg("ROS reads the files of interfaces as UTF-8. It stops at any other byte."),
+        msg("Save the file as UTF-8, or delete the special characters in that line."),
+    ),
+    _interface(
+        "separator",
+        "file",
+        msg("The parts of an interface are not separated"),
+        msg(
+            "A .srv file has a request and a response, an .action file a goal, a result and feedback. "
+            "A line that has only --- separates two parts; a .msg file has no such line."
+        ),
+        msg("Write --- on a line of its own between two parts: {count} in a .{kind} file."),
+    ),
+    _interface(
+        "constant_name",
+        "file",
+        msg("The name of a constant is not allowed"),
+        msg(
+            "A line with = declares a constant: its name has capital letters, digits and single "
+            "underscores. A field has no =; its default follows after a space."
+        ),
+        msg("Write '{name}' in capital letters, or delete = if it is to be a field."),
+    ),
+    _interface(
+        "field_reserved",
+        "file",
+        msg("The name of a field is reserved"),
+        msg(
+            "ROS writes a Python class and a C++ struct for each interface, with the names of its "
+            "fields. With a word of these languages, or a name that the class itself needs, programs "
+            "cannot import or compile it."
+        ),
+        msg("Give the field '{name}' another name, here and in the code that uses it."),
+    ),
+    _interface(
+        "declared_twice",
+        "file",
+        msg("A name is declared twice in an interface"),
+        msg("The fields and constants of a message become one class, in which each name is once."),
+        msg("Delete this line, or give '{name}' another name in it."),
+    ),
+    _interface(
+        "type_unknown",
+        "file",
+        msg("The type of a field does not exist"),
+        msg(
+            "A field has a type of ROS itself (bool, int32, float64, string, …), one of a file in the "
+            "folder msg of this package, or one of another package with its name: "
+            "geometry_msgs/Point."
+        ),
+        msg("Write a type that exists instead of '{type}': upper and lower case matter."),
+    ),
+    _interface(
+        "value_range",
+        "file",
+        msg("A constant or a default does not fit its type"),
+        msg(
+            "Each type has a range: uint8 ends at 255, int8 at 127; a bool is true or false. ROS "
+            "refuses the interface if a value is outside."
+        ),
+        msg("Write a value that fits {type}, or a type with a larger range."),
+    ),
+    _interface(
+        "recursive",
+        "file",
+        msg("A message contains itself"),
+        msg(
+            "A message is stored with all its fields. One that contains itself, directly or through "
+            "another message, never ends."
+        ),
+        msg("Delete this field, or give it a type that does not contain this message."),
+    ),
+    _interface(
+        "too_large",
+        "file",
+        msg("A message is too large"),
+        msg(
+            "An array with a number in its brackets is stored whole in each message, also if it is "
+            "never filled. The grader exchanges messages of up to {most} MB with the nodes."
+        ),
+        msg("Write a smaller number in the brackets, or none: [] has the length that you set."),
+    ),
+    _interface(
+        "unusable",
+        "file",
+        msg("An interface cannot be used"),
+        msg(
+            "The grader builds the interface from its file and uses it as another program would. Here "
+            "that is not possible: the text behind 'found' says why."
+        ),
+        msg("Correct the file of {type}; then see what ros2 interface show {type} prints."),
+    ),
 )

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 Stage = Literal[
+    "environment",
     "terminal",
     "hand-in",
     "manifest",

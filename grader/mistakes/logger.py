@@ -483,7 +483,7 @@ def _is_shorter(suspect: Suspect, option: node_words.Option) -> bool:
     seconds = option.value.value if isinstance(option.value, ast.Constant) else None
     if option.name != "throttle_duration_sec" or not isinstance(seconds, int | float):
         return False
-    return seconds < suspect.output.period
+    return seconds < suspect.period
 
 
 def _left_out(*options: str) -> FromSource:

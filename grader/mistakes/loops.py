@@ -149,6 +149,8 @@ def _constructor(suspect: Suspect) -> RecognisedMistake | None:
         if loop is None or _is_short(source, loop):
             continue
         found = suspect.finding("constructor_repeats", loop, name=_word(loop))
+        seconds = node_loops.seconds_of(source, loop, suspect.assignment)
+        found = replace(found, words={**found.words, "period": seconds})
         if source.timers:
             return replace(found, variant="timer")
         only = node_loops.only_call(source, loop)

@@ -158,7 +158,7 @@ def _alone(raised: Raised, name: str) -> RecognisedMistake:
 
 def _period(raised: Raised, name: str) -> RecognisedMistake:
     """The period is a name that nothing defines; other lines may use the name too."""
-    period = repr(raised.assignment.output.period)
+    period = raised.assignment.seconds
     uses = [n for n in raised.module.nodes if isinstance(n, ast.Name) and n.id == name]
     if len(uses) == 1:
         found = raised.finding("name_unknown", name=name, written=period)

@@ -346,6 +346,12 @@ KINDS = (
             "size": msg("Keep the node's file small: it contains the code of one node."),
             **SIGNS,
         },
+        whys={
+            "size": msg(
+                "The grader reads a file only up to a limit, so that no file takes it minutes. A node "
+                "needs a small part of that."
+            ),
+        },
         link=links.PYTHON_SYNTAX,
         seen=r"^(?P<error>(?:Syntax|Indentation|Tab)Error: .{1,300})",
         fixed_by=(syntax.node,),

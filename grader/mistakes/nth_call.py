@@ -33,7 +33,7 @@ def _each_nth(suspect: Suspect) -> RecognisedMistake | None:
     steps = [n for n in ast.walk(callback) if adds_to(n, counter)]
     if counter == logged[1] or len(steps) != 1 or getattr(steps[0], "lineno", 0) > block.lineno:
         return None
-    wanted = suspect.output.period
+    wanted = suspect.period
     right = round(wanted / seconds)
     if right in (0, many) or not is_right(right * seconds, wanted):
         return None

@@ -23,7 +23,7 @@ def _throttled(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a timer of another period whose lines the logger leaves out in part."""
     source, period = suspect.source, node_pace.period_of(suspect.source)
     option = node_pace.throttled(source)
-    if period is None or option is None or abs(period[1] - suspect.output.period) < SAME:
+    if period is None or option is None or abs(period[1] - suspect.period) < SAME:
         return None
     return suspect.finding(
         "timer_throttled", period[0], seconds=f"{period[1]:g}", line=option.value.lineno
@@ -34,7 +34,7 @@ def _paced_by_sleep(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a timer of another period whose callback sleeps for at least that period."""
     source, period = suspect.source, node_pace.period_of(suspect.source)
     slept = longest_sleep(source)
-    if period is None or slept is None or abs(period[1] - suspect.output.period) < SAME:
+    if period is None or slept is None or abs(period[1] - suspect.period) < SAME:
         return None
     if slept[1] < period[1]:
         return None
@@ -63,7 +63,7 @@ def _measures_time(suspect: Suspect) -> RecognisedMistake | None:
         line=written.lineno,
         others=", ".join(str(s.lineno) for s in found.needed),
     )
-    right = is_right(seconds, suspect.output.period)
+    right = is_right(seconds, suspect.period)
     variant = ("returns" if found.returns else "") + ("_right" if right else "")
     return replace(mistake, variant=variant.lstrip("_"))
 

@@ -160,7 +160,7 @@ def _tiny(suspect: Suspect) -> RecognisedMistake | None:
         return None
     if seconds is None and (part := _part_of_a_span(suspect)) is not None:
         return part
-    found = suspect.finding("period_tiny", value, name=code, written=repr(suspect.output.period))
+    found = suspect.finding("period_tiny", value, name=code, written=suspect.assignment.seconds)
     return found if seconds is not None else replace(found, variant="unknown")
 
 

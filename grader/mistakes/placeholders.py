@@ -25,7 +25,7 @@ def placeholder_values(
 ) -> dict[str, Value]:
     """Return the values that the assignment and the source give to placeholders.
 
-    `period` is in seconds, `callback` is a bare name, `counter` begins with `self.`, `node` is the node's variable; `sum` and
+    `period` is in seconds (… if the assignment names none), `callback` is a bare name, `counter` begins with `self.`, `node` is the node's variable; `sum` and
     `f_string` are two ways to write the text of a line in Python.
     """
     output = assignment.output
@@ -35,7 +35,7 @@ def placeholder_values(
         "executable": assignment.executable,
         "node_name": assignment.node_name,
         "function": assignment.function,
-        "period": repr(output.period),
+        "period": assignment.seconds,
         "start": output.start,
         "step": output.step,
         "line": output.line(0),

@@ -121,6 +121,11 @@ class Suspect:
         return self.assignment.output
 
     @property
+    def period(self) -> float:
+        """The s of ROS time between two lines or messages."""
+        return self.assignment.period or self.output.period
+
+    @property
     def function(self) -> Function | None:
         """The function that the entry point leads to, if the source has it."""
         return self.source.main

@@ -149,7 +149,7 @@ def _once_in_loop(suspect: Suspect, found: RecognisedMistake, loop: Loop) -> Rec
     call = only_called(work)
     code = source.module_of(loop).text.code(call.func) if call is not None else ""
     owner = code.rpartition(".")[0] or words["node"]
-    timer = f"{owner}.create_timer({suspect.output.period!r}, {code})"
+    timer = f"{owner}.create_timer({suspect.assignment.seconds}, {code})"
     lines = "function" if source.node_class is None else "lines"
     variant = "no_timer" if code else lines
     return replace(found, words={**words, "written": timer}, variant=variant)

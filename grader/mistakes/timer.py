@@ -80,7 +80,7 @@ def _subscribed(suspect: Suspect) -> RecognisedMistake | None:
         method = source.methods.get(own_name(given[0])) if given else None
         parameters = [a.arg for a in method.args.args[1:]] if method is not None else []
         if method is not None and source.logs(method) and len(parameters) == 1:
-            new = f"self.create_timer({suspect.output.period!r}, self.{method.name})"
+            new = f"self.create_timer({suspect.assignment.seconds}, self.{method.name})"
             params = {"parameter": parameters[0], "method": method.name}
             found = suspect.finding("timer_missing", call, **params)
             words = {**found.words, "line": str(method.lineno), "written": new}
@@ -113,7 +113,7 @@ def _by_hand_only(
     if "\n" in code:
         return None
     given = f"lambda: {code}" if call.args or call.keywords else callback
-    new = f"{owner}.create_timer({suspect.output.period!r}, {given})"
+    new = f"{owner}.create_timer({suspect.assignment.seconds}, {given})"
     found = suspect.finding("timer_missing", call, name=code, written=new)
     around = takewhile(lambda part: not isinstance(part, Function), module.around(call))
     loops = [part for part in around if isinstance(part, ast.For | ast.While)]

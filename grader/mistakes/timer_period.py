@@ -44,7 +44,7 @@ def _negative(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         if timer.period is None or raised.line not in (None, timer.call.lineno):
             continue
         code = raised.source.module_of(timer.call).text.code(timer.period)
-        period = repr(raised.assignment.output.period)
+        period = raised.assignment.seconds
         return raised.finding("period_negative", at=timer.call, name=code, written=period)
     return None
 
@@ -79,7 +79,7 @@ def _zero(suspect: Suspect) -> RecognisedMistake | None:
             continue
         value = node_timer.value_of(suspect.source, timer.period) or timer.period
         code = suspect.source.module_of(value).text.code(value)
-        period = repr(suspect.output.period)
+        period = suspect.assignment.seconds
         if value is timer.period and isinstance(value, ast.Constant):
             return suspect.finding("period_zero", timer.call, name=code, written=period)
         found = suspect.finding("period_zero", value, name=code, written=period)
@@ -115,9 +115,9 @@ def _call_swapped(raised: Raised, timer: ast.Call) -> RecognisedMistake:
         return raised.finding("timer_arguments_swapped")
     first, second = map(text.code, timer.args)
     value = getattr(timer.args[1], "value", None)
-    wanted = raised.assignment.output.period
-    long = isinstance(value, int | float) and value >= LONG > wanted
-    written = f"{text.code(timer.func)}({wanted if long else second}, {first})"
+    assignment = raised.assignment
+    long = isinstance(value, int | float) and value >= LONG > (assignment.period or LONG)
+    written = f"{text.code(timer.func)}({assignment.seconds if long else second}, {first})"
     found = raised.finding("timer_arguments_swapped", at=timer, name=code, written=written)
     if not long:
         return replace(found, variant="call")
@@ -178,7 +178,7 @@ def _argument_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake
     for timer in raised.source.timers:
         if raised.line not in (None, *lines_of(timer.call)):
             continue
-        period = repr(raised.assignment.output.period)
+        period = raised.assignment.seconds
         if (decorates := _decorates(raised, timer)) is not None:
             return decorates
         found = node_timer.completed(raised.source, timer, period)
@@ -204,7 +204,7 @@ def _decorates(raised: Raised, timer: Timer) -> RecognisedMistake | None:
     in_class = isinstance(module.parents.get(function), ast.ClassDef)
     owner = "self." if in_class else code(timer.call.func).removesuffix("create_timer")
     period = timer.period
-    seconds = code(period) if period is not None else repr(raised.assignment.output.period)
+    seconds = code(period) if period is not None else raised.assignment.seconds
     callback = f"self.{function.name}" if in_class else function.name
     written = f"{owner}create_timer({seconds}, {callback})"
     name = f"@{code(timer.call)}"
@@ -243,7 +243,7 @@ def _milliseconds(suspect: Suspect) -> RecognisedMistake | None:
     if value is None and origin is not None and origin.calculation is None:
         value = origin.number  # (the default of a parameter, or a constant of the class)
     number = value.value if isinstance(value, ast.Constant) else None
-    if not isinstance(number, int | float) or not number >= LONG > suspect.output.period:
+    if not isinstance(number, int | float) or not number >= LONG > suspect.period:
         return None
     found = suspect.finding("period_milliseconds", value, written=f"{number:g}")
     variant = "" if number < MICRO else "large"
@@ -262,7 +262,7 @@ def _far_too_long(suspect: Suspect) -> RecognisedMistake | None:
         return None
     origin = origin_of(source, given)
     seconds = origin.seconds if origin is not None else seconds_of(source, given)
-    if seconds is None or not seconds >= MANY_PERIODS * suspect.output.period:
+    if seconds is None or not seconds >= MANY_PERIODS * suspect.period:
         return None
     value = node_timer.value_of(source, given) or given
     if origin is not None and origin.calculation is None:
@@ -270,7 +270,7 @@ def _far_too_long(suspect: Suspect) -> RecognisedMistake | None:
     code = source.module_of(value).text.code(value)
     if "\n" in code:
         return None
-    params = {"name": code, "value": f"{seconds:g}", "written": repr(suspect.output.period)}
+    params = {"name": code, "value": f"{seconds:g}", "written": suspect.assignment.seconds}
     return suspect.finding("period_far_too_long", value, **params)
 
 
@@ -283,8 +283,8 @@ def _caret(suspect: Suspect) -> RecognisedMistake | None:
             continue
         code = source.module_of(value).text.code(value)
         power = _power(value)
-        right = power is not None and is_right(power[1], suspect.output.period)
-        written = power[0] if power is not None and right else repr(suspect.output.period)
+        right = power is not None and is_right(power[1], suspect.period)
+        written = power[0] if power is not None and right else suspect.assignment.seconds
         return suspect.finding("period_caret", value, name=code, written=written)
     return None
 

@@ -132,7 +132,7 @@ def _logs(source: NodeSource, timer: Timer) -> bool:
 def _second(suspect: Suspect, timers: list[Timer]) -> RecognisedMistake:
     """Name the timer that is too many: the second one, unless only that has the right period."""
     first, second = timers[:2]
-    right = [suspect.output.period == t.seconds for t in (first, second)]
+    right = [suspect.period == t.seconds for t in (first, second)]
     if first.method != second.method:
         right = [_counts(suspect.source, t) for t in (first, second)]
     kept, other = (second, first) if right == [False, True] else (first, second)

@@ -1,4 +1,4 @@
-"""The catalogue: topics, services, parameters and the world, as a run shows them from outside."""
+"""The catalogue: topics, services and parameters, as a run shows them from outside."""
 
 from __future__ import annotations
 
@@ -185,7 +185,6 @@ _node = Family("node", links.FIRST_NODE)
 _topic = Family("topic", links.TOPICS)
 _parameter = Family("parameter", links.PARAMETERS)
 _service = Family("service", links.SERVICES)
-_world = Family("world", links.TOPICS)
 KINDS = (
     _node(
         "other_message",
@@ -643,73 +642,5 @@ KINDS = (
         msg("The service answers something else"),
         msg("The callback fills the response that it gets, and returns it."),
         msg("Set the fields of the response in the callback of {service}, and return it."),
-    ),
-    _world(
-        "off_path",
-        "world",
-        msg("The turtle drives another way"),
-        msg(
-            "With a speed v and a turning speed w, a robot drives on a circle with the radius v / w."
-        ),
-        msg("Choose angular.z so that linear.x divided by angular.z is {radius}."),
-    ),
-    _world(
-        "stands_still",
-        "world",
-        msg("The turtle does not move"),
-        msg(
-            "A velocity command holds for one second. Without a new one, and with a speed of 0, the "
-            "turtle stands still."
-        ),
-        msg("Publish a velocity for {turtle} again and again, with linear.x above 0."),
-    ),
-    _world(
-        "hits_wall",
-        "world",
-        msg("The turtle hits the wall"),
-        msg(
-            "The turtle goes on with its last command until the next one comes: it has to turn "
-            "early enough before the wall."
-        ),
-        msg("Turn earlier, or drive more slowly near the wall."),
-        fixes={
-            "straight": msg(
-                "The turtle never turns: set angular.z of the message when a wall is near."
-            )
-        },
-    ),
-    _world(
-        "too_short",
-        "world",
-        msg("The turtle drives too little"),
-        msg(
-            "A velocity command holds for one second. Without a new one, and while it only turns, the "
-            "turtle does not get ahead."
-        ),
-        msg("Let {turtle} drive faster, and go on until the end."),
-    ),
-    _world(
-        "one_place",
-        "world",
-        msg("The turtle stays in one place"),
-        msg("A turtle that only turns, or drives in a small circle, sees little of the field."),
-        msg("Let {turtle} drive straight on where there is room, and turn only near the wall."),
-    ),
-    _world(
-        "not_asked",
-        "service",
-        msg("The service is not called"),
-        msg("A client does nothing by itself: each call needs a request that is sent."),
-        msg(
-            "Send the request with self.client_.call_async(request), with parentheses, when it is "
-            "due."
-        ),
-    ),
-    _world(
-        "wrong_request",
-        "service",
-        msg("The request has a different value"),
-        msg("Fields of a request that are not set are 0, or empty."),
-        msg("Set {field} of the request before call_async()."),
     ),
 )

@@ -1,4 +1,4 @@
-"""What becomes of a block whose only statement is taken away: Python accepts no empty one."""
+"""What stays of the line and the block of a statement that is taken away."""
 
 from __future__ import annotations
 
@@ -17,7 +17,11 @@ def rest_of_block(source: NodeSource | None, where: Where | None) -> Message | s
     statement = statement_at(module, where.line)
     if module.path != where.file or statement is None or statement.lineno != where.line:
         return ""
-    if len(block_of(module, statement)) > 1 or statement in module.tree.body:
+    block = block_of(module, statement)
+    others = [other for other in block if other is not statement]
+    if any(statement.lineno in (other.lineno, other.end_lineno) for other in others):
+        return say("This line has another statement too: keep that.")
+    if len(block) > 1 or statement in module.tree.body:
         return ""
     heads = heads_without(module, statement)
     if heads is None:

@@ -16,6 +16,7 @@ from grader.base.gate import gate, show
 from grader.base.plain_text import one_line
 from grader.base.stream import takes_styles, width_of
 from grader.batch import run
+from grader.batch.correction import note_counting
 from grader.batch.find_student import find_student
 from grader.batch.inputs import GRADEBOOK, read_inputs
 from grader.batch.ledger import Ledger
@@ -99,6 +100,7 @@ def grade_all(options: ClassOptions, *, dry_run: bool) -> int:
             except (KeyboardInterrupt, SurroundingsError) as why:
                 ended = why
         result = result_now()
+        note_counting(ledger, result)
         written = outputs.write(result, notify=_notify)
         _show(result, plan, ledger, options, written)
         status = _status(result)

@@ -11,6 +11,7 @@ from grader.base.plain_text import one_line, points
 from grader.batch.ledger import Ledger, Regrade
 from grader.batch.model import ClassResult, GradebookEntry
 from grader.batch.points import marks
+from grader.batch.words import STATES, lapsed_words
 from grader.report.model import Report
 
 if TYPE_CHECKING:
@@ -22,8 +23,14 @@ STYLES = {
     "error": "bold magenta",
     "missing": "yellow",
     "elsewhere": "yellow",
+    "unclear": "bold magenta",
     "pending": "cyan",
 }
+BY_HAND = "Look at by hand (no grade until you give one: grader override STUDENT --points N)"
+LAPSED = (
+    "Corrections that no longer apply, because another verdict counts now (repeat them with "
+    "grader override, or remove them with --remove)"
+)
 MOST_NAMES = 5  # of failed checks, in one line
 
 
@@ -56,7 +63,24 @@ def class_page(result: ClassResult, *, width: int, styled: bool) -> str:
         names = {entry.student.key: entry.student.name for entry in result.entries}
         who = ", ".join(one_line(names[key] or key, most=40) for key in group)
         page.line(f"Identical except for white space and comments: {who}")
+    _look_at(page, result.entries)
     return str(page)
+
+
+def _look_at(page: Page, entries: Sequence[GradebookEntry]) -> None:
+    """Add what the instructor must decide: submissions without a verdict, lapsed corrections."""
+    lists = [
+        (BY_HAND, [(entry, reason) for entry in entries for reason in entry.by_hand]),
+        (LAPSED, [(entry, lapsed_words(one)) for entry in entries for one in entry.lapsed]),
+    ]
+    for title, lines in lists:
+        if not lines:
+            continue
+        page.gap()
+        page.line((f"{title}:", "bold magenta"))
+        for entry, text in lines:
+            name = one_line(entry.student.name or entry.student.key, most=40)
+            page.line(f"  {name}: {one_line(text, most=300)}")
 
 
 def regrade_page(changes: Sequence[Change], *, width: int, styled: bool) -> str:
@@ -126,6 +150,10 @@ def _reason(entry: GradebookEntry) -> str:
         return one_line("; ".join(entry.notes), most=120)
     if entry.status == "error":
         return one_line(f"not marked: {entry.notes[0] if entry.notes else entry.problem}", most=160)
+    if entry.status == "ungradable":
+        return "look at by hand"
+    if entry.status == "unclear":
+        return STATES["unclear"]
     if entry.status != "graded":
         return one_line(entry.problem or entry.status, most=120)
     failed = [mark.check.id for mark in marks(entry) if mark.check.status == "failed"]
@@ -144,9 +172,12 @@ def _totals(entries: Sequence[GradebookEntry]) -> str:
     count = Counter[str](entry.status for entry in entries)
     full = sum(1 for e in entries if e.report is not None and e.report.all_passed)
     parts = [f"{len(entries)} students", f"{count['graded']} marked ({full} with every check)"]
-    words = {"ungradable": "cannot be marked", "missing": "without a submission"}
+    words = {"ungradable": "to look at by hand", "missing": "without a submission"}
     words["elsewhere"] = "submitted elsewhere"
+    words["unclear"] = STATES["unclear"]
     words["error"] = "not marked because of a fault of the grader"
     words["pending"] = "still to be marked"
     parts += [f"{count[status]} {text}" for status, text in words.items() if count[status]]
+    if unknown := sum(entry.is_lateness_open for entry in entries):
+        parts.append(f"{unknown} with an unknown time of submission")
     return ", ".join(parts) + "."

@@ -11,6 +11,7 @@ from grader.base.plain_text import points
 from grader.batch import cells
 from grader.batch.model import ClassResult, GradebookEntry
 from grader.batch.points import marks
+from grader.batch.words import lapsed_words
 
 BEFORE = (
     "key",
@@ -36,7 +37,8 @@ def gradebook_csv(result: ClassResult, *, bom: bool = False) -> bytes:
     """Return the table in UTF-8: one row per student in class order, hidden checks included.
 
     `bom` adds the byte order mark by which Excel recognises UTF-8. `submitted` is ISO 8601 in UTC,
-    `late` is in seconds. A check's cell is empty if its points are undecided.
+    `late` is in seconds, or `unknown`, and empty without a submission. A check's cell is empty if its
+    points are undecided, or if nothing could be marked.
     """
     checks = check_ids(result)
     out = io.StringIO()
@@ -56,7 +58,9 @@ def check_ids(result: ClassResult) -> list[str]:
 
 def _row(entry: GradebookEntry, checks: Sequence[str]) -> list[str]:
     student = entry.student
-    given = {mark.check.id: mark.points for mark in marks(entry)}
+    # nothing was marked: no points are not 0 points
+    decided = () if entry.status == "ungradable" else marks(entry)
+    given = {mark.check.id: mark.points for mark in decided}
     who = (
         student.key,
         student.name,
@@ -74,11 +78,17 @@ def _row(entry: GradebookEntry, checks: Sequence[str]) -> list[str]:
         cells.number(entry.max_score),
         str(entry.attempt),
         _instant(entry.submitted),
-        cells.number(entry.late_seconds),
+        _late(entry),
         *(cells.number(given.get(check)) for check in checks),
         cells.text(_mistakes(entry), most=MOST_NOTES),
         cells.text(" | ".join(_notes(entry)), most=MOST_NOTES),
     ]
+
+
+def _late(entry: GradebookEntry) -> str:
+    if entry.status in ("missing", "elsewhere", "unclear") and entry.report is None:
+        return ""
+    return "unknown" if entry.late_seconds is None else cells.number(entry.late_seconds)
 
 
 def _instant(value: datetime | None) -> str:
@@ -94,13 +104,15 @@ def _mistakes(entry: GradebookEntry) -> str:
 
 
 def _notes(entry: GradebookEntry) -> list[str]:
-    notes = [entry.problem, *entry.notes]
+    notes = [f"look at by hand: {reason}" for reason in entry.by_hand]
+    notes += [*([] if entry.status == "ungradable" else [entry.problem]), *entry.notes]
     for override in entry.overrides:
         by = f" by {override.by}" if override.by else ""
         what = override.check or "the total"
         notes.append(
             f"{what} corrected{by} to {points(override.points)} because: {override.because}"
         )
+    notes += [f"no longer applies: {lapsed_words(lapsed)}" for lapsed in entry.lapsed]
     if entry.same_as:
         notes.append(f"same content as: {', '.join(entry.same_as)}")
     if entry.report is not None:

@@ -73,12 +73,13 @@ def _feedback(
 ) -> Iterator[tuple[str, Callable[[], bytes]]]:
     """Yield the names and contents of each student's two files; two students never share one.
 
-    A student who submitted elsewhere gets none, unless an instructor corrected their points.
+    A student who submitted elsewhere gets none, unless an instructor corrected their points, and
+    neither does anybody for a submission of which it is not known whose it is.
     """
     title = result.title or result.assignment
     pages = page_names(entry.student.key for entry in result.entries)
     for entry in result.entries:
-        if entry.status == "elsewhere" and not entry.overrides:
+        if entry.status in ("elsewhere", "unclear") and not entry.overrides:
             continue
         seen = entry.for_student(result.detail, show_hidden=show_hidden)
         page = pages[entry.student.key]

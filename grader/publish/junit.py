@@ -23,6 +23,7 @@ MOST = 200  # characters of a name
 NOTHING = {
     "missing": say("no submission"),
     "elsewhere": say("submitted elsewhere"),
+    "unclear": say("not known whose submission it is"),
     "pending": say("not marked yet"),
 }
 COUNTS = ("tests", "failures", "errors", "skipped")
@@ -67,9 +68,11 @@ def _suite(entry: GradebookEntry) -> ET.Element:
         seconds = report.timing.total
         if report.started:
             suite.set("timestamp", one_line(report.started[:19], most=40))
-        for mark in marks(entry):
-            _check_case(suite, mark, report)
-    if not marks(entry):
+    judged = marks(entry) if report is not None and entry.status != "ungradable" else ()
+    for mark in judged:
+        assert report is not None
+        _check_case(suite, mark, report)
+    if not judged:
         _submission_case(suite, entry)
     suite.set("time", f"{seconds:.3f}")
     cases = suite.findall("testcase")
@@ -77,6 +80,12 @@ def _suite(entry: GradebookEntry) -> ET.Element:
     for name, tag in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
         suite.set(name, str(sum(case.find(tag) is not None for case in cases)))
     return suite
+
+
+def _late(entry: GradebookEntry) -> str:
+    if entry.late_seconds is None:
+        return "unknown"
+    return points(entry.late_seconds) if entry.late_seconds else ""
 
 
 def _properties(suite: ET.Element, entry: GradebookEntry) -> None:
@@ -89,7 +98,7 @@ def _properties(suite: ET.Element, entry: GradebookEntry) -> None:
         ("penalty", points(entry.penalty) if entry.penalty else ""),
         ("final", "" if entry.final is None else points(entry.final)),
         ("max_score", points(entry.max_score)),
-        ("late_seconds", points(entry.late_seconds) if entry.late_seconds > 0 else ""),
+        ("late_seconds", _late(entry)),
         ("attempt", f"{entry.attempt} of {entry.attempts}"),
         *(
             ("adjusted", f"{translate(adjustment.why)}: {points(adjustment.points)}")

@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, Literal
 
 from grader.base.i18n.message import joined, say
 from grader.base.plain_text import first_lines, last_lines, one_line
+from grader.report.programs import transcript_for
 from grader.report.shown_patch import shown_patch
 from grader.report.tracebacks import folded
 
 if TYPE_CHECKING:
-    from grader.report.model import CheckResult, Evidence, Quote
+    from grader.report.model import CheckResult, Quote, Report
     from grader.report.page import Page
 
 MARKS = {
@@ -119,22 +120,27 @@ class Excerpt:
     text: str
 
 
-def evidence_of(
-    check: CheckResult, evidence: Evidence, quotes: Mapping[str, Quote]
-) -> Excerpt | None:
+def evidence_of(check: CheckResult, report: Report, quotes: Mapping[str, Quote]) -> Excerpt | None:
     """Return the excerpt that shows why a check failed; None if there is none.
 
-    `quotes` has what each check quotes, by its id.
+    `quotes` has what each check quotes, by its id. Of several programs it is that of the check.
     """
     quote = quotes.get(check.id)
     if check.status != "failed" or quote is None:
         return None
     if quote == "build_log":
-        return Excerpt("build_log", say("colcon build printed"), evidence.build_log)
-    before, pressed, _ = evidence.transcript.partition("\n^C")
+        return Excerpt("build_log", say("colcon build printed"), report.evidence.build_log)
+    own = transcript_for(check, report)
+    text = report.evidence.transcript if own is None else own.text
+    before, pressed, _ = text.partition("\n^C")
+    title, late = say("ros2 run printed"), say("ros2 run printed before Ctrl+C")
+    if own is not None:
+        names = {"node": own.node, "run": own.run}
+        title = say("ros2 run printed for {node} in the run {run}", **names)
+        late = say("ros2 run printed for {node} in the run {run} before Ctrl+C", **names)
     if pressed and quote == "before_ctrl_c":
-        return Excerpt("transcript", say("ros2 run printed before Ctrl+C"), before)
-    return Excerpt("transcript", say("ros2 run printed"), evidence.transcript)
+        return Excerpt("transcript", late, before)
+    return Excerpt("transcript", title, text)
 
 
 FASTER = say("(The grader's clock runs faster than a real one, so the times are closer together.)")

@@ -133,6 +133,7 @@ def most_stopping(failed: Sequence[CheckResult], checks: Sequence[CheckResult]) 
     found = max(failed, key=lambda check: (not check.consequence_of, causes.count(check.id)))
     of_entry = found.where is not None and found.where.file == "setup.py"
     named = [c for c in failed if any(m.id == MISNAMED for m in c.mistakes)]
+    named = [c for c in named if c.node == found.node]
     return named[0] if of_entry and named else found
 
 

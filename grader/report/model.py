@@ -58,6 +58,8 @@ class CheckResult(Part):
     advice: list[str] = Field(default_factory=list)
     mistakes: list[Mistake] = Field(default_factory=list)
     where: Where | None = None
+    node: str = Field(default="", description="the assignment's node that it is about, if any")
+    run: str = Field(default="", description="the name of the run that it is about, if any")
     depends: list[str] = Field(default_factory=list)
     consequence_of: str = Field(
         default="", description="an earlier check that failed because of the same mistake"
@@ -242,6 +244,7 @@ class RunInfo(Part):
     """
 
     name: str
+    node: str = Field(default="", description="of the assignment, which the first program is")
     world: str = ""
     observed: Observed = Field(default_factory=Observed)
     others: list[OtherProgram] = Field(default_factory=list)
@@ -252,11 +255,23 @@ class RunInfo(Part):
     plots: list[TopicPlot] = Field(default_factory=list)
 
 
+class Transcript(Part):
+    """What the program of the assignment's `node` printed in a run, cut in the middle."""
+
+    run: str
+    node: str
+    text: str
+
+
 class Evidence(Part):
-    """The texts on which the verdict is based, cut in the middle to a bounded length."""
+    """The texts on which the verdict is based, cut in the middle to a bounded length.
+
+    `programs` has the parts of the transcript, if several programs ran.
+    """
 
     build_log: str = ""
     transcript: str = ""
+    programs: list[Transcript] = Field(default_factory=list)
 
 
 class Timing(Part):

@@ -12,12 +12,13 @@ from grader.base.plain_text import first_lines, one_line, points
 from grader.report.blocks import MARKS, UNSEEN, WORDS, block, evidence_of, quotation, roots
 from grader.report.feedback import most_stopping
 from grader.report.page import CheckRow, Page
+from grader.report.programs import command_for
 from grader.report.sketch import path_sketch, value_sketch
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from grader.report.model import CheckResult, Quote, Report
+    from grader.report.model import CheckResult, Quote, Report, RunInfo
 
 LINES, LINES_VERBOSE = 12, 200  # per text
 VALUES_KEY = say("* as wanted, x not as wanted, - wanted; below, | is a due instant")
@@ -126,13 +127,14 @@ def _blocks(
 ) -> frozenset[str]:
     """Write the block of each check that did not pass; return the titles of the quoted texts."""
     quoted: set[str] = set()
+    drawn: set[tuple[str, ...]] = set()
     for check in checks:
         if check.status in ("passed", "skipped") or _follows_unknown(check):
             continue
         page.gap()
         block(page, check, lines=lines)
-        _sketches(page, report, check)
-        found = evidence_of(check, report.evidence, quotes)
+        _sketches(page, report, check, drawn)
+        found = evidence_of(check, report, quotes)
         if found is not None and found.text.strip() and found.title not in quoted:
             quoted.add(found.title)
             faster = found.log == "transcript" and report.observed.clock == "virtual"
@@ -140,21 +142,37 @@ def _blocks(
     return frozenset(quoted)
 
 
-def _sketches(page: Page, report: Report, check: CheckResult) -> None:
-    """Draw what a failed check judged: values of a topic, or the path of a turtle."""
+def _sketches(page: Page, report: Report, check: CheckResult, drawn: set[tuple[str, ...]]) -> None:
+    """Draw what a failed check judged in its run: values of a topic, or the path of a turtle.
+
+    What is `drawn` already is not drawn again.
+    """
     if check.status != "failed":
         return
-    for run in report.runs:
+
+    def is_new(*picture: str) -> bool:
+        new = picture not in drawn
+        drawn.add(picture)
+        return new
+
+    def heading(run: RunInfo, *names: str) -> str:
+        name = one_line(" ".join(names).rstrip(), most=60)
+        of = say("{what}, in the run {run}", what=name, run=one_line(run.name, most=60))
+        return page.translate(of) if len(report.runs) > 1 else name
+
+    for run in [run for run in report.runs if check.run in ("", run.name)]:
         judged = [plot for plot in run.plots if check.id in plot.checks and plot.points]
         for plot in [plot for plot in judged if plot.wrong] or judged[:1]:
-            what = one_line(f"{plot.topic} {plot.field}".rstrip(), most=60)
-            page.code(say("values"), [what, *value_sketch(plot, page.columns)])
-            page.field("", VALUES_KEY if plot.field else INSTANTS_KEY)
+            if is_new(run.name, plot.topic, plot.field):
+                what = heading(run, plot.topic, plot.field)
+                page.code(say("values"), [what, *value_sketch(plot, page.columns)])
+                page.field("", VALUES_KEY if plot.field else INSTANTS_KEY)
         if any(found.id.startswith("world.") for found in check.mistakes):
             for turtle, driven in run.path.items():
-                lines = path_sketch(driven, run.wanted.get(turtle, []), page.columns)
-                page.code(say("path"), [one_line(turtle, most=60), *lines])
-                page.field("", PATH_KEY)
+                if is_new(run.name, turtle):
+                    lines = path_sketch(driven, run.wanted.get(turtle, []), page.columns)
+                    page.code(say("path"), [heading(run, turtle), *lines])
+                    page.field("", PATH_KEY)
 
 
 def _follows_unknown(check: CheckResult) -> bool:
@@ -273,10 +291,11 @@ def _foot(
 ) -> None:
     page.gap()
     failed = [check for check in checks if check.status == "failed"]
-    if failed:
-        page.field(say("next"), _next(most_stopping(failed, report.checks), own_code=own_code))
-    if report.observed.command:
-        page.code(say("ran"), [one_line(report.observed.command, most=4_000)])
+    first = most_stopping(failed, report.checks) if failed else None
+    if first is not None:
+        page.field(say("next"), _next(first, own_code=own_code))
+    if command := command_for(first, report):
+        page.code(say("ran"), [one_line(command, most=4_000)])
     if path is not None:
         page.code(say("report"), [one_line(str(path), most=4_000)])
     if more:

@@ -8,10 +8,10 @@ of the barrier. Nodes that do not follow `/clock` are watched on the wall clock.
 
 from __future__ import annotations
 
-import os
+import itertools
 import statistics
 import time
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
@@ -23,10 +23,12 @@ from grader.run.probe_link import Answer
 from grader.sandbox.scheduling import seconds_waited
 
 MILLISECOND = 1_000_000
-BARRIER_SECONDS = 2.0  # wall time for one barrier
-SETTLE_SECONDS = 2.5  # wall time within which a spinning node gives its first answer
-OTHERS_SECONDS = 1.0  # wall time for the first answers of the other nodes, after one has answered
-QUIET_SECONDS = 0.03  # wall time in which a node without services logs what was due
+BARRIER_SECONDS = 2.0  # of the run's time, for one barrier
+SETTLE_SECONDS = 2.5  # of the run's time, within which a spinning node gives its first answer
+OTHERS_SECONDS = (
+    1.0  # of the run's time, for the first answers of the other nodes, after one has answered
+)
+QUIET_SECONDS = 0.03  # of the run's time, in which a node without services logs what was due
 UNASKED_SECONDS = 2.0  # the same until a tick is missing
 SLOW_BARRIER = 0.2  # seconds of wall time; after a slower barrier a log record ends the next ones
 UNANSWERED = 5  # unanswered barriers in a row after which the node counts as stuck
@@ -42,24 +44,6 @@ FIRST_SECONDS = 0.5  # of it, in which a flood shows itself
 WALL_SPARE = 3.0  # seconds of wall time in addition to the ticks'
 MOST_AT_ONCE = 16  # lines of the count at one instant, after which the clock is no longer driven
 STILL = 1.3  # periods of wall time without a /clock message, to detect a wall clock
-
-
-class Lap:
-    """Measures how long a step takes, without the time in which its processes waited for a core."""
-
-    def __init__(self, pids: Collection[int]) -> None:
-        self._pids = pids
-        self._begin, self._waited = time.monotonic(), seconds_waited(pids)
-
-    def own_seconds(self) -> float:
-        """Return the seconds since it was made in which the processes ran or slept.
-
-        At most: threads wait side by side. 0 if the processes are unknown.
-        """
-        if not self._pids:
-            return 0.0
-        waited = seconds_waited(self._pids) - self._waited
-        return max(0.0, time.monotonic() - self._begin - waited)
 
 
 class VirtualClock:
@@ -86,13 +70,14 @@ class VirtualClock:
         """
         self._fine = fine or real_time
         self._real_time = real_time
+        self._run_clock = observer.run_clock
         self._set_at = 0.0  # by time.monotonic(): when the clock was set, if it is in real time
         self._ticks = output.ticks + more_ticks
         self._fine_from = self._ticks - fine_ticks
         self._stay_until = stay_until  # by time.monotonic()
         self._observer = observer
         self._output = output
-        self._deadline = deadline  # by time.monotonic()
+        self._deadline = deadline  # by the run's clock
         self._at = 0
         self._before = 0
         self._unanswered = 0
@@ -115,11 +100,11 @@ class VirtualClock:
             if watch.counted or not self._settle(watch):
                 return
         watch.clock = "virtual"
-        began = time.monotonic()
+        began = self._run_clock.now()
         found = self._at_due_instants(watch, self._period, on_event)
         if not found and not self._piles_up:
             self._find_period(watch, on_event)
-        promptly = time.monotonic() - began < 0.5 * self._output.period * len(watch.dues)
+        promptly = self._run_clock.now() - began < 0.5 * self._output.period * len(watch.dues)
         # a loop beside the node logs at any time: its lines only seem to be on time
         driven = not self._unasked and 2 * self._late <= len(watch.dues)
         if watch.missing or watch.early or not promptly or not driven or self._piles_up:
@@ -130,14 +115,14 @@ class VirtualClock:
     def go_on(self, seconds: float) -> None:
         """Let ROS time pass without a barrier: the node is ending, and may need its next timer."""
         self._at += round(seconds * SECOND)
-        self._observer.probe.ask("clock", at=self._at, until_log=0, patient=0)
+        self._observer.take(self._observer.probe.ask("clock", at=self._at, until_log=0, patient=0))
 
     def _settle(self, watch: Watch) -> bool:
         """Start the clock at 1 ms; return whether a node answers, that is, whether it spins.
 
         All nodes get time for their first answer; one that is not spun may stand beside another.
         """
-        deadline = time.monotonic() + SETTLE_SECONDS
+        deadline = self._run_clock.now() + SETTLE_SECONDS
         while True:
             events, answer = self._ask(MILLISECOND, seconds=SETTLE_SECONDS / 10, patient=1)
             watch.before_start += events
@@ -145,7 +130,7 @@ class VirtualClock:
             if answer.barrier is None:
                 self._unasked = True
                 return False
-            now = time.monotonic()
+            now = self._run_clock.now()
             if answer.barrier and not watch.settled:
                 watch.settled = True
                 deadline = min(deadline, now + OTHERS_SECONDS)
@@ -155,7 +140,7 @@ class VirtualClock:
     def _at_due_instants(self, watch: Watch, phase: int, on_event: Callable[[Event], None]) -> bool:
         """Watch the due instants from `phase` on; return whether ticks came at these only."""
         already = len(watch.dues)
-        lap: Lap | None = None
+        lap: float | None = None
         for k in range(already, self._ticks):
             due = phase + (k - already) * self._period
             if k == self._ticks - 1 and self._stay_until:
@@ -164,8 +149,9 @@ class VirtualClock:
                     return False
             early = self._go_to(due - MILLISECOND, fine=k >= self._fine_from)
             if lap is not None:
-                watch.held.append(lap.own_seconds())
-            lap = None if self._fine else Lap(self._pids)
+                held = self._run_clock.now() - lap
+                watch.held.append(held if self._knows_the_node else 0.0)
+            lap = None if self._fine else self._run_clock.now()
             watch.events += early
             if self._many_at(watch, k - 1):
                 return False
@@ -195,7 +181,8 @@ class VirtualClock:
 
     def _stay(self, watch: Watch) -> bool:
         """Wait while the clock stands still; return whether no line of the count came."""
-        left = min(self._stay_until, self._deadline) - time.monotonic()
+        left = self._stay_until - time.monotonic()
+        left = min(left, self._deadline - self._run_clock.now())
         if left <= 0:
             return True
         still = self._observer.watch_for(left)
@@ -205,11 +192,9 @@ class VirtualClock:
         return not watch.early and not self._over()
 
     @cached_property
-    def _pids(self) -> set[int]:
-        """The processes that a step waits for: the node's and ours."""
-        observer = self._observer
-        node = observer.terminal.processes()
-        return {*node, *observer.probe.pipe.processes(), os.getpid()} if node else set()
+    def _knows_the_node(self) -> bool:
+        """Whether the run's clock stands still while the node waits for a core."""
+        return bool(self._observer.terminal.processes())
 
     def _go_to(self, at: int, *, fine: bool = False) -> list[Event]:
         """Set the clock to an instant, in one step or, if `fine`, in many.
@@ -229,9 +214,9 @@ class VirtualClock:
 
         `counts` is whether a line of the expected form has come: then only such lines are ticks.
         """
-        began = time.monotonic()
+        began = self._run_clock.now()
         found: list[Event] = []
-        for attempt in range(10 * TRIES):
+        for attempt in itertools.count():
             events = self._step(due, wait=attempt > 0, until_log=True)
             self._late += bool(attempt and events and not found)
             found += [event if event.due is not None else replace(event, due=k) for event in events]
@@ -240,7 +225,7 @@ class VirtualClock:
             other = bool(found) and not counts
             enough = TRIES / 4 if other else TRIES  # (another line came; the tick may follow)
             seconds = UNASKED_SECONDS if self._unasked else TRY_SECONDS
-            if attempt >= enough and (other or time.monotonic() - began > seconds):
+            if attempt >= enough and (other or self._run_clock.now() - began > seconds):
                 break
             if self._over():
                 break
@@ -248,7 +233,7 @@ class VirtualClock:
 
     def _find_period(self, watch: Watch, on_event: Callable[[Event], None]) -> None:
         """Measure the period in small steps; if it is right, check the phase to 1 ms."""
-        step, began = self._grid_step, time.monotonic()
+        step, began = self._grid_step, self._run_clock.now()
         before = {id(event) for event in watch.before_start}
         seen: list[float] = [e.virtual for e in watch.counted if id(e) not in before]
         stop = self._at + MEASURED * self._period
@@ -276,7 +261,7 @@ class VirtualClock:
         if len(instants) > 1:
             gaps = [b - a for a, b in zip(instants, instants[1:])]
             watch.period = statistics.median(gaps)
-            quick = time.monotonic() - began < QUICK_STEP * len(lines)  # (a sleep is not)
+            quick = self._run_clock.now() - began < QUICK_STEP * len(lines)  # (a sleep is not)
             if quick and watch.period <= step / SECOND * 1.01 and step > MILLISECOND:
                 watch.period = self._shorter(watch)
             tolerance = step / SECOND * 1.01
@@ -346,7 +331,7 @@ class VirtualClock:
         """
         if not self._unasked and not self._over():
             watch.events += self._step(self._at, wait=True)
-        left = self._deadline - time.monotonic()
+        left = self._deadline - self._run_clock.now()
         still = self._observer.watch_still(min(left, STILL * self._output.period))
         watch.events += still
         kinds = {event.kind for event in watch.counted}
@@ -378,17 +363,23 @@ class VirtualClock:
         waited = self._wait_until_real(at)
         self._at = max(at, self._at)
         observer.now = self._at / SECOND
-        published = time.time()
+        published, limit = time.time(), self._run_clock.limit(seconds)
+        began = self._run_clock.now()
         enough = int(until_log and self._slow)
-        answer = observer.probe.ask(
-            "clock", seconds=seconds, at=self._at, until_log=enough, patient=patient
-        )
-        self._slow = self._slow or (not patient and time.time() - published > SLOW_BARRIER)
+        asked = {"at": self._at, "until_log": enough, "patient": patient}
+        answer = observer.probe.ask("clock", seconds=seconds, **asked)
+        self._slow |= not patient and self._run_clock.now() - began > SLOW_BARRIER
         events = waited + observer.take(answer, seconds=0.02 if wait else 0)
         events += observer.catch_up(answer.logs)
-        if self._unasked:
-            quiet = observer.probe.ask("wait", seconds=QUIET_SECONDS)
-            events += observer.take(quiet) + observer.catch_up(quiet.logs)
+        while answer.barrier is False and not patient and not events and not limit.over:
+            if observer.over:
+                break
+            answer = observer.probe.ask("clock", seconds=limit.rest, **asked)
+            events += observer.take(answer) + observer.catch_up(answer.logs)
+        quiet = self._run_clock.limit(QUIET_SECONDS)
+        while self._unasked and not quiet.over:
+            still = observer.probe.ask("wait", seconds=QUIET_SECONDS)
+            events += observer.take(still) + observer.catch_up(still.logs)
         events = self._at_their_instants(events, published)
         silent = answer.barrier is False and not events
         self._unanswered = self._unanswered + 1 if silent else 0
@@ -404,7 +395,8 @@ class VirtualClock:
         began = time.monotonic()
         wanted = max(self._set_at, began - MADE_UP) + REAL * (at - self._at) / SECOND
         self._set_at = wanted if self._at else began
-        return self._observer.watch_for(min(self._set_at, self._deadline) - began)
+        left = self._deadline - self._run_clock.now()
+        return self._observer.watch_for(min(self._set_at - began, left))
 
     def _at_their_instants(self, events: list[Event], published: float) -> list[Event]:
         """Assign events from before this step's clock message to the previous instant."""
@@ -422,7 +414,7 @@ class VirtualClock:
         return self._unanswered >= UNANSWERED and self._at > MILLISECOND
 
     def _over(self) -> bool:
-        return self._is_stuck or self._observer.over or time.monotonic() > self._deadline
+        return self._is_stuck or self._observer.over or self._run_clock.now() > self._deadline
 
 
 def _without_dues(events: Sequence[Event]) -> list[Event]:
@@ -472,24 +464,30 @@ def watch_wall(
     watch.clock = "wall"
     watch.dues, watch.missing, watch.early = [], [], []
     watch.events = _without_dues(watch.events)
-    began, now = time.time(), time.monotonic()
+    began, now = time.time(), observer.run_clock.now()
     end = min(deadline, now + (WALL_TICKS + 1) * output.period + WALL_SPARE)
+    node = observer.terminal.processes()
+    waited, quiet = seconds_waited(node), now
     first = observer.watch_still(min(end - now, FIRST_SECONDS))
     watch.events += first
     for event in first:
         on_event(event)
-    while time.monotonic() < end and not observer.over:
+    while observer.run_clock.now() < end and not observer.over:
         fresh = [event for event in watch.counted if event.wall >= began]
         if len(fresh) > WALL_TICKS and any(e.n is not None for e in watch.events):
             break
         events = observer.take(observer.probe.ask("wait", seconds=0.05))
         watch.events += events
+        if len([e for e in watch.counted if e.wall >= began]) > len(fresh):
+            quiet = observer.run_clock.now()
         for event in events:
             on_event(event)
+    waited = seconds_waited(node) - waited
     watch.events += observer.settle()
     watch.events.sort(key=lambda event: event.wall)
     stamps = [event.wall for event in watch.counted if event.wall >= began]
     if not observer.terminal.ended:
-        watch.silent = time.time() - max([began, *stamps])
+        watch.silent = observer.run_clock.now() - quiet
     if len(stamps) > 2:
+        observer.slack = waited / (len(stamps) - 1)
         watch.period = statistics.median(b - a for a, b in zip(stamps, stamps[1:]))

@@ -2,25 +2,29 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.course.assignment import Assignment
-from grader.course.scenario import RunPlan, Start, Stimulus
+from grader.course.scenario import Call, Publish, RunPlan, SendGoal, Start, Stimulus
+from grader.package.source.timer_periods import TimerPeriods
 from grader.ros.distro import Distro
 from grader.run.in_probe.turtlesim import STEP
 from grader.run.observations import Done, End, Goal, Message, Observations, Parameter, Pose
 from grader.run.observer import SECOND, Event, Observer
 from grader.run.probe_link import Answer, ProbeError, ProbeLink, in_probe
+from grader.run.programs import full_name, names_of
 from grader.run.run import (
     COMPLETE_SECONDS,
     DYING_SECONDS,
     END_SECONDS,
+    FOLLOW_SECONDS,
     Program,
     Run,
+    accepts,
+    ends,
     press_ctrl_c,
     ros2_run,
     start,
@@ -30,29 +34,28 @@ from grader.sandbox.base import Sandbox
 
 MODULES = ("messages", "parameters", "graph", "goals", "scenario")  # of in_probe, in order of need
 MILLISECOND = 1_000_000
-PREPARE_SECONDS = 5.0  # wall time to make the probe's ends
-STEP_SECONDS = 2.0  # wall time for one step
-SETTLE_SECONDS = 3.0  # wall time within which a spinning node gives its first answer
+PREPARE_SECONDS = 5.0  # of the run's time, to make the probe's ends
+STEP_SECONDS = 2.0  # of the run's time, for one step
+SETTLE_SECONDS = 3.0  # of the run's time, within which a spinning node gives its first answer
+RECEIVED = ("publish", "call", "goal", "set")  # what a node must be there to receive
+UNKNOWN_STEPS = 10.0  # of the clock's period, for timers of which the source does not say it
+MOST_STEPS = 50  # of the clock's period
 FINE_TICKS = 8  # before which the clock stops 1 ms earlier too
+NOTHING = "false"  # the command in place of a node that has no executable
 UNANSWERED = 5  # unanswered steps in a row after which the nodes count as stuck
-LOOK_SECONDS = 2.0  # wall time to read the graph, and the parameters of one node
+LOOK_SECONDS = 2.0  # of the run's time, to read the graph, and the parameters of one node
 MOST_MESSAGES = 20_000  # of a run
 MOST_FEEDBACK = 1_000  # of a goal
 MOST_POSES = 20_000  # of a turtle in a run: the 16 ms steps of five minutes
 
 
 def command_of(assignment: Assignment, begin: Start, distro: Distro) -> str:
-    """Return the `ros2 run` command that starts a node of a plan."""
+    """Return the `ros2 run` command that starts a node of a plan; "" if it has no executable."""
     node = assignment.nodes[begin.node]
     package = node.package or assignment.package
+    if not node.executable:
+        return ""
     return ros2_run(distro, package, node.executable, *begin.words(package))
-
-
-def full_name(assignment: Assignment, begin: Start) -> str:
-    """Return the full name of a node that a plan starts."""
-    space = "/" + begin.namespace.strip("/")
-    name = begin.name or assignment.nodes[begin.node].name
-    return f"{space.rstrip('/')}/{name}"
 
 
 def conduct(
@@ -63,10 +66,12 @@ def conduct(
     on_event: Callable[[Event], None],
     *,
     until: float,
+    timers: TimerPeriods,
 ) -> Run:
     """Start the nodes, drive clock and world through the plan, press Ctrl+C, return the result.
 
-    The run ends at `until` (by time.monotonic()) at the latest. Raises ProbeError if our own side
+    The run ends at `until` (by the run's clock) at the latest; `timers` are those of the source.
+    Raises ProbeError if our own side
     failed, UsageError if the plan names a type or a field that ROS does not have.
     """
     limits = sandbox.limits
@@ -77,14 +82,16 @@ def conduct(
     probe.until = until - limits.stop_seconds - END_SECONDS
     probe.ready()
     probe.extend([in_probe(name) for name in MODULES])
-    _prepare(probe, plan)
-    begin = time.monotonic()
+    seen.unusable.update(_prepare(probe, assignment, plan))
+    run_clock = sandbox.run_clock
+    begin = run_clock.now()
     terminals: list[Terminal] = []
     try:
-        terminals += [start(sandbox, command, probe.pipe) for command in commands]
+        terminals += [start(sandbox, command or NOTHING, probe.pipe) for command in commands]
         observer = Observer(terminals[0], probe, assignment.output, terminals[1:])
         scene = _Scene(assignment, plan, probe, observer, terminals, run, on_event)
         scene.deadline = min(begin + limits.run_seconds, probe.until)
+        scene.grid = _grid(plan, timers)
         scene.play(begin, limits.start_seconds)
         _end(run, scene, limits.stop_seconds)
     except ProbeError:
@@ -99,12 +106,15 @@ def conduct(
         for program, terminal in zip(programs, terminals):
             program.transcript = terminal.transcript
         run.flooded = run.flooded or any(terminal.flooded for terminal in terminals)
-        run.seconds = time.monotonic() - begin
+        run.seconds = run_clock.now() - begin
     return run
 
 
-def _prepare(probe: ProbeLink, plan: RunPlan) -> None:
-    """Make the ends that the plan needs; UsageError for what ROS does not have."""
+def _prepare(probe: ProbeLink, assignment: Assignment, plan: RunPlan) -> dict[str, str]:
+    """Make the ends that the plan needs; UsageError for what ROS does not have.
+
+    Return the types of the submission's packages that cannot be used, and why.
+    """
     said = probe.said(
         "prepare",
         seconds=PREPARE_SECONDS,
@@ -114,12 +124,29 @@ def _prepare(probe: ProbeLink, plan: RunPlan) -> None:
         goal=[[one.goal.action, one.goal.type] for one in plan.do if one.goal],
         periods={topic: round(seconds * SECOND) for topic, seconds in plan.periods.items()},
         world=in_probe(plan.world) if plan.world else None,
+        students=assignment.interface_packages,
     )
     for kind in said.get("unknown", ()):
         raise UsageError(
             say("there is no interface {type} in this ROS", type=kind),
             remedy=say("Correct the run '{name}' of the assignment.", name=plan.name),
         )
+    return {str(kind): str(why) for kind, why in said.get("unusable", {}).items()}
+
+
+def _grid(plan: RunPlan, timers: TimerPeriods) -> int:
+    """Return the steps (ns) in which the clock goes on between two instants; 0 for one step.
+
+    A timer fires once after a jump of the clock, however long the jump is: one that is faster than
+    the clock would be as slow as the clock. If the source does not say how fast the timers are, and
+    a check asks for a period, the steps are a part of the clock's.
+    """
+    period = plan.clock.period
+    unknown = bool(plan.periods) and not timers.are_known
+    steps = UNKNOWN_STEPS if unknown else 1.0
+    if timers.fastest is not None:
+        steps = max(steps, min(MOST_STEPS, period / timers.fastest))
+    return round(period / steps * SECOND) if steps > 1 else 0
 
 
 class _Scene:
@@ -139,11 +166,14 @@ class _Scene:
         self.assignment, self.plan, self.probe = assignment, plan, probe
         self.observer, self.terminals, self.run, self.seen = observer, terminals, run, run.seen
         self._on_event = on_event
-        self.deadline = 0.0  # by time.monotonic()
+        self._run_clock = observer.run_clock
+        self.deadline = 0.0  # by the run's clock
+        self.grid = 0  # ns, the steps of the clock between two instants; 0 for none
         self.at = 0  # ns
         self._unanswered = 0
         self._dying_left = DYING_SECONDS
         self._names = {begin.node: full_name(assignment, begin) for begin in plan.start}
+        self._unknown: set[str] = set()  # topics with messages of publishers that are not known
         self._waiting = sorted(plan.do, key=lambda one: one.at)
 
     @property
@@ -151,7 +181,7 @@ class _Scene:
         """Whether the run cannot go on."""
         ended = all(terminal.ended or terminal.flooded for terminal in self.terminals)
         stuck = self._unanswered >= UNANSWERED
-        return ended or stuck or self.observer.flooded or time.monotonic() > self.deadline
+        return ended or stuck or self.observer.flooded or self._run_clock.now() > self.deadline
 
     def play(self, begin: float, most: float) -> None:
         """Wait for the nodes, then go through all instants of the plan."""
@@ -173,6 +203,9 @@ class _Scene:
         self._await_dying()
         if self._unanswered >= UNANSWERED:
             self.seen.stuck = self.seen.instants[max(0, len(self.seen.instants) - UNANSWERED)]
+            if len(self.terminals) > 1:
+                names = self._names.values()
+                self.seen.silent = [name for name in names if self._asked(name) is None]
         watch.events += self.observer.settle()
         watch.events[:] = self.observer.visible(watch.events)
         if run.nodes:
@@ -190,7 +223,7 @@ class _Scene:
             self.run.watch.before_start += events
             self.run.watch.events += events
             self.observer.linked(answer.nodes)
-            now = time.monotonic()
+            now = self._run_clock.now()
             if answer.nodes:
                 first_seen = first_seen or now
                 self.run.nodes = answer.nodes
@@ -203,43 +236,72 @@ class _Scene:
                     break
             elif now - begin > most:
                 return
-        names = [node.name for node in self.run.nodes]
-        if len(names) == 1 and len(self._names) == 1:
-            self._names = dict.fromkeys(self._names, names[0])  # its own name may be another one
+        self._read_names()
+
+    def _read_names(self) -> None:
+        """Learn the names of the nodes on the graph: they may not be those of the assignment."""
+        there = [node.name for node in self.run.nodes]
+        own = names_of(self.assignment, self.plan, there)
+        for begin, names in zip(self.plan.start, own):
+            if len(names) == 1:
+                self._names[begin.node] = names[0]
 
     def _settle(self) -> bool:
         """Start the clock at 1 ms; return whether a node answers, that is, whether it spins."""
-        until = min(time.monotonic() + SETTLE_SECONDS, self.deadline)
+        until = min(self._run_clock.now() + SETTLE_SECONDS, self.deadline)
         settled = False
         while not self.over:
             answer = self.probe.ask("clock", seconds=0.25, at=MILLISECOND, until_log=0, patient=1)
             self._take(answer)
             settled = settled or bool(answer.barrier)
-            if (settled and not answer.silent) or answer.barrier is None:
+            complete = settled and not answer.silent and self._all_answer()
+            if complete or answer.barrier is None:
                 break
-            if time.monotonic() > until:
+            if self._run_clock.now() > until:
                 break
         for node in self.run.nodes:
             if not node.clock and node.answers:
-                self.probe.ask("follow", name=node.name, seconds=1.0)
+                accepts(self.observer, "follow", node.name, FOLLOW_SECONDS)
         return settled
 
+    def _all_answer(self) -> bool:
+        """Whether each node of several programs has answered: one may be known later than another."""
+        if len(self.terminals) == 1:
+            return True
+        self.run.nodes = self.probe.ask("look").nodes or self.run.nodes
+        return all(node.answers for node in self.run.nodes)
+
     def _tick(self, at: int) -> None:
-        """Show an instant; at first also the moment before it, when nothing may come yet.
+        """Show an instant, and the steps before it; at first also the moment before it.
 
         A timer that is faster than the clock's period shows itself there.
         """
+        if self.grid:
+            first = (self.at // self.grid + 1) * self.grid
+            for step in range(first, at - MILLISECOND, self.grid):
+                if not self.over:
+                    self._show(step)
         if len(self.seen.instants) < FINE_TICKS:
             self._show(at - MILLISECOND)
         self._show(at)
         self.seen.instants.append(round(at / SECOND, 6))
+        heard, self._unknown = self._unknown, set()
+        due = self._waiting and self._waiting[0].at <= at / SECOND + 1e-9
+        if (due or heard) and not self.over:  # (what a stimulus changes, and who sent a message)
+            self._look_at_ends()
         self._do_all(at / SECOND)
 
     def _show(self, at: int) -> None:
+        barriers = 1 + (at // STEP - self.at // STEP if self.plan.world else 0)
         self.at = at
         self.observer.now = at / SECOND
-        said = self.probe.said("tick", seconds=STEP_SECONDS, at=at)
+        limit = self._run_clock.limit(barriers * STEP_SECONDS)
+        asked = {"each": STEP_SECONDS * self._run_clock.pace, "at": at}
+        said = self.probe.said("tick", seconds=barriers * STEP_SECONDS, **asked)
         self._record(said)
+        while said["barrier"] is False and not limit.over and not self.over:
+            said = self.probe.said("tick", seconds=limit.rest, **asked)
+            self._record(said)
         silent = said["barrier"] is False
         self._unanswered = self._unanswered + 1 if silent else 0
         if said["barrier"] is None:
@@ -252,15 +314,15 @@ class _Scene:
         wait for, all instants of the plan would be over by then.
         """
         do = "look"
-        began, known = time.monotonic(), {node.name for node in self.run.nodes}
-        while not self.over and time.monotonic() - began < self._dying_left:
+        began, known = self._run_clock.now(), {node.name for node in self.run.nodes}
+        while not self.over and self._run_clock.now() - began < self._dying_left:
             answer = self.probe.ask(do, seconds=0.02)
             do = "wait"
             self._take(answer)
             there = sum(node.name in known for node in answer.nodes)
             if there >= sum(not terminal.ended for terminal in self.terminals):
                 break
-        self._dying_left -= time.monotonic() - began
+        self._dying_left -= self._run_clock.now() - began
 
     def _do_all(self, until: float) -> None:
         while self._waiting and self._waiting[0].at <= until + 1e-9 and not self.over:
@@ -270,12 +332,12 @@ class _Scene:
         done = Done(one.name, one.at)
         self.seen.done.append(done)
         if one.publish is not None:
-            self._act(done, "publish", **one.publish.model_dump())
+            self._send(done, "publish", one.publish)
         elif one.call is not None:
-            self._act(done, "call", name=one.name, **one.call.model_dump())
+            self._send(done, "call", one.call)
         elif one.goal is not None:
             self.seen.goals.append(Goal(one.name, one.at))
-            self._act(done, "goal", name=one.name, **one.goal.model_dump())
+            self._send(done, "goal", one.goal)
         elif one.cancel is not None:
             self._act(done, "cancel", name=one.cancel)
         elif one.spawn is not None:
@@ -288,12 +350,25 @@ class _Scene:
             for parameter, accepted, reason in said["set"]:
                 done.accepted[str(parameter)] = "" if accepted else str(reason) or "refused"
 
+    def _send(self, done: Done, command: str, what: Publish | Call | SendGoal) -> None:
+        """Send something of a type, which may not have the fields that the assignment asks for."""
+        said = self._act(done, command, name=done.name, **what.model_dump())
+        if misfit := said.get("misfit"):
+            self.seen.unusable[what.type] = str(misfit)
+
     def _act(self, done: Done, command: str, **more: object) -> Mapping[str, Any]:
-        """Let the probe do something, count who received it, and keep what came of it."""
-        said = self.probe.said(command, seconds=STEP_SECONDS, **more)
-        done.heard += int(said["heard"])
-        self._record(said)
-        return said
+        """Let the probe do something, count who received it, and keep what came of it.
+
+        What nobody is there to receive waits until the run's clock says that nobody comes.
+        """
+        limit = self._run_clock.limit(STEP_SECONDS)
+        while True:
+            last = limit.over or command not in RECEIVED
+            said = self.probe.said(command, seconds=limit.rest, last=last, **more)
+            self._record(said)
+            if said["heard"] or last or self.over:
+                done.heard += int(said["heard"])
+                return said
 
     def _record(self, said: Mapping[str, Any]) -> None:
         """Keep what an answer holds, at the present instant."""
@@ -305,6 +380,8 @@ class _Scene:
                 sent = min(at, MILLISECOND / SECOND) if before else at
                 seen.messages.append(Message(str(topic), sent, values))
         for topic, count in said.get("counts", {}).items():
+            if topic not in seen.counts and not seen.ends_of("publisher", topic):
+                self._unknown.add(topic)
             seen.counts[topic] = seen.counts.get(topic, 0) + int(count)
         for name, reply in said.get("replies", ()):
             found = seen.stimulus(str(name))
@@ -343,21 +420,38 @@ class _Scene:
             self._on_event(event)
 
     def _look(self) -> None:
-        """Read the graph and the parameters."""
+        """Read the graph and the parameters; a value counts as it was when it was read first."""
+        self._look_at_ends()
+        now = self.probe.ask("look").nodes
+        left = {node.name: node for node in self.run.nodes if now and self.run.others}
+        there = {**left, **{node.name: node for node in now}}  # (of several, one that has gone too)
+        self.run.nodes = tuple(there.values()) or self.run.nodes
+        self._read_names()
+        if self.over:
+            return
+        for name in self._names.values():
+            asked = self._asked(name)
+            if asked is not None:
+                found = {one.name: one for one in map(_parameter, asked)}
+                found |= {one.name: one for one in self.seen.parameters.get(name, ())}
+                self.seen.parameters[name] = list(found.values())
+
+    def _asked(self, name: str) -> Any:
+        """Return what a node says about its parameters; None if it does not answer."""
+        limit = self._run_clock.limit(LOOK_SECONDS)
+        while True:
+            said = self.probe.said("parameters", seconds=limit.rest, name=name)
+            if said.get("parameters") is not None or limit.over or self.over:
+                return said.get("parameters")
+
+    def _look_at_ends(self) -> None:
+        """Read the graph. Ends that were there once stay known: some nodes destroy theirs."""
         known = {(end.node, end.role, end.name, end.type) for end in self.seen.ends}
         said = self.probe.said("look_closely", seconds=LOOK_SECONDS)
         for found in said.get("ends", ()):
             end = End(**found)
             if (end.node, end.role, end.name, end.type) not in known:
                 self.seen.ends.append(end)
-        self.run.nodes = self.probe.ask("look").nodes or self.run.nodes
-        if self.over:
-            return
-        for name in self._names.values():
-            said = self.probe.said("parameters", seconds=LOOK_SECONDS, name=name)
-            if said.get("parameters") is not None:
-                found = [_parameter(one) for one in said["parameters"]]
-                self.seen.parameters[name] = found
 
 
 def _parameter(found: Mapping[str, Any]) -> Parameter:
@@ -372,13 +466,14 @@ def _parameter(found: Mapping[str, Any]) -> Parameter:
 
 
 def _end(run: Run, scene: _Scene, seconds: float) -> None:
-    """Press Ctrl+C on every terminal; the result is that of the first node."""
+    """Press Ctrl+C on every terminal, and record how each program ends."""
 
     def go_on(passed: float) -> None:
         scene.at += round(passed * SECOND)
-        scene.probe.ask("clock", at=scene.at, until_log=0, patient=0)
+        scene.observer.take(scene.probe.ask("clock", at=scene.at, until_log=0, patient=0))
 
-    pressed = time.monotonic()
+    now = scene.observer.run_clock.now
+    pressed = now()
     others = list(zip(run.others, scene.terminals[1:]))
     for other, terminal in others:
         other.by_itself = terminal.ended
@@ -386,8 +481,7 @@ def _end(run: Run, scene: _Scene, seconds: float) -> None:
             terminal.interrupt()
     press_ctrl_c(run, scene.terminals[0], go_on, seconds)
     for other, terminal in others:
-        _, ended = terminal.finish(seconds)
-        if ended:
-            other.stop_seconds = time.monotonic() - pressed
+        if ends(terminal, go_on, now() + seconds):
+            other.stop_seconds = now() - pressed
             other.status, other.signal = terminal.status
-    run.watch.events += scene.observer.take()
+    run.watch.events += scene.observer.take_last()

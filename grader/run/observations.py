@@ -39,7 +39,7 @@ class End:
 
 @dataclass(frozen=True)
 class Parameter:
-    """A parameter of a node, as its services describe it at the end of the run."""
+    """A parameter of a node, as its services describe it when it was first seen: at the start."""
 
     name: str
     type: str
@@ -98,7 +98,9 @@ class Observations:
     """The observations of a run; `period` is the clock's, `instants` those that it showed.
 
     `counts` are the numbers of messages by topic; only the first of a step are in `messages`.
-    `parameters` are by the node's full name. `stuck` is the instant from which on no node answered.
+    `parameters` are by the node's full name. `stuck` is the instant from which on not every node
+    answered, `silent` the full names of those of several that do not.
+    `unusable` has the types of the submission's own packages that could not be used, and why.
     """
 
     period: float
@@ -112,6 +114,8 @@ class Observations:
     path: list[Pose] = field(default_factory=list)
     events: list[dict[str, Any]] = field(default_factory=list)
     stuck: float | None = None
+    unusable: dict[str, str] = field(default_factory=dict)
+    silent: list[str] = field(default_factory=list)
     complete: bool = False
 
     def of_topic(self, topic: str) -> list[Message]:

@@ -19,7 +19,8 @@ LATE_GRACE = 1.0  # the same for records from before the probe had discovered th
 STAMP_TOLERANCE = SECOND // 4
 NUMBER = re.compile(r"\d+")
 BELOW_RCLPY = re.compile(r"(?:rcl|rcutils|rmw)(?:[._][\w.]{0,80})?")  # names of their loggers
-FLOOD = 200  # lines per second of wall time, above which a program does not wait between them
+FLOOD = 200  # lines per second of the run's time, above which a program does not wait between them
+MOST_SLOWED = 8  # times as many lines as it has had wall time for may be due to a busy machine
 COMPARED = 1_000  # characters of a log line and its record; both are cut later than that
 PREFIX = 60  # bytes, about, that a log line on the terminal has in front of its text
 
@@ -57,8 +58,8 @@ class Watch:
 
     `while_still` is whether lines came although ROS time stood still, None if this is unknown.
     `still_answers` is whether the node answered at the end of a watch on `/clock`, None if unknown.
-    `silent` is the wall time in seconds without a line of the count at the end of a watch on the
-    wall clock. `held` has the seconds for which the node held up each step by itself, not by the machine's load.
+    `silent` is the time in seconds of the run's clock without a line of the count at the end of a
+    watch on the wall clock. `held` has the seconds for which the node held up each step by itself, not by the machine's load.
     """
 
     clock: Literal["virtual", "wall"] | None = None
@@ -173,10 +174,14 @@ class Observer:
         self.probe = probe
         self.output = output
         self.number = number_reader(output)
-        self._unmatched: list[Line] = []
+        self.run_clock = terminal.run_clock
+        self._unmatched: list[tuple[Line, float]] = []  # with when it was read, by the run's clock
         self.records: list[LogRecord] = []
         self._shown: set[int] = set()  # the stamps of the records that a terminal showed
         self.now = 0.0  # virtual seconds
+        self.slack = (
+            0.0  # seconds of a watch on the wall clock: the node's wait for a core, by line
+        )
         self._linked: float | None = None
         self._mirrored = True  # whether log records appear on the terminal
         self.logged = 0  # bytes that the log records would take on a terminal
@@ -205,21 +210,22 @@ class Observer:
     def linked(self, nodes: Sequence[NodeSeen]) -> None:
         """Note when the probe first saw a node's /rosout publisher: older records come late."""
         if self._linked is None and any(node.rosout for node in nodes):
-            self._linked = time.time()
+            self._linked = self.run_clock.now()
 
     def take(self, answer: Answer | None = None, *, seconds: float = 0) -> list[Event]:
         """Return the new events of a probe answer and of the terminal, in order."""
         events = [self._of_record(record) for record in (answer.logs if answer else ())]
         self._doubled.update(answer.doubled if answer else ())
+        now = self.run_clock.now()
         for line in self.terminal.read(seconds):
             for part in line.parts():
                 if _is_of_a_node(part):
-                    self._unmatched.append(part)
+                    self._unmatched.append((part, now))
                 elif part.log is None and part.text.strip():
                     events.append(self._event(part.text, part.wall, "print", None))
         for other in self.others:
             parts = (part for line in other.read() for part in line.parts())
-            self._unmatched += [part for part in parts if _is_of_a_node(part)]
+            self._unmatched += [(part, now) for part in parts if _is_of_a_node(part)]
         return events + self._match()
 
     def _of_record(self, record: LogRecord) -> Event:
@@ -237,15 +243,15 @@ class Observer:
             for r in self.records[-4000:]
         }
         faked, waiting = [], []
-        for line in self._unmatched:
+        for line, came in self._unmatched:
             assert line.log is not None
             _, stamp, name, text = line.log
             if (stamp, name, text[:COMPARED]) in known:
                 self._shown.add(stamp)
-            elif self._is_overdue(line):
+            elif self._is_overdue(came):
                 faked.append(replace(self._event(text, line.wall, "faked", None), logger=name))
             else:
-                waiting.append(line)
+                waiting.append((line, came))
         self._unmatched = waiting
         return faked
 
@@ -253,13 +259,14 @@ class Observer:
         """Return the events that a terminal showed."""
         return [e for e in events if e.record is None or e.record.stamp in self._shown]
 
-    def _is_overdue(self, line: Line) -> bool:
-        """Whether a line's log record should have come by now."""
+    def _is_overdue(self, came: float) -> bool:
+        """Whether the log record of a line that came then should have come by now."""
+        now = self.run_clock.now()
         if self._linked is None:
-            return time.time() - line.wall > LATE_GRACE
-        if line.wall < self._linked:
-            return time.time() - self._linked > LATE_GRACE
-        return time.time() - line.wall > GRACE
+            return now - came > LATE_GRACE
+        if came < self._linked:
+            return now - self._linked > LATE_GRACE
+        return now - came > GRACE
 
     def catch_up(self, records: Sequence[LogRecord]) -> list[Event]:
         """Wait for the records' lines on the terminal; return the events that come with them.
@@ -267,10 +274,10 @@ class Observer:
         A container's terminal is slower than its network. What was printed before a record comes
         before its line; what was printed after it may take as long again.
         """
-        began = time.monotonic()
+        began = self.run_clock.now()
         events: list[Event] = []
         while self._mirrored and self._has_unshown(records):
-            late = time.monotonic() - began
+            late = self.run_clock.now() - began
             self._mirrored = late < LATE_GRACE
             events += self.take(seconds=GRACE / 4)
             if not self._has_unshown(records):
@@ -286,10 +293,18 @@ class Observer:
         return events
 
     def watch_still(self, seconds: float) -> list[Event]:
-        """Do the same while ROS time stands still, when no timer of the node has lines to make."""
+        """Do the same while ROS time stands still, when no timer of the node has lines to make.
+
+        The seconds are of the run's clock: a node that follows the wall clock has had a core.
+        """
         before, began = self.terminal.lines, time.monotonic()
-        events = self.watch_for(seconds)
-        rate = (self.terminal.lines - before) / (time.monotonic() - began)
+        own = self.run_clock.now()
+        limit, events = self.run_clock.limit(seconds), list[Event]()
+        while not self.over and not limit.over:
+            events += self.take(self.probe.ask("wait", seconds=min(limit.slice, 0.1)))
+        slowed = (time.monotonic() - began) / MOST_SLOWED
+        passed = max(self.run_clock.now() - own, slowed)
+        rate = (self.terminal.lines - before) / passed
         self._flooding = self._flooding or (rate > FLOOD and not self.terminal.ended)
         return events
 
@@ -299,14 +314,21 @@ class Observer:
         A container's terminal is slower than its network.
         """
         events: list[Event] = []
-        deadline = time.monotonic() + 2 * LATE_GRACE
+        limit = self.run_clock.limit(2 * LATE_GRACE)
         while (
             (self._unmatched or self._has_unshown(self.records[-4000:]))
             and not self.flooded
-            and time.monotonic() < deadline
+            and not limit.over
         ):
             events += self.take(self.probe.ask("wait", seconds=GRACE / 4))
         return events
+
+    def take_last(self) -> list[Event]:
+        """Return what was printed after Ctrl+C; how far a count gets until a node ends is chance.
+
+        So is what it logs then: records of a node that is shutting down do not come on /rosout.
+        """
+        return [e for e in self.take() if e.source == "print" and e.n is None]
 
     def _has_unshown(self, records: Sequence[LogRecord]) -> bool:
         """Whether a record's line may still come on the terminal."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import json
 import math
-import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -116,8 +115,9 @@ class ProbeLink:
                 self.pipe.write(interfaces)
         self._buffer = b""
         self._ready = False
+        self._run_clock = sandbox.run_clock
         self.until = math.inf
-        """The time (by time.monotonic()) until which answers are awaited."""
+        """The time (of the run's clock) until which answers are awaited."""
 
     def ready(self) -> None:
         """Wait until rclpy is up in the probe."""
@@ -159,12 +159,13 @@ class ProbeLink:
             raise self._lost("its answer lacks keys or has unknown ones") from error
 
     def _read(self, seconds: float) -> dict[str, Any]:
-        deadline = min(time.monotonic() + seconds, self.until)
+        limit = self._run_clock.limit(min(seconds, self.until - self._run_clock.now()))
         while b"\n" not in self._buffer:
-            left = deadline - time.monotonic()
-            data = self.pipe.read(left) if left > 0 else None
-            if data is None:  # (an unfinished answer does not extend the deadline)
+            data = self.pipe.read(limit.slice)
+            if limit.over and b"\n" not in (data or b""):  # (an unfinished answer extends nothing)
                 raise self._lost(f"no answer within {seconds:.0f} s")
+            if data is None:
+                continue
             if not data or len(self._buffer) > LONGEST_ANSWER:
                 raise self._lost("it has ended")
             self._buffer += data

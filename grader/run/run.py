@@ -22,14 +22,21 @@ from grader.run.terminal import Terminal
 from grader.sandbox.base import UNRUNNABLE, Pipe, Sandbox
 
 SIM_TIME = ("--ros-args", "-p", "use_sim_time:=true")
-UNSEEN_SECONDS = 5.0  # wall time from the first line within which a node appears on the graph
-COMPLETE_SECONDS = 2.0  # wall time within which all endpoints of a visible node appear
+UNSEEN_SECONDS = (
+    5.0  # of the run's time, from the first line within which a node appears on the graph
+)
+COMPLETE_SECONDS = 2.0  # of the run's time, within which all endpoints of a visible node appear
 OWN_TRACEBACK = '/bin/ros2", line '  # in a traceback of the ros2 command itself
-DYING_SECONDS = 3.0  # wall time within which a program ends whose nodes have left the graph
-GONE_SECONDS = 0.1  # wall time for one more look at the graph
-FOLLOW_SECONDS = 2.0  # wall time in which a node that spins sets use_sim_time
-TRY_SECONDS = 3.0  # wall time in which one of a node's own services answers
-SETTLE_SECONDS = 0.1  # wall time in which lines come that were logged before the time stood still
+DYING_SECONDS = (
+    3.0  # of the run's time, within which a program ends whose nodes have left the graph
+)
+WALL_TOLERANCE = 0.05  # of a period on the wall clock
+GONE_SECONDS = 0.1  # of the run's time, for one more look at the graph
+FOLLOW_SECONDS = 2.0  # of the run's time, in which a node that spins sets use_sim_time
+TRY_SECONDS = 3.0  # of the run's time, in which one of a node's own services answers
+SETTLE_SECONDS = (
+    0.1  # of the run's time, in which lines come that were logged before the time stood still
+)
 PASSING_SECONDS = 0.25  # by which ROS time goes on at once while the node ends
 END_SECONDS = 10.0  # of a run's time, reserved for killing what does not end by itself
 
@@ -143,7 +150,7 @@ def observe(
     assignment announces; the last of them comes `stay_seconds` of wall time after the node at the
     earliest.
 
-    The run ends at `until` (by time.monotonic()) at the latest. Raises ProbeError if our own side
+    The run ends at `until` (by the run's clock) at the latest. Raises ProbeError if our own side
     failed. It is the run's `resource` instead if the probe exceeded a limit, because the node
     flooded it, or if the node still runs beyond its time limit when the probe fails.
     """
@@ -154,7 +161,7 @@ def observe(
     )
     probe.until = until - limits.stop_seconds - END_SECONDS
     probe.ready()
-    begin = time.monotonic()
+    begin = sandbox.run_clock.now()
     longest = limits.run_seconds + limits.stop_seconds
     terminal = start(sandbox, run.command, probe.pipe)
     try:
@@ -187,7 +194,7 @@ def observe(
         counted = watch.counted
         if run.nodes and not counted and not watch.settled and not observer.over:
             # one that was destroyed at once may have been seen or not
-            run.nodes = observer.probe.ask("wait", seconds=GONE_SECONDS).nodes
+            run.nodes = _still_there(observer)
         if counted:
             run.first_line_seconds = counted[0].wall - terminal.started
         run.ended_by_itself, run.flooded = terminal.ended, observer.flooded
@@ -196,9 +203,9 @@ def observe(
         run.started = run.watch.settled or bool(run.nodes and (counted or not terminal.ended))
         go_on = clock.go_on if clock is not None else None
         press_ctrl_c(run, terminal, go_on, limits.stop_seconds)
-        run.watch.events += observer.take()
+        run.watch.events += observer.take_last()
     except ProbeError:
-        overdue = time.monotonic() - begin > longest
+        overdue = sandbox.run_clock.now() - begin > longest
         terminal.read()  # updates terminal.ended
         overdue = overdue and not terminal.ended
         run.resource = sandbox.probe_limit_hit() or ("wall time" if overdue else "")
@@ -208,7 +215,7 @@ def observe(
         terminal.close()
         run.transcript = terminal.transcript
         run.flooded = run.flooded or terminal.flooded
-        run.seconds = time.monotonic() - begin
+        run.seconds = sandbox.run_clock.now() - begin
     return run
 
 
@@ -218,7 +225,7 @@ def counts_plainly(
     """Return whether the node counts on the wall clock, without arguments: two lines are enough.
 
     Nobody else is on its network, as at a person's first terminal. It has `patience` seconds for
-    the two lines; then, or at `until` (by time.monotonic()), the command is stopped by Ctrl+C.
+    the two lines; then, or at `until` (by the run's clock), the command is stopped by Ctrl+C.
     """
     output = assignment.output
     number = number_reader(output)
@@ -227,8 +234,9 @@ def counts_plainly(
     terminal = start(sandbox, command, network)
     try:
         wanted = [output.start, output.start + output.step]
-        until = min(until, time.monotonic() + patience)
-        while time.monotonic() < until and not terminal.ended and not terminal.flooded:
+        run_clock = sandbox.run_clock
+        limit = run_clock.limit(min(patience, until - run_clock.now()))
+        while not limit.over and not terminal.ended and not terminal.flooded:
             for line in terminal.read(0.2):
                 texts = [part.text if part.log is None else part.log[3] for part in line.parts()]
                 for text in texts:
@@ -248,7 +256,7 @@ def start(sandbox: Sandbox, command: str, network: Pipe) -> Terminal:
     """Return a terminal with the student's command in their workspace, in the network of a pipe."""
     script = f'. "{sandbox.ros_path}/setup.bash"; . install/local_setup.bash; exec {command}'
     console = sandbox.console(["bash", "-c", script], probe=network)
-    return Terminal(console, most=int(sandbox.limits.output))
+    return Terminal(console, most=int(sandbox.limits.output), run_clock=sandbox.run_clock)
 
 
 def _wait_for_node(run: Run, observer: Observer, begin: float, most: float) -> bool:
@@ -260,7 +268,7 @@ def _wait_for_node(run: Run, observer: Observer, begin: float, most: float) -> b
         events = observer.take(answer)
         run.watch.before_start += events
         run.watch.events += events
-        now = time.monotonic()
+        now = observer.run_clock.now()
         observer.linked(answer.nodes)
         if answer.nodes:
             first_seen = first_seen or now
@@ -304,6 +312,7 @@ def _watch(
     if not there:
         watch.events += _await_end(observer, deadline)
     run.nodes = there or run.nodes
+    run.inconsistent = off_by_load(watch, output.period, observer.slack)
     run.counting = counting_node(run.nodes, watch.counted)
     if watch.clock == "wall" and watch.counted and not foreign and not observer.over:
         watch.while_still = _count_while_still(run, observer)
@@ -317,8 +326,8 @@ def _await_end(observer: Observer, deadline: float) -> list[Event]:
     after.
     """
     events: list[Event] = []
-    until = min(deadline, time.monotonic() + DYING_SECONDS)
-    while not observer.over and time.monotonic() < until:
+    until = min(deadline, observer.run_clock.now() + DYING_SECONDS)
+    while not observer.over and observer.run_clock.now() < until:
         events += observer.take(observer.probe.ask("wait", seconds=0.05))
     return events
 
@@ -346,15 +355,44 @@ def _count_while_still(run: Run, observer: Observer) -> bool | None:
         return True  # time stood still while it was watched on the wall clock
     if not node.answers:
         if not node.services:
-            observer.probe.ask("try", name=node.name, seconds=TRY_SECONDS)
+            accepts(observer, "try", node.name, TRY_SECONDS)
         return None
-    if not observer.probe.ask("follow", name=node.name, seconds=FOLLOW_SECONDS).barrier:
+    if not accepts(observer, "follow", node.name, FOLLOW_SECONDS):
         return None
-    run.watch.events += observer.watch_for(SETTLE_SECONDS)
+    run.watch.events += observer.watch_still(SETTLE_SECONDS)
     kinds = {event.kind for event in run.watch.counted}
-    still = observer.watch_for(STILL * observer.output.period)
+    still = observer.watch_still(STILL * observer.output.period)
     run.watch.events += still
     return any(event.kind in kinds for event in still)
+
+
+def _still_there(observer: Observer) -> tuple[NodeSeen, ...]:
+    """Return the nodes that are on the graph a moment later; none once there has been none."""
+    limit = observer.run_clock.limit(GONE_SECONDS)
+    while (nodes := observer.probe.ask("wait", seconds=GONE_SECONDS).nodes) and not limit.over:
+        continue
+    return nodes
+
+
+def off_by_load(watch: Watch, wanted: float, slack: float) -> bool:
+    """Whether a period on the wall clock is wrong, but by no more than the node waited for a core.
+
+    `slack` is its wait between two lines, in seconds as the period: each gap has two ends.
+    """
+    if watch.clock != "wall" or watch.period is None:
+        return False
+    off = abs(watch.period - wanted) - WALL_TOLERANCE * wanted
+    return 0 < off <= 2 * slack
+
+
+def accepts(observer: Observer, do: str, name: str, seconds: float) -> bool:
+    """Ask a node something until it accepts, or the seconds of the run's clock are over."""
+    limit = observer.run_clock.limit(seconds)
+    while True:
+        answer = observer.probe.ask(do, name=name, seconds=limit.rest)
+        observer.take(answer)
+        if answer.barrier or limit.over or observer.over:
+            return bool(answer.barrier)
 
 
 def press_ctrl_c(
@@ -364,18 +402,25 @@ def press_ctrl_c(
 
     Python's own signal handlers run when the node's wait returns: at its next timer, for example.
     """
-    pressed = time.monotonic()
+    now = terminal.run_clock.now
+    pressed = now()
     if run.flooded:
         return
     if not terminal.ended:
         run.interrupted = True
         terminal.interrupt()
-    _, ended = terminal.finish(min(seconds, PASSING_SECONDS))
-    while not ended and (left := pressed + seconds - time.monotonic()) > 0:
+    if ends(terminal, go_on, pressed + seconds):
+        run.stop_seconds = now() - pressed
+        run.status, run.signal = terminal.status
+
+
+def ends(terminal: Terminal, go_on: Callable[[float], None] | None, until: float) -> bool:
+    """Whether a program ends before `until` (by the run's clock), while ROS time goes on."""
+    now = terminal.run_clock.now
+    _, ended = terminal.finish(min(max(0.0, until - now()), PASSING_SECONDS))
+    while not ended and (left := until - now()) > 0:
         if go_on is not None:
             with contextlib.suppress(ProbeError):
                 go_on(PASSING_SECONDS)
         _, ended = terminal.finish(min(left, PASSING_SECONDS))
-    if ended:
-        run.stop_seconds = time.monotonic() - pressed
-        run.status, run.signal = terminal.status
+    return ended

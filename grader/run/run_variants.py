@@ -4,7 +4,7 @@ ROS is imported once, and each variant runs in a fork. There ROS time steps from
 next one while the node waits, so that a run of many periods takes some milliseconds. The standard
 input is one JSON object: `module` and `function` to call, and `variants`, each the new texts of
 modules by their names; `until` is in nanoseconds of ROS time, `lines` the most lines, `each` and
-`seconds` the most wall time for one variant and for all, `jobs` how many run at once. `watched` has
+`seconds` the most time for one variant and for all, without waiting for a core, `jobs` how many run at once. `watched` has
 null for each variant, or the `file`, `first` and `last` line of a statement, and pieces of `code`
 whose values are asked for. `traced` has the files whose lines are followed, and `conditions` are
 watched in them as well. The output is a JSON line for each variant that was run: its index, the
@@ -434,6 +434,15 @@ def preload() -> None:
     inspect.getmodule(inspect.currentframe())  # (the logger does this; the first call is slow)
 
 
+def waited(child: int) -> float:
+    """Return the seconds for which a process has waited for a core: it cannot help that."""
+    try:
+        with open(f"/proc/{child}/schedstat", encoding="ascii") as file:  # noqa: PTH123 - fast
+            return int(file.read().split()[1]) / SECOND
+    except (OSError, IndexError, ValueError):
+        return 0.0
+
+
 def main() -> None:
     """Run the variants that the standard input asks for."""
     asked = json.load(sys.stdin)
@@ -444,9 +453,9 @@ def main() -> None:
     sys.argv = ["node"]
     waiting = list(enumerate(asked["variants"]))[::-1]
     running: dict[int, tuple[int, int, float, list[bytes]]] = {}
-    until = time.monotonic() + asked["seconds"]
-    while running or (waiting and time.monotonic() < until):
-        while waiting and len(running) < asked["jobs"] and time.monotonic() < until:
+    left = asked["seconds"]
+    while running or (waiting and left > 0):
+        while waiting and len(running) < asked["jobs"] and left > 0:
             index, texts = waiting.pop()
             read, write = os.pipe()
             child = os.fork()
@@ -461,14 +470,16 @@ def main() -> None:
                 run.install()
                 run.play(asked["module"], asked["function"])
             os.close(write)
-            running[read] = (index, child, time.monotonic() + asked["each"], [])
+            running[read] = (index, child, time.monotonic(), [])
         ready, _, _ = select.select(list(running), [], [], 0.05)
         for pipe in list(running):
-            index, child, limit, parts = running[pipe]
+            index, child, began, parts = running[pipe]
+            spent = time.monotonic() - began - waited(child)
             data = os.read(pipe, 100_000) if pipe in ready else b""
             if data:
                 parts.append(data)
-            elif pipe in ready or time.monotonic() > limit:
+            elif pipe in ready or spent > asked["each"]:
+                left -= spent / asked["jobs"]
                 with contextlib.suppress(OSError):  # (it has ended)
                     os.killpg(child, signal.SIGKILL)
                 os.waitpid(child, 0)

@@ -24,14 +24,16 @@ from grader.run.clock import GRID
 from grader.run.conduct import conduct
 from grader.run.observer import Event
 from grader.run.probe_link import ProbeError, ProbeLink
-from grader.run.run import Run, counts_plainly, observe
+from grader.run.run import WALL_TOLERANCE, Run, counts_plainly, observe
 from grader.run.student_interfaces import interfaces_of
 from grader.run.unforeseen import Unforeseen, unforeseen
-from grader.run.workspace import Build, build, restore, save
-from grader.sandbox.base import Sandbox
+from grader.run.workspace import BUILD, Build, build, restore, save
+from grader.sandbox.base import LOAD, Sandbox
 from grader.sandbox.proof import prove_again
+from grader.sandbox.scheduling import StarvedError
 
 WORKS_SECONDS = 10.0
+BUSY = "the machine was too busy: mark it again when less runs beside it"
 LEAST_HELD = 3  # steps
 REFUSED = {
     "memory": re.compile(r"MemoryError|bad_alloc|Cannot allocate memory"),
@@ -55,16 +57,24 @@ class Unobserved(Exception):  # noqa: N818 - not an error of the node
 class Session:
     """Builds and runs one package in an open sandbox; `timing` has the seconds of each stage.
 
-    A session may take the limits' `verdict_seconds`, or until `deadline` (of `time.monotonic`); a
-    run that does not fit into what is left of them is not started.
+    A session may take the limits' `verdict_seconds`, or until `deadline` (of the run's clock); a
+    run that does not fit into what is left of them is not started. `note` is told of faults of ours
+    that cost no check.
     """
 
     def __init__(
-        self, sandbox: Sandbox, assignment: Assignment, *, deadline: float | None = None
+        self,
+        sandbox: Sandbox,
+        assignment: Assignment,
+        *,
+        deadline: float | None = None,
+        note: Callable[[str], None] = unheard,
     ) -> None:
+        self._note = note
         self.sandbox = sandbox
         self.assignment = assignment
-        self.deadline = deadline or time.monotonic() + sandbox.limits.verdict_seconds
+        self.run_clock = sandbox.run_clock
+        self.deadline = deadline or self.run_clock.now() + sandbox.limits.verdict_seconds
         self.timing = {"build": 0.0, "run": 0.0}
         self._probe: ProbeLink | None = None
         self._interfaces = b""  # those of the submission, for the probe
@@ -96,8 +106,32 @@ class Session:
         """
         begin = time.monotonic()
         if submission.packages:  # before the student's code runs
-            self._interfaces = interfaces_of(self.sandbox, submission)
+            try:
+                self._interfaces = interfaces_of(self.sandbox, submission)
+            except StarvedError:
+                return Build(BUILD, None, "", time.monotonic() - begin, stopped_by=LOAD)
         self._probe = self._probe or self._new_probe()
+        try:
+            self._read_sources(submission)
+        except Exception as fault:  # a bug of ours must not lose the build
+            self._note(f"the sources were not read because of a fault of ours: {fault!r}")
+        try:
+            made = build(self.sandbox, submission, package=self.assignment.package)
+            if made.stopped_by == LOAD:
+                made = build(self.sandbox, submission, package=self.assignment.package)
+            if made.doubts_colcon:
+                prove_again(self.sandbox)
+            if made.status == 0 and (self._is_confirmed() or len(self.assignment.runs) > 1):
+                self._built = save(self.sandbox)
+        finally:
+            self.timing["build"] += time.monotonic() - begin
+        stopped_by = made.stopped_by or self._resource(made.status)
+        if not stopped_by and made.status != 0:
+            stopped_by = self._limit_on_a_process(made.log)
+        return replace(made, stopped_by=stopped_by)
+
+    def _read_sources(self, submission: Submission) -> None:
+        """Read from the sources how the node is best observed."""
         self._remarks = remarks_on(submission.files)
         self._reads_real_time = reads_real_time(submission.files)
         self._reads_command_line = reads_command_line(submission.files)
@@ -110,18 +144,6 @@ class Session:
             ends_after=ends_after(submission.files),
             counts_to=0 if self._reads_real_time else counts_to(submission.files),
         )
-        try:
-            made = build(self.sandbox, submission, package=self.assignment.package)
-            if made.doubts_colcon:
-                prove_again(self.sandbox)
-            if made.status == 0 and (self._is_confirmed() or len(self.assignment.runs) > 1):
-                self._built = save(self.sandbox)
-        finally:
-            self.timing["build"] += time.monotonic() - begin
-        stopped_by = made.stopped_by or self._resource(made.status)
-        if not stopped_by and made.status != 0:
-            stopped_by = self._limit_on_a_process(made.log)
-        return replace(made, stopped_by=stopped_by)
 
     def run(self, on_event: Callable[[Event], None], *, named: Assignment | None = None) -> Run:
         """Run the node and return the result; repeat the run if our own side failed.
@@ -159,7 +181,8 @@ class Session:
             if self._planned:
                 restore(self.sandbox, self._built)
             self._planned = True
-            run = self._observed(partial(conduct, self.sandbox, named, plan), on_event)
+            observed = partial(conduct, self.sandbox, named, plan, timers=self._periods)
+            run = self._observed(observed, on_event)
             if run.doubts_ros2:
                 prove_again(self.sandbox)
             return run
@@ -220,9 +243,11 @@ class Session:
         while tries < RUNS and self._has_time():
             tries += 1
             self._probe = self._probe or self._new_probe()
-            until = min(time.monotonic() + self.sandbox.limits.max_run_seconds, self.deadline)
+            self.run_clock.starved = False
             try:
-                run = observed(self._probe, on_event, until=until)
+                run = observed(self._probe, on_event, until=self._until)
+                if self.run_clock.starved:
+                    raise ProbeError(BUSY)
             except ProbeError as error:
                 failure = error
                 continue
@@ -237,6 +262,8 @@ class Session:
             return run
         if failure is None:
             raise Unobserved("the verdict's time limit left no time for a run")
+        if str(failure) == BUSY:
+            raise Unobserved(BUSY)
         prove_again(self.sandbox)
         raise Unobserved(f"the probe failed in all {tries} runs, the last time: {failure}")
 
@@ -305,9 +332,11 @@ class Session:
         tries = 0
         while tries < CONFIRMING_RUNS and self._has_time():
             clean = not self._built or restore(self.sandbox, self._built)
-            until = min(time.monotonic() + self.sandbox.limits.max_run_seconds, self.deadline)
-            if clean and counts_plainly(self.sandbox, named, patience=patience, until=until):
+            self.run_clock.starved = False
+            if clean and counts_plainly(self.sandbox, named, patience=patience, until=self._until):
                 return True
+            if self.run_clock.starved:
+                return None
             tries += 1
         return False if tries == CONFIRMING_RUNS else None
 
@@ -317,7 +346,13 @@ class Session:
 
     def _has_time(self) -> bool:
         """Whether the verdict's time limit leaves time for a whole run."""
-        return self.deadline - time.monotonic() >= self.sandbox.limits.max_run_seconds
+        return self.deadline - self.run_clock.now() >= self.sandbox.limits.max_run_seconds
+
+    @property
+    def _until(self) -> float:
+        """When a run that begins now ends at the latest, by the run's clock."""
+        longest = self.run_clock.now() + self.sandbox.limits.max_run_seconds
+        return min(longest, self.deadline)
 
     def _doubtful(self, run: Run) -> bool:
         """Whether load of the machine may have made this run look worse than the node is."""
@@ -333,7 +368,8 @@ class Session:
 
     def _period_holds(self, run: Run) -> bool:
         wanted = self.assignment.output.period
-        return run.watch.period is None or abs(run.watch.period - wanted) <= 0.05 * wanted
+        tolerance = WALL_TOLERANCE * wanted
+        return run.watch.period is None or abs(run.watch.period - wanted) <= tolerance
 
     def _second_opinion(self, first: Run, second: Run) -> Run:
         if first.watch.clock == second.watch.clock == "virtual":
@@ -341,7 +377,7 @@ class Session:
         if not second.nodes or self._on_time(second):
             return second
         before, after = first.watch.period or 0.0, second.watch.period or 0.0
-        second.inconsistent = abs(before - after) > AGREE * self.assignment.output.period
+        second.inconsistent |= abs(before - after) > AGREE * self.assignment.output.period
         return second
 
     def _resource(self, status: int | None) -> str:

@@ -18,15 +18,15 @@ from pathlib import Path
 
 from grader.base.cache import cache_root
 from grader.base.folder import Folder
+from grader.package.source.interface_faults import interface_texts
 from grader.package.submission import Package, Submission
 from grader.ros.distro import HERE
-from grader.ros.interface_package import BUILD, PATH, USED, interface_package
+from grader.ros.interface_package import BUILD, USED, interface_package
 from grader.ros.prefix import Ros
-from grader.sandbox.base import Sandbox
+from grader.sandbox.base import LOAD, Sandbox
+from grader.sandbox.scheduling import StarvedError
 
-FORMAT = 1  # increment it when something else is built
-MOST_TEXTS = 60  # files of a package
-LONGEST_TEXT = 20_000  # bytes of a file
+FORMAT = 2  # increment it when something else is built
 BUILD_SECONDS = 120.0
 MOST_OUTPUT = 60_000_000  # bytes of what was built
 SCRIPT = f"""
@@ -51,12 +51,11 @@ class Texts:
 
 
 def texts_of(package: Package) -> Texts:
-    """Return the interface texts of a package, at most `MOST_TEXTS`."""
-    found: dict[str, str] = {}
-    for file in package.files:
-        fits = file.kind == "file" and len(file.data) <= LONGEST_TEXT
-        if fits and PATH.fullmatch(file.path) and len(found) < MOST_TEXTS:
-            found[file.path] = file.data.decode("utf-8", errors="replace")
+    """Return the interface texts of a package that can be used."""
+    texts = interface_texts(package)
+    found = {
+        path: data.decode("utf-8") for path, data in texts.files.items() if not texts.fault(path)
+    }
     used = {name for text in found.values() for name in USED.findall(text)}
     return Texts(package.name, found, tuple(sorted(used - {package.name})))
 
@@ -65,6 +64,7 @@ def interfaces_of(sandbox: Sandbox, submission: Submission) -> bytes:
     """Return the built interfaces of a submission as a tar archive; b"" if there are none.
 
     They are b"" too if the texts cannot be built: then the student's own build fails as well.
+    Raises StarvedError if the machine is too busy to build them.
     """
     packages = [texts for texts in map(texts_of, submission.packages) if texts.texts]
     if not packages:
@@ -115,6 +115,8 @@ def _build(sandbox: Sandbox, packages: list[Texts]) -> bytes:
         seconds=BUILD_SECONDS,
         output=MOST_OUTPUT,
     )
+    if outcome.stopped_by == LOAD:
+        raise StarvedError("the machine was too busy to build the interfaces")
     return outcome.output if outcome.status == 0 else b""
 
 

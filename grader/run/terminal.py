@@ -7,6 +7,7 @@ import time
 from dataclasses import dataclass
 
 from grader.sandbox.base import Console
+from grader.sandbox.scheduling import RunClock
 
 ANSI = re.compile(rb"\x1b(?:\[[0-?]*[ -/]*[@-~]|\][^\x07\x1b]*(?:\x07|\x1b\\)|[@-Z\\-_])")
 LOG_LINE = re.compile(r"\[([A-Z]+)\] \[(\d+)\.(\d{9})\] \[([^\]]*)\]: (.*)")
@@ -41,9 +42,10 @@ class Line:
 
 
 class Terminal:
-    """Reads a console, up to `most` bytes."""
+    """Reads a console, up to `most` bytes; its limits are on the run's clock."""
 
-    def __init__(self, console: Console, *, most: int) -> None:
+    def __init__(self, console: Console, *, most: int, run_clock: RunClock | None = None) -> None:
+        self.run_clock = run_clock or RunClock()
         self.started = time.time()
         self._console = console
         self.most = most
@@ -103,15 +105,14 @@ class Terminal:
 
     def finish(self, seconds: float) -> tuple[list[Line], bool]:
         """Read until the command has ended; return the last lines and whether it ended in time."""
-        deadline = time.monotonic() + seconds
+        limit = self.run_clock.limit(seconds)
         lines: list[Line] = []
         while not self.ended and not self.flooded:
-            left = deadline - time.monotonic()
-            if left <= 0:
+            if limit.over:
                 return lines, False
-            lines += self.read(left)
+            lines += self.read(limit.slice)
         while self._console.poll() is None:
-            if time.monotonic() > deadline:
+            if limit.over:
                 return lines, False
             time.sleep(POLL_SECONDS)  # the terminal is closed: only the status is missing
         return lines, True

@@ -17,8 +17,8 @@ from grader.sandbox.base import Sandbox
 
 PROGRAM = Path(__file__).with_name("run_variants.py")
 MOST_BYTES = 4_000_000  # of all answers
-EACH_SECONDS = 2.0  # of wall time for one variant
-START_SECONDS = 5.0  # of wall time in addition, for the import of ROS
+EACH_SECONDS = 2.0  # for one variant, without the time in which it waits for a core
+START_SECONDS = 5.0  # in addition, for the import of ROS
 MOST_LINES = 40
 JOBS = 2
 MALFORMED = (*(ValueError, TypeError, LookupError, AttributeError, OverflowError, RecursionError),)

@@ -175,7 +175,7 @@ def lay_out(sandbox: Sandbox, files: bytes) -> None:
 
     No code of the student's runs here.
     """
-    script = f"tar -xf - && {_setup(sandbox)}"
+    script = f"find . -mindepth 1 -delete; tar -xf - && {_setup(sandbox)}"
     outcome = sandbox.run(["bash", "-c", script], stdin=files, seconds=LAY_OUT_SECONDS)
     _check_ours(outcome, say("the workspace could not be laid out"))
 

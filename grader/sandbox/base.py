@@ -5,11 +5,13 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
 from grader.report.model import LimitInfo
 from grader.ros.prefix import Ros
 from grader.sandbox.limits import UNITS, Limits
+from grader.sandbox.scheduling import RunClock, own_family
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -18,6 +20,7 @@ Role = Literal["student", "probe"]
 HOME = "/home/student"
 WORKSPACE = f"{HOME}/ros2_ws"
 PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
+LOAD = "load"
 ROWS, COLUMNS = 40, 160  # of a pseudo-terminal
 UNRUNNABLE = (126, 127)  # a shell's exit status for a program that it cannot run (POSIX sh, 2.8.2)
 
@@ -52,7 +55,10 @@ namespaces, and frequent announcements, because otherwise losing the first one c
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a command ended; `status` is None if a limit ended it, `stopped_by` names that limit."""
+    """How a command ended; `status` is None if a limit ended it, `stopped_by` names that limit.
+
+    It is LOAD if the time limit ended it, but the machine was too busy for that to mean anything.
+    """
 
     status: int | None
     output: bytes
@@ -128,6 +134,15 @@ class Sandbox(ABC):
         self.ros = ros
         self.limits = limits
 
+    @cached_property
+    def run_clock(self) -> RunClock:
+        """The time in which no process of the run waited for a core."""
+        return RunClock(self.processes)
+
+    def processes(self) -> set[int]:
+        """Return the ids of all processes of the run in this PID namespace, as far as known."""
+        return own_family()
+
     def __enter__(self) -> Self:
         try:
             self.open()
@@ -155,8 +170,8 @@ class Sandbox(ABC):
     ) -> Outcome:
         """Run a command and return its outcome, with stdout and stderr merged.
 
-        The command and all that it started are killed after `seconds` of wall time or `output`
-        bytes.
+        The command and all that it started are killed after `seconds` of the run's clock or
+        `output` bytes.
         """
 
     @abstractmethod

@@ -152,8 +152,8 @@ class Bubblewrap(LocalSandbox):
     def _network_of(self, probe: NetworkedPipe) -> str:
         """Return the path of the probe's network namespace, which stays open with the pipe."""
         shared = {_network(pid).stat().st_ino for pid in (os.getpid(), self._init_pid)}
-        deadline = time.monotonic() + END_SECONDS
-        while time.monotonic() < deadline:
+        limit = self.run_clock.limit(END_SECONDS)
+        while not limit.over:
             for pid in sorted(descendants(probe.pid)):
                 with contextlib.suppress(OSError):
                     network = os.open(_network(pid), os.O_RDONLY | os.O_CLOEXEC)

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import contextlib
 import select
-import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import docker.errors
@@ -21,6 +22,8 @@ from grader.base.errors import SurroundingsError
 from grader.sandbox.base import HOME
 from grader.sandbox.execs import Exec, Frames, communicate, socket_of
 from grader.sandbox.limits import Limits
+from grader.sandbox.processes import stat_fields
+from grader.sandbox.scheduling import RunClock, family
 from grader.sandbox.seccomp import docker_profile
 
 if TYPE_CHECKING:
@@ -121,10 +124,11 @@ class Container:
     def _wait_until_ready(self) -> None:
         line = socket_of(self._line)
         frames, said = Frames(), b""
-        deadline = time.monotonic() + READY_SECONDS
+        limit = RunClock().limit(READY_SECONDS)
         while b"ready\n" not in said:
-            left = max(0.0, deadline - time.monotonic())
-            data = line.recv(4096) if select.select([line], [], [], left)[0] else b""
+            if not select.select([line], [], [], limit.slice)[0] and not limit.over:
+                continue
+            data = b"" if limit.over else line.recv(4096)
             if not data:
                 text = said.decode(errors="replace").strip() or "nothing"
                 raise SurroundingsError(f"the container did not start; its output: {text}")
@@ -133,6 +137,20 @@ class Container:
     def start(self, argv: Sequence[str], *, user: int, tty: bool = False) -> Exec:
         """Start a command in the container."""
         return Exec(self._api, self.id, argv, user=user, tty=tty)
+
+    def processes(self) -> set[int]:
+        """Return the ids of its processes if this machine runs the daemon, else none."""
+        return family(self._root) if self._root else set()
+
+    @cached_property
+    def _root(self) -> int:
+        """The process that started its main process and its commands, 0 if that is elsewhere."""
+        with contextlib.suppress(docker.errors.APIError, OSError):
+            pid = int(self._api.inspect_container(self.id)["State"].get("Pid") or 0)
+            groups = Path(f"/proc/{pid}/cgroup").read_text(encoding="utf-8") if pid else ""
+            if self.id in groups:
+                return int(stat_fields(pid)[1])
+        return 0
 
     def is_quiet(self) -> bool:
         """Whether only the main process runs in it."""
@@ -149,7 +167,8 @@ class Container:
             return "memory"  # only the kernel's out-of-memory killer ends the main process early
         except docker.errors.APIError:
             return "processes"  # not even this command could be started
-        outcome = communicate(query, b"", seconds=READY_SECONDS, max_output=MAX_COUNTERS)
+        limit = RunClock().limit(READY_SECONDS)
+        outcome = communicate(query, b"", limit=limit, max_output=MAX_COUNTERS)
         query.close()
         words = outcome.output.decode(errors="replace").split()
         counts = {a: int(b) for a, b in zip(words, words[1:]) if b.isdigit()}

@@ -34,6 +34,7 @@ from grader.sandbox.execs import (
     docker_errors,
 )
 from grader.sandbox.limits import Limits
+from grader.sandbox.scheduling import STRETCH
 
 if TYPE_CHECKING:
     from docker import DockerClient
@@ -41,7 +42,7 @@ if TYPE_CHECKING:
 
 Slot = Literal["build", "run"]
 USERS: dict[Role, int] = {"student": STUDENT, "probe": PROBE}
-SPARE_SECONDS = 120.0  # a container's lifetime beyond the time limit of the verdict
+SPARE_SECONDS = 120.0  # a container's lifetime beyond the most wall time of the verdict
 
 
 class DockerSandbox(Sandbox):
@@ -81,10 +82,16 @@ class DockerSandbox(Sandbox):
             self._holder = self._probe = Container(self._client.api, self._spec())
         self._prepare("build")
 
+    def processes(self) -> set[int]:
+        ready = [one for one in self._slots.values() if one.done() and not one.exception()]
+        made = [future.result() for future in ready]
+        known = [one for one in (self._holder, self._probe, *made) if one is not None]
+        return super().processes().union(*(one.processes() for one in known))
+
     def _spec(self) -> ContainerSpec:
         """Return the settings of the holder, in which the first probe runs."""
         limits = self.limits
-        lifetime = limits.verdict_seconds + SPARE_SECONDS
+        lifetime = STRETCH * limits.verdict_seconds + SPARE_SECONDS
         options = f"size={int(limits.workspace)},uid={STUDENT},gid={STUDENT},mode=0700,nosuid,nodev"
         driver = {"type": "tmpfs", "device": "tmpfs", "o": options}
         volume = {"NoCopy": True, "DriverConfig": {"Name": "local", "Options": driver}}
@@ -180,7 +187,8 @@ class DockerSandbox(Sandbox):
         if "run" not in self._slots:
             self._prepare("run")
         try:
-            return communicate(command, stdin, seconds=seconds, max_output=max_output)
+            limit = self.run_clock.limit(seconds)
+            return communicate(command, stdin, limit=limit, max_output=max_output)
         finally:
             command.close()
 

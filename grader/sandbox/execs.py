@@ -18,6 +18,7 @@ from pexpect.socket_pexpect import SocketSpawn
 from grader.base.errors import SurroundingsError
 from grader.sandbox.base import COLUMNS, ROWS, Console, Outcome, Pipe
 from grader.sandbox.processes import descendants
+from grader.sandbox.scheduling import Limit
 
 if TYPE_CHECKING:
     from docker import APIClient
@@ -26,7 +27,6 @@ End = Literal["interrupted", "otherwise"]  # how a command on a console ended
 HEADER = struct.Struct(">BxxxL")  # of a frame: stream number, length (Docker's API, attach)
 STDERR = 2
 MAX_STDERR = 4_000  # bytes that are kept
-STATUS_POLL_SECONDS = 0.25  # between two checks whether a silent command has ended
 DRAIN_SECONDS = 1.0  # of silence after which the output of an ended command is complete
 STATUS_SECONDS = 5.0  # to wait for the status of a command that has closed its streams
 POLL_SECONDS = 0.002
@@ -167,7 +167,7 @@ class Frames:
             del self._raw[: HEADER.size + size]
 
 
-def communicate(command: Exec, stdin: bytes, *, seconds: float, max_output: int) -> Outcome:
+def communicate(command: Exec, stdin: bytes, *, limit: Limit, max_output: int) -> Outcome:
     """Write stdin and read both output streams to their end or to a limit."""
     begin = time.monotonic()
     ended: float | None = None
@@ -181,12 +181,11 @@ def communicate(command: Exec, stdin: bytes, *, seconds: float, max_output: int)
         return Outcome(status, bytes(output[:max_output]), time.monotonic() - begin, stopped_by)
 
     while True:
-        left = begin + seconds - time.monotonic()
-        if left <= 0:
-            return outcome(None, "wall time")
-        can_write = select.select(
-            [line], [line] if rest else [], [], command.timeout(min(left, STATUS_POLL_SECONDS))
-        )[1]
+        if limit.over:
+            return outcome(None, limit.name)
+        can_write = select.select([line], [line] if rest else [], [], command.timeout(limit.slice))[
+            1
+        ]
         if can_write:
             rest = _send(line, rest)
         if command.wait_for_output(0):
@@ -204,8 +203,8 @@ def communicate(command: Exec, stdin: bytes, *, seconds: float, max_output: int)
             ended = time.monotonic() if command.status() is not None else None
         elif ended is not None and time.monotonic() - ended > DRAIN_SECONDS:
             break
-    status = command.wait(max(STATUS_SECONDS, begin + seconds - time.monotonic()))
-    return outcome(status, "wall time" if status is None else "")
+    status = command.wait(max(STATUS_SECONDS, limit.left))
+    return outcome(status, limit.name if status is None else "")
 
 
 def _send(line: socket.socket, rest: memoryview) -> memoryview:

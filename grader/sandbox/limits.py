@@ -1,8 +1,8 @@
 """The limits on a submission.
 
 Units are seconds and bytes. An assignment (`limits:`) or the command line (`--limit name=value`)
-overrides any of them; the report says what enforced each one. Time limits are deadlines that no
-output extends.
+overrides any of them; the report says what enforced each one. Time limits are on the run's clock, which
+stands still while a process waits for a core (`scheduling`); no output extends them.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ class Limits:
     """The limits of one verdict."""
 
     build_seconds: float = 60
-    """Wall time of `colcon build`."""
+    """Time of `colcon build`."""
     start_seconds: float = 15
-    """Wall time from `ros2 run` until a node is on the ROS graph."""
+    """Time from `ros2 run` until a node is on the ROS graph."""
     run_seconds: float = 60
-    """Wall time of the whole run."""
+    """Time of the whole run."""
     stop_seconds: float = 5
-    """Wall time from Ctrl+C until the end of `ros2 run`."""
+    """Time from Ctrl+C until the end of `ros2 run`."""
     cpu_seconds: float = 60
     """Processor time of each process."""
     memory: float = 1_000 * MEGABYTE
@@ -49,12 +49,12 @@ class Limits:
 
     @property
     def max_run_seconds(self) -> float:
-        """Seconds of wall time reserved for one run; no run is started with less time left."""
+        """Seconds reserved for one run; no run is started with less time left."""
         return self.start_seconds + self.run_seconds + self.stop_seconds + OVERRUN_SECONDS
 
     @property
     def verdict_seconds(self) -> float:
-        """The time limit of a verdict in seconds of wall time, from opened sandbox to last check.
+        """The time limit of a verdict in seconds, from opened sandbox to last check.
 
         It includes everything that is repeated: runs, confirming runs, retries after grader faults.
         """

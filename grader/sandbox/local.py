@@ -22,6 +22,7 @@ from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import say
 from grader.sandbox.base import COLUMNS, PATH, ROWS, Console, Outcome, Pipe, Role, Sandbox
 from grader.sandbox.processes import descendants
+from grader.sandbox.scheduling import Limit
 
 END_SECONDS = 2.0  # to wait for a killed command
 KILL_SECONDS = 5.0
@@ -65,7 +66,8 @@ class LocalSandbox(Sandbox):
             env=self.outer_environment(role),
         ) as process:
             try:
-                text, stopped_by = _communicate(process, stdin, started + seconds, max_output)
+                limit = self.run_clock.limit(seconds)
+                text, stopped_by = _communicate(process, stdin, limit, max_output)
             finally:
                 self.end(process)
         status = None if stopped_by else process.returncode
@@ -234,7 +236,7 @@ def kill_children(pid: int) -> None:
 
 
 def _communicate(
-    process: subprocess.Popen[bytes], stdin: bytes, deadline: float, max_output: int
+    process: subprocess.Popen[bytes], stdin: bytes, limit: Limit, max_output: int
 ) -> tuple[bytes, str]:
     """Write stdin, read the output to its end or a limit; return it and the limit that was hit."""
     assert process.stdin is not None and process.stdout is not None
@@ -248,10 +250,9 @@ def _communicate(
         else:
             process.stdin.close()
         while True:
-            left = deadline - time.monotonic()
-            if left <= 0:
-                return bytes(output), "wall time"
-            for key, _ in selector.select(left):
+            if limit.over:
+                return bytes(output), limit.name
+            for key, _ in selector.select(limit.slice):
                 if key.fileobj is process.stdin:
                     try:
                         rest = rest[os.write(key.fd, rest[:65536]) :]
@@ -263,20 +264,18 @@ def _communicate(
                     continue
                 data = os.read(key.fd, 65536)
                 if not data:
-                    return _wait(process, deadline, output)
+                    return _wait(process, limit, output)
                 output += data[: max_output - len(output)]
                 if len(output) >= max_output:
                     return bytes(output), "output"
 
 
-def _wait(
-    process: subprocess.Popen[bytes], deadline: float, output: bytearray
-) -> tuple[bytes, str]:
-    try:
-        process.wait(max(0.0, deadline - time.monotonic()))
-    except subprocess.TimeoutExpired:
-        return bytes(output), "wall time"
-    return bytes(output), ""
+def _wait(process: subprocess.Popen[bytes], limit: Limit, output: bytearray) -> tuple[bytes, str]:
+    while not limit.over:
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(limit.slice)
+            return bytes(output), ""
+    return bytes(output), limit.name
 
 
 def require_program(program: str, found: str | None) -> str:

@@ -1,16 +1,40 @@
-"""How long processes waited for a core, by the kernel's scheduling statistics.
+"""The time of a run: it stands still while one of the run's processes waits for a core.
 
-What a callback takes beyond that, it ran or slept: that is its own, whatever the load. Source: the
-kernel's documentation, scheduler/sched-stats ("/proc/<pid>/schedstat": nanoseconds on a core,
-nanoseconds waiting on a run queue, time slices).
+No wall-clock limit decides a point. On a busy machine everything takes longer, and what a limit ends
+may only have had no core. So every limit on a build, a run or a part of it is measured by a
+`RunClock`: what it ends has been given that much time in which no process of the run waited for a
+core, whatever the load. On a machine that is so busy that there is hardly any such time, the clock
+goes on at a twentieth of the wall clock nevertheless, so that everything comes to an end; a limit
+that is reached in that way is no evidence (`RunClock.starved`).
+
+A program that keeps every core busy makes the others wait, and that time is its own: waiting counts
+at most as much as the processes of others ran.
+
+Sources: the kernel's documentation, scheduler/sched-stats ("/proc/<pid>/schedstat": nanoseconds on a
+core, nanoseconds waiting on a run queue, time slices); proc_stat(5) (steal: a core that the virtual
+machine did not get).
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from pathlib import Path
+import os
+import time
+from collections.abc import Callable, Collection, Iterator
+from dataclasses import dataclass
+
+from grader.base.errors import SurroundingsError
 
 SECOND = 1_000_000_000
+STRETCH = 20.0
+"""How many times its limit of wall time something may take at most, on however busy a machine."""
+SAMPLE_SECONDS = 0.02  # of wall time between two looks at the processes
+LOOKS_COST = 20  # times its own duration until the next look, so that it takes 5 % of a core
+PACE_SECONDS = 1.0  # of wall time over which the pace is measured
+SLICE_SECONDS = 0.25  # of wall time for which one may wait without asking the clock
+MOST_SPARE = 0.5  # seconds that others had a core, and for which one may wait later
+SHORT_SECONDS = 0.3  # of a limit for which the clock is read anew each time
+NO_EVIDENCE = 0.5  # of a limit: what may pass although processes wait, before it is no evidence
+TICKS = os.sysconf("SC_CLK_TCK")
 
 
 def seconds_waited(pids: Collection[int]) -> float:
@@ -19,19 +43,181 @@ def seconds_waited(pids: Collection[int]) -> float:
     Threads wait side by side, so this is at least as long as any of them was held up. Processes
     that have ended count no more.
     """
-    return sum(_waited(pid) for pid in pids) / SECOND
+    return sum(waited for _, waited in _threads(pids).values()) / SECOND
 
 
-def _waited(pid: int) -> int:
-    total = 0
+def family(pid: int) -> set[int]:
+    """Return a process and its descendants, as far as the first threads of these started them."""
+    found, todo = {pid}, [pid]
+    while todo:
+        parent = todo.pop()
+        tasks = _names(f"/proc/{parent}/task") if parent == pid else [str(parent)]
+        for task in tasks:
+            for word in _read(f"/proc/{parent}/task/{task}/children").split():
+                if int(word) not in found:
+                    found.add(int(word))
+                    todo.append(int(word))
+    return found
+
+
+def own_family() -> set[int]:
+    """Return this process and its descendants."""
+    return family(os.getpid())
+
+
+@dataclass(frozen=True)
+class _Look:
+    """What was seen at once: wall time (s), the machine's busy and stolen seconds, the threads."""
+
+    at: float
+    busy: float
+    stolen: float
+    threads: dict[tuple[int, str], tuple[int, int]]
+
+
+class RunClock:
+    """The seconds in which no process of a run waited for a core; begins at `time.monotonic`.
+
+    `processes` returns the ids of the run's processes, the grader's own and the probe's among them.
+    """
+
+    def __init__(self, processes: Callable[[], Collection[int]] = own_family) -> None:
+        self._processes = processes
+        self._latest = self._look()
+        self._now = self._latest.at
+        self._next = self._latest.at + SAMPLE_SECONDS
+        self._by_others = 0.0  # seconds that others had a core, and nobody has waited for
+        self._owed = self._longest_before = 0.0
+        self.forced = 0.0
+        """Seconds by which it went on although processes waited."""
+        self.starved = False
+        """Whether a limit was reached only so."""
+        self.pace = 1.0
+        """How many seconds of wall time a second has taken lately, from 1 to STRETCH."""
+        self._paced = (self._now, self._now)
+
+    def now(self, *, at_once: bool = False) -> float:
+        """Return the time; it goes on in small steps, `at_once` too, and never faster than wall time."""
+        if at_once or time.monotonic() >= self._next:
+            before, self._latest = self._latest, self._look()
+            passed = self._latest.at - before.at
+            own = passed - self._starved(before, self._latest) - self._owed
+            self._owed = min(max(0.0, -own), self._longest_before)
+            least = passed / STRETCH
+            self.forced += max(0.0, least - own)
+            self._now += max(own, least)
+            wall, passed = self._latest.at - self._paced[0], self._now - self._paced[1]
+            if wall > PACE_SECONDS:
+                self.pace = max(1.0, min(STRETCH, wall / max(passed, wall / STRETCH)))
+                self._paced = (self._latest.at, self._now)
+            cost = time.monotonic() - self._latest.at
+            self._next = time.monotonic() + max(SAMPLE_SECONDS, LOOKS_COST * cost)
+        return self._now
+
+    def _starved(self, before: _Look, after: _Look) -> float:
+        """Return the seconds since a look in which a process waited for a core of others, at most.
+
+        The kernel counts a wait when it is over, so that it may have begun before that look: that
+        part is owed. Others' time on a core counts for a while.
+        """
+        passed = after.at - before.at
+        waited = ran = longest = 0
+        for key, (on_core, waiting) in after.threads.items():
+            ran_before, waited_before = before.threads.get(key, (0, 0))
+            ran += on_core - ran_before
+            waited += waiting - waited_before
+            longest = max(longest, waiting - waited_before)
+        self._longest_before = max(0.0, longest / SECOND - passed)
+        others = max(0.0, after.busy - before.busy - ran / SECOND)
+        self._by_others = min(self._by_others, MOST_SPARE) + others + 2 / TICKS
+        starved = min(waited / SECOND, self._by_others)
+        self._by_others -= starved
+        return starved + after.stolen - before.stolen
+
+    def limit(self, seconds: float) -> Limit:
+        """Return a limit that begins now."""
+        return Limit(self, seconds)
+
+    def _look(self) -> _Look:
+        at = time.monotonic()
+        words = _read("/proc/stat", 400).partition("\n")[0].split()[1:9] or ["0"] * 8
+        user, nice, system, _, _, irq, soft, steal = (int(word) / TICKS for word in words)
+        return _Look(at, user + nice + system + irq + soft, steal, _threads(self._processes()))
+
+
+class Limit:
+    """A limit on something that goes on: over when so many seconds of a run's clock have passed."""
+
+    def __init__(self, clock: RunClock, seconds: float) -> None:
+        self._clock, self._seconds = clock, seconds
+        self._begin = time.monotonic()
+        self._end, self._forced = clock.now(at_once=seconds < SHORT_SECONDS) + seconds, clock.forced
+
+    @property
+    def left(self) -> float:
+        """The seconds that are left, at least 0."""
+        return max(0.0, self._end - self._clock.now())
+
+    @property
+    def slice(self) -> float:
+        """The seconds of wall time to wait before the limit is looked at again."""
+        return min(self.left, SLICE_SECONDS)
+
+    @property
+    def rest(self) -> float:
+        """The seconds for which something is tried again: what is left, at least for a look."""
+        return max(self.left, SLICE_SECONDS)
+
+    @property
+    def over(self) -> bool:
+        """Whether the time is over; notes in the clock if it only seems so."""
+        if time.monotonic() < self._begin + self._seconds:  # (it is never faster)
+            return False
+        over = self._clock.now(at_once=self._seconds < SHORT_SECONDS) >= self._end
+        self._clock.starved |= over and self._is_starved
+        return over
+
+    @property
+    def name(self) -> str:
+        """What ended something, once it is over: "wall time", or "load" if that is no evidence."""
+        return "load" if self._is_starved else "wall time"
+
+    @property
+    def _is_starved(self) -> bool:
+        return self._clock.forced - self._forced > NO_EVIDENCE * self._seconds
+
+
+class StarvedError(SurroundingsError):
+    """The machine was too busy: what a limit ended had hardly had a core."""
+
+
+def _threads(pids: Collection[int]) -> dict[tuple[int, str], tuple[int, int]]:
+    return {key: times for pid in pids for key, times in _threads_of(pid)}
+
+
+def _threads_of(pid: int) -> Iterator[tuple[tuple[int, str], tuple[int, int]]]:
+    """Yield for each thread of a process its nanoseconds on a core and waiting for one."""
+    for task in _names(f"/proc/{pid}/task"):
+        words = _read(f"/proc/{pid}/task/{task}/schedstat").split()
+        if len(words) > 1:
+            yield (pid, task), (int(words[0]), int(words[1]))
+
+
+def _names(folder: str) -> list[str]:
     try:
-        threads = list(Path(f"/proc/{pid}/task").iterdir())
+        return os.listdir(folder)  # noqa: PTH208 - twice as fast, and asked a hundred times a second
     except OSError:
-        return 0
-    for thread in threads:
-        try:
-            words = (thread / "schedstat").read_text().split()
-            total += int(words[1])
-        except (OSError, IndexError, ValueError):
-            continue
-    return total
+        return []
+
+
+def _read(path: str, size: int = 4096) -> str:
+    try:
+        descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC)
+    except OSError:
+        return ""
+    try:
+        return os.read(descriptor, size).decode()
+    except OSError:
+        return ""
+    finally:
+        os.close(descriptor)

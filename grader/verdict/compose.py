@@ -14,7 +14,7 @@ from grader.package.source.remarks import remarks_on
 from grader.package.submission import Submission
 from grader.report import model
 from grader.run.run import Program, Run
-from grader.verdict.checks.faults import ended_program
+from grader.verdict import causes
 from grader.verdict.checks.world import Path as WantedPath
 from grader.verdict.checks.world import circle_from
 from grader.verdict.evidence import Evidence
@@ -43,7 +43,11 @@ def compose(
     started: datetime,
     translate: Translator,
 ) -> model.Report:
-    """Return the report of one submission; its texts are in the language of `translate`."""
+    """Return the report of one submission; its texts are in the language of `translate`.
+
+    No point is lost in it without a check that failed.
+    """
+    results = causes.with_causes(results, translate)
     assignment, submission = evidence.assignment, evidence.submission
     build = evidence.build if evidence.was_built else None
     run = evidence.run if evidence.has_run else None
@@ -51,6 +55,13 @@ def compose(
         program for made in evidence.runs or ([run] if run else ()) for program in _programs(made)
     ]
     transcripts = [program.transcript for program in programs]
+    parts = [
+        model.Transcript(
+            run=made.name, node=_node(program, made, assignment), text=program.transcript
+        )
+        for made in evidence.runs
+        for program in _programs(made)
+    ]
     open_ = sum(r.max_score for r in results if r.status in ("inconclusive", "error"))
     unknown = say("{points} points could be neither given nor taken", points=f"{open_:g}")
     return model.Report(
@@ -83,6 +94,7 @@ def compose(
         evidence=model.Evidence(
             build_log=_cut(build.log, translate) if build else "",
             transcript=_cut("\n".join(transcripts), translate),
+            programs=[_cut_part(part, translate, len(parts)) for part in parts if len(parts) > 1],
         ),
         timing=timing,
         started=started.isoformat(),
@@ -117,8 +129,16 @@ def _package_name(submission: Submission) -> str | None:
 
 def _programs(run: Run) -> list[Run | Program]:
     """Return the programs of a run, those first that ended by themselves: what they say matters."""
-    ended = ended_program(run)
-    return sorted((run, *run.others), key=lambda program: program is not ended)
+    return sorted((run, *run.others), key=lambda program: not _ended_by_itself(program))
+
+
+def _node(program: Run | Program, run: Run, assignment: Assignment) -> str:
+    """Return the assignment's node that a program of a run is."""
+    return program.node if isinstance(program, Program) else assignment.plan(run.name).start[0].node
+
+
+def _ended_by_itself(program: Run | Program) -> bool:
+    return program.ended_by_itself if isinstance(program, Run) else program.by_itself
 
 
 def _observed(run: Run | None, period: float) -> model.Observed:
@@ -166,6 +186,7 @@ def _run_info(run: Run, assignment: Assignment) -> model.RunInfo:
     turtles = dict.fromkeys(pose.turtle for pose in seen.path)
     return model.RunInfo(
         name=run.name,
+        node=plan.start[0].node,
         world=plan.world,
         observed=observed.model_copy(update={"ticks": [], "due": []}),
         others=[
@@ -208,10 +229,16 @@ def _thinned(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
     return [(round(x, 3), round(y, 3)) for x, y in kept]
 
 
-def _cut(text: str, translate: Translator) -> str:
+def _cut_part(part: model.Transcript, translate: Translator, count: int) -> model.Transcript:
+    """Return what one of `count` programs printed, cut to its share."""
+    text = _cut(part.text, translate, MOST_EVIDENCE // count)
+    return part.model_copy(update={"text": text})
+
+
+def _cut(text: str, translate: Translator, most: int = MOST_EVIDENCE) -> str:
     """Return a text without its middle if it is too long: start and end say the most."""
-    if len(text) <= MOST_EVIDENCE:
+    if len(text) <= most:
         return text
-    half = MOST_EVIDENCE // 2
+    half = most // 2
     left_out = say("… {count} characters left out …", count=len(text) - 2 * half)
     return f"{text[:half]}\n{translate(left_out)}\n{text[-half:]}"

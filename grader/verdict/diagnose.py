@@ -22,7 +22,7 @@ from grader.package.source.names import SPINS, calls_in, last_part, misnamed_ini
 from grader.package.source.place import place_of, statement_at
 from grader.package.source.setup_packages import packages_of
 from grader.report.model import Mistake, Where
-from grader.verdict.checks.faults import calls_to, ended_program, raised_in, raised_inside
+from grader.verdict.checks.faults import calls_to, raised_in, raised_inside
 from grader.verdict.checks.not_python import unreadable_module
 from grader.verdict.checks.parsed import data_of, file_of, has_subpackages, line_at, names_in
 from grader.verdict.circular import circular_import
@@ -155,7 +155,7 @@ def _root(
     symptom: str, diagnosis: Diagnosis, evidence: Evidence, without: Collection[str]
 ) -> RecognisedMistake | None:
     if symptom in RAISES:
-        error, where = raised_in(evidence, ended_program(evidence.run) or evidence.run)
+        error, where = raised_in(evidence, evidence.run)
         if error:
             found = (
                 _not_installed(error, evidence)
@@ -178,7 +178,7 @@ def _root(
         return other
     text = str(diagnosis.mistakes[0].params.get("text", ""))
     lines = tuple(event.text for event in evidence.run.watch.counted)
-    said = (ended_program(evidence.run) or evidence.run).transcript
+    said = evidence.run.transcript
     stuck = evidence.run.watch.still_answers is False
     suspect = Suspect(source, evidence.assignment, text, diagnosis.where, lines, said, stuck)
     return behind_symptom(symptom, suspect, without)
@@ -198,7 +198,7 @@ def _raised(
     error: str, where: Where | None, evidence: Evidence, without: Collection[str]
 ) -> RecognisedMistake | None:
     source = source_around(evidence, where)
-    inside = raised_inside(evidence, ended_program(evidence.run) or evidence.run)
+    inside = raised_inside(evidence, evidence.run)
     raised = Raised(error, where, source, evidence.assignment, inside) if source else None
     return behind_error(raised, without) if raised is not None else None
 
@@ -275,7 +275,7 @@ def _say_where(diagnosis: Diagnosis, failed: Failed, evidence: Evidence) -> None
     That is all that is known of an exception that no entry of the catalogue explains. No change is
     asked of a line that only spins, nor of one that is not there.
     """
-    where, program = failed.where, ended_program(evidence.run) or evidence.run
+    where, program = failed.where, evidence.run
     error, _ = raised_in(evidence, program)
     if not error or failed.fix:
         return

@@ -13,14 +13,18 @@ from grader.base.i18n.message import Message, say
 from grader.base.i18n.translator import Translator
 from grader.course.assignment import Assignment, CheckUse
 from grader.report.model import CheckResult, CheckStatus, Mistake, Visibility, Where
+from grader.verdict.causes import UNDECIDED, cause_of, says_why
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.checks.declare import Check
 from grader.verdict.evidence import Evidence
-from grader.verdict.outcome import Blocked, Inconclusive, Passed
+from grader.verdict.of_node import NodeEvidence, because_of_another, views
+from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 from grader.verdict.own_checks import checks_of
+from grader.verdict.together import together
 
 if TYPE_CHECKING:
     from grader.mistakes.recognised import RecognisedMistake
+    from grader.verdict.diagnose import Diagnosis
 
 
 @dataclass(frozen=True)
@@ -77,7 +81,8 @@ def evaluate_checks(
 
     Each result is added to `evidence` first. `announce` is called with each check before it is
     evaluated. The first check that needs the build or the run makes it. Raises GraderError;
-    any other exception that is not an outcome becomes a result with the status `error`.
+    any other exception that is not an outcome becomes a result with the status `error`, which
+    blocks no other check: what depends on it is decided by what it finds itself.
     """
     for assigned in assigned_checks(evidence.assignment):
         if only is not None and not {assigned.use.id, assigned.check.id} & set(only):
@@ -127,6 +132,21 @@ def _evaluate(
     without: Collection[str] = (),
     cause: RecognisedMistake | None = None,
 ) -> CheckResult:
+    """Return the result of a check, which is evaluated for each node that it is about."""
+    about: Sequence[Evidence] = views(evidence, assigned.check, assigned.use)
+    parts = [_part(assigned, one, translate, without, cause) for one in about or [evidence]]
+    if about and assigned.check.covers:
+        evidence.parts[assigned.use.id] = parts
+    return parts[0] if len(parts) == 1 else together(parts, translate)
+
+
+def _part(
+    assigned: AssignedCheck,
+    evidence: Evidence,
+    translate: Translator,
+    without: Collection[str],
+    cause: RecognisedMistake | None,
+) -> CheckResult:
     begin = time.monotonic()
     try:
         found = _found(assigned, evidence, without, cause)
@@ -138,7 +158,7 @@ def _evaluate(
             actual=say("this check of the grader has a bug; the report has the details"),
             fault=traceback.format_exc(limit=-4),
         )
-    return CheckResult(
+    result = CheckResult(
         id=assigned.use.id,
         title=translate(assigned.title),
         status=found.status,
@@ -158,6 +178,10 @@ def _evaluate(
         fault=found.fault,
         seconds=0 if found.status == "skipped" else round(time.monotonic() - begin, 3),
     )
+    if not isinstance(evidence, NodeEvidence):
+        return result
+    here = {"where": evidence.place(found.where), "node": evidence.node, "run": evidence.run_name}
+    return result.model_copy(update=here)
 
 
 def _found(
@@ -168,6 +192,12 @@ def _found(
 ) -> _Result:
     blocker = _blocker(assigned, evidence)
     outcome = Blocked(by=blocker) if blocker else assigned.check.evaluate(evidence, assigned.use)
+    if isinstance(outcome, Blocked):
+        reason = _unasked(outcome.by, evidence)
+        outcome = outcome if reason is None or isinstance(reason, Passed) else reason
+    if isinstance(outcome, Failed) and isinstance(evidence, NodeEvidence):
+        other = because_of_another(evidence, assigned.check, assigned.use)
+        outcome = Blocked(by=other) if other else outcome
     if isinstance(outcome, Passed):
         return _Result(
             status="passed", score=assigned.points, actual=outcome.actual, advice=outcome.advice
@@ -178,11 +208,10 @@ def _found(
         return _skipped(assigned, outcome.by, evidence)
     if not outcome.blocks:
         evidence.not_blocking.add(assigned.use.id)
-    from grader.verdict.diagnose import diagnose  # noqa: PLC0415 - it imports all mistakes
-
-    diagnosis = diagnose(outcome, evidence, without, cause)
+    diagnosis, fault = _diagnosis(outcome, evidence, without, cause)
     return _Result(
         status="failed",
+        fault=fault,
         rationale=diagnosis.rationale,
         expected=diagnosis.expected,
         actual=diagnosis.actual,
@@ -194,25 +223,65 @@ def _found(
     )
 
 
+def _diagnosis(
+    failed: Failed,
+    evidence: Evidence,
+    without: Collection[str],
+    cause: RecognisedMistake | None,
+) -> tuple[Diagnosis, str]:
+    """Return the diagnosis of a failed check, and the traceback of a fault of ours in it.
+
+    A check that has failed stays so: without a cause behind it, its own diagnosis is kept.
+    """
+    from grader.verdict.diagnose import Diagnosis, diagnose  # noqa: PLC0415 - it imports all mistakes
+
+    try:
+        return diagnose(failed, evidence, without, cause), ""
+    except GraderError:
+        raise
+    except Exception:
+        return Diagnosis.of(failed), traceback.format_exc(limit=-4)
+
+
 def _blocker(assigned: AssignedCheck, evidence: Evidence) -> str:
     for dependency in assigned.depends:
         result = evidence.results.get(dependency)
         if dependency in evidence.not_blocking:
             continue
-        if result is not None and result.status != "passed":
+        if result is not None and result.status not in ("passed", "error"):
             return result.blocked_by or dependency
     return ""
 
 
 def _skipped(assigned: AssignedCheck, by: str, evidence: Evidence) -> _Result:
-    cause = evidence.results.get(by)
-    root = (cause.blocked_by if cause is not None else "") or by
+    """Return the result of a check that another one prevents, given by its id or its kind."""
+    uses = {use.id: use for use in evidence.assignment.checks}
+    ids = [by] if by in uses else [use.id for use in uses.values() if use.kind == by]
+    ends = [cause_of(check_id, evidence.results) for check_id in ids]
+    cause = next((end for end in ends if says_why(end)), None)
+    root = cause.id if cause is not None else next(iter(ids), by)
     titles = {one.use.id: one.title for one in assigned_checks(evidence.assignment)}
-    title = titles.get(root) or (CHECKS[root].title if root in CHECKS else root)
+    plain = CHECKS[root].title if root in CHECKS and not CHECKS[root].parameters else root
+    title = titles.get(root) or Message(plain)
     if evidence.is_hidden(root) and assigned.visibility == "visible":
         title = say("a hidden check")
-    if cause is not None and cause.status in ("inconclusive", "error"):
+    if cause is not None and cause.status in UNDECIDED:
         unknown = say("not known, because another check could not be decided: {title}", title=title)
         return _Result(status="inconclusive", blocked_by=root, actual=unknown)
     actual = say("skipped because of: {title}", title=title)
     return _Result(status="skipped", blocked_by=root, actual=actual)
+
+
+def _unasked(by: str, evidence: Evidence) -> Passed | Failed | Blocked | Inconclusive | None:
+    """Return the outcome of a check that nobody asked for here; None if a result says why.
+
+    What it finds is the reason for which a check that names it fails: the assignment may not have it,
+    or for other nodes or another run only.
+    """
+    known = [use.id for use in evidence.assignment.checks if by in (use.id, use.kind)]
+    results = evidence.results
+    told = any(one not in results or says_why(cause_of(one, results)) for one in known)
+    asked = CHECKS.get(by)
+    if told or asked is None or asked.parameters is not None:
+        return None
+    return asked.evaluate(evidence, CheckUse(id=by, points=0))

@@ -7,6 +7,8 @@ from contextlib import AbstractContextManager
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from grader.base.errors import GraderError
+from grader.base.i18n.message import say
 from grader.course.assignment import Assignment
 from grader.course.scenario import RunPlan
 from grader.package.submission import Submission
@@ -15,13 +17,14 @@ from grader.ros.distro import Distro
 from grader.run.run import Run
 from grader.run.session import Unobserved
 from grader.run.workspace import Build
-from grader.verdict.outcome import Inconclusive
-from grader.verdict.own_names import own_executable, with_own_names
+from grader.verdict.outcome import Inconclusive, Outcome
+from grader.verdict.own_names import with_own_executables, with_own_names
 
 if TYPE_CHECKING:
     from grader.run.variants import Trace
     from grader.verdict.found_change import FoundChange
 
+OUR_FAULT = say("not known, because of a fault of the grader in another check")
 Search = Callable[["Evidence"], "list[FoundChange]"]
 """Looks for small changes of a package after which its node counts."""
 Follow = Callable[["Evidence"], "Trace | None"]
@@ -39,8 +42,12 @@ class Evidence:
     the evidence of the package as it is after a fix, or of None; `tried` has what that showed, by
     the fix's SHA-256, and `untried` all results without a fix, once a fix was compared with them.
     `search` looks for small changes after which the node counts; `found_changes` has them (None: not
-    looked for). `follow` follows a short run of the node.
+    looked for). `follow` follows a short run of the node. `parts` has the results of a check for
+    each node that it covers, by the check's id; see `grader.verdict.of_node`.
     """
+
+    node, run_name, start = "", "", 0
+    """The node, the run and its program that all is about, if it is about one."""
 
     def __init__(
         self,
@@ -58,6 +65,8 @@ class Evidence:
         self.assignment = with_own_names(assignment, submission)
         self.submission = submission
         self.results: dict[str, CheckResult] = {}
+        self._build_failed = False
+        self.parts: dict[str, list[CheckResult]] = {}
         self.not_blocking: set[str] = set()
         self.distro: Distro | None = None
         self._make_build = build
@@ -76,8 +85,16 @@ class Evidence:
 
     @cached_property
     def build(self) -> Build:
-        """The build; made on first access."""
-        return self._make_build()
+        """The build; made on first access. Raises Inconclusive after a fault of ours in it."""
+        if self._build_failed:
+            raise Inconclusive(OUR_FAULT)
+        try:
+            return self._make_build()
+        except (GraderError, Outcome):
+            raise
+        except Exception:
+            self._build_failed = True
+            raise
 
     @cached_property
     def trace(self) -> Trace | None:
@@ -91,11 +108,8 @@ class Evidence:
 
     @property
     def named(self) -> Assignment:
-        """The assignment with all names that the built package has, the executable's included."""
-        name = own_executable(self.assignment, self.build.entry_points)
-        if not self.build.installed(f"lib/{self.assignment.package}/{name}"):
-            return self.assignment
-        return self.assignment.model_copy(update={"executable": name})
+        """The assignment with all names that the built package has, the executables' included."""
+        return with_own_executables(self.assignment, self.build)
 
     @property
     def run(self) -> Run:
@@ -111,6 +125,11 @@ class Evidence:
             except Unobserved as failure:
                 self.run_failed = Inconclusive(str(failure))
                 raise self.run_failed from failure
+            except (GraderError, Outcome):
+                raise
+            except Exception:
+                self.run_failed = Inconclusive(OUR_FAULT)
+                raise
         return self._run
 
     def run_of(self, name: str) -> Run:
@@ -125,6 +144,11 @@ class Evidence:
             except Unobserved as failure:
                 self._runs_failed[name] = Inconclusive(str(failure))
                 raise self._runs_failed[name] from failure
+            except (GraderError, Outcome):
+                raise
+            except Exception:
+                self._runs_failed[name] = Inconclusive(OUR_FAULT)
+                raise
         return self._runs[name]
 
     @property

@@ -64,7 +64,7 @@ def fixes_of(
             yield plan.new
     else:
         yield from certain_fixes(
-            Case(Files.of(submission), finding, assignment), fixes_for(finding)
+            Case(Files.of(submission), finding, assignment), _fixes(finding, assignment)
         )
 
 
@@ -124,12 +124,18 @@ def _step(
 ) -> tuple[Finding, Files, list[Finding]] | None:
     for finding in found:
         case = Case(files, finding, assignment)
-        for new in certain_fixes(case, fixes_for(finding)):
+        for new in certain_fixes(case, _fixes(finding, assignment)):
             after = judge(new)
             gone = finding.known_by not in [f.known_by for f in after]
             if gone and _no_worse(found, after, case):
                 return finding, new, after
     return None
+
+
+def _fixes(finding: Finding, assignment: Assignment) -> tuple[Fix, ...]:
+    """Return the fixes of a finding; none of one in another package, whose files are not changed."""
+    is_here = assignment.about(finding.node).package == assignment.package
+    return fixes_for(finding) if is_here else ()
 
 
 def _no_worse(before: list[Finding], after: list[Finding], case: Case) -> bool:

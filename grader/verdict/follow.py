@@ -7,7 +7,6 @@ the timer that should call that.
 from __future__ import annotations
 
 import ast
-import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -60,10 +59,10 @@ class Stop:
 def trace_in(sandbox: Sandbox, until: float, evidence: Evidence) -> Trace | None:
     """Follow a node in a sandbox whose workspace has been built; None if too little time is left.
 
-    `until` is of `time.monotonic`.
+    `until` is of the run's clock.
     """
     source = source_of_node(evidence)
-    if source is None or source.main is None or until - time.monotonic() < SECONDS:
+    if source is None or source.main is None or until - sandbox.run_clock.now() < SECONDS:
         return None
     return trace_node(
         sandbox,

@@ -22,6 +22,8 @@ FOLLOWS = {
 }
 """By the mistake that is the cause: those that disappear with it, or are to be fixed after it."""
 
+INTERFACE = "interface."
+"""What is wrong with an interface is found again by each check that needs it."""
 IN_ONE_FILE = {"source.empty_node_file"}
 """The causes that have consequences only in the file that they are about."""
 
@@ -62,6 +64,7 @@ def followed(mistake: str, where: Where | None, evidence: Evidence) -> str:
         same = refused and known == "package.setup_cfg_wrong" and result.where == where
         file = result.where.file if result.where is not None else ""
         other = known in IN_ONE_FILE and where is not None and where.file != file
+        same |= mistake == known and mistake.startswith(INTERFACE) and result.where == where
         if visible and not other and (same or mistake in FOLLOWS.get(known, ())):
             return check
     return ""

@@ -74,10 +74,14 @@ def mark(
     translate = Translator(order.lang)
     opening = say("opening the sandbox for ROS {distro}", distro=order.distro.name)
     listener(events.StageStarted("setup", translate(opening)))
-    sandbox = _open(order, assignment, lambda text: listener(events.Note(text)))
+
+    def note(text: str) -> None:
+        listener(events.Note(text))
+
+    sandbox = _open(order, assignment, note)
     setup = time.monotonic() - begin - intake
     listener(events.StageFinished("setup", setup))
-    with Session(sandbox, assignment) as session:
+    with Session(sandbox, assignment, note=note) as session:
         require_interfaces(sandbox, assignment)
         evidence = _evidence(session, submission, listener)
         evidence.distro = order.distro
@@ -191,7 +195,9 @@ def _with_fix(
     def opened(_digest: str, fixed: Submission) -> Iterator[Evidence | None]:
         listener(events.StageStarted("fix", translate(say("Trying a fix of this package"))))
         sandbox = _open(order, session.assignment, unheard)
-        with Session(sandbox, session.assignment, deadline=session.deadline) as again:
+        left = session.deadline - session.run_clock.now()
+        until = sandbox.run_clock.now() + left
+        with Session(sandbox, session.assignment, deadline=until) as again:
             evidence = _evidence(again, fixed, unheard)
             evidence.distro = order.distro
             if sandbox.name in ISOLATING:

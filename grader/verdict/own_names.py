@@ -7,10 +7,14 @@ only the name costs points.
 from __future__ import annotations
 
 import re
+from typing import TYPE_CHECKING
 
 from grader.course.assignment import Assignment
 from grader.package.source.manifest import name_in
 from grader.package.submission import Submission
+
+if TYPE_CHECKING:
+    from grader.run.workspace import Build
 
 VALID = re.compile(r"[a-z][a-z0-9_]{1,99}")  # REP 144
 EXECUTABLE = re.compile(r"[\w.][\w.-]{0,99}", re.ASCII)
@@ -26,10 +30,16 @@ def with_own_names(assignment: Assignment, submission: Submission) -> Assignment
     marker, other = (submission.file(f"resource/{each}") for each in (name, wanted))
     if marker is None or marker.kind != "file" or other is not None:
         return assignment
-    target = assignment.target
+    target, nodes = assignment.target, assignment.nodes
     if assignment.folder == wanted and _is_inner_folder(submission, name, assignment):
         target = name + target.removeprefix(wanted)
-    return assignment.model_copy(update={"package": name, "target": target})
+        nodes = {
+            key: node.model_copy(update={"target": name + node.target.removeprefix(wanted)})
+            if node.target.partition(".")[0] == wanted
+            else node
+            for key, node in nodes.items()
+        }
+    return assignment.model_copy(update={"package": name, "target": target, "nodes": nodes})
 
 
 def _own_name(submission: Submission) -> str:
@@ -62,6 +72,34 @@ def own_executable(assignment: Assignment, entry_points: str) -> str:
     if assignment.executable in names or len(names) != 1:
         return assignment.executable
     return names.pop()
+
+
+def with_own_executables(assignment: Assignment, build: Build) -> Assignment:
+    """Return the assignment with the executables that the build installed for its nodes.
+
+    A node of several has none ("") if its executable starts another node of the assignment: what
+    that one does beside itself would be judged of neither.
+    """
+    name = _installed(assignment, build)
+    nodes = {
+        key: node.model_copy(update={"executable": _of_node(assignment, key, build)})
+        for key, node in assignment.nodes.items()
+    }
+    return assignment.model_copy(update={"executable": name, "nodes": nodes})
+
+
+def _installed(assignment: Assignment, build: Build) -> str:
+    name = own_executable(assignment, build.entry_points)
+    there = build.installed(f"lib/{assignment.package}/{name}")
+    return name if there else assignment.executable
+
+
+def _of_node(assignment: Assignment, key: str, build: Build) -> str:
+    about = assignment.about(key)
+    name = _installed(about, build)
+    leads_to = {target for script, target in scripts(build.entry_points) if script == name}
+    others = {node.target for node in assignment.nodes.values()} - {about.target}
+    return "" if leads_to and leads_to <= others else name
 
 
 def scripts(entry_points: str) -> list[tuple[str, str]]:

@@ -70,6 +70,8 @@ def _run_as_json(run: Run) -> dict[str, Any]:
     found["watch"]["note"] = note.template if isinstance(note, Message) else note
     if run.seen is None:  # a run that is no scenario's
         del found["seen"], found["name"]
+    elif not run.seen.silent:
+        del found["seen"]["silent"]
     if not run.others:
         del found["others"]
     if not run.watch.silent:  # of no watch on the wall clock

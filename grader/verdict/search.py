@@ -7,7 +7,6 @@ built and marked as a fix is, and only one that helps is shown.
 from __future__ import annotations
 
 import ast
-import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -66,11 +65,11 @@ TEXT, STEP = 5, 6
 def search_in(sandbox: Sandbox, until: float) -> Search:
     """Return what looks for changes in a sandbox whose workspace has been built.
 
-    It does not begin if less than `LEAST_SECONDS` are left until then (of `time.monotonic`).
+    It does not begin if less than `LEAST_SECONDS` are left until then (of the run's clock).
     """
 
     def search(evidence: Evidence) -> list[FoundChange]:
-        if until - time.monotonic() < LEAST_SECONDS or evidence.assignment.runs:
+        if until - sandbox.run_clock.now() < LEAST_SECONDS or evidence.assignment.runs:
             return []
         path = actual_path(evidence)
         read = partial(data_of, evidence)

@@ -29,6 +29,7 @@ from grader.verdict.diagnose import RAISES
 from grader.verdict.evaluate import evaluate_again, evaluate_checks
 from grader.verdict.evidence import Evidence
 from grader.verdict.fix import fixes_of, patch_text
+from grader.verdict.fix_text import matching_text, without_change
 from grader.verdict.found_change import FAR, FoundChange
 from grader.verdict.search import KIND, fix_text, recognised, value_texts, values_seen
 
@@ -239,21 +240,9 @@ def _with_known_fix(result: CheckResult, evidence: Evidence, translate: Translat
         if result.id in STATIC or not refuted:
             return result
         if root is None or root.id in without:
-            return result if without else _without_fix(result, translate)
+            return result if without else without_change(result, translate)
         without.add(root.id)
         result = evaluate_again(result.id, evidence, translate, without=without)
-
-
-def _without_fix(result: CheckResult, translate: Translator) -> CheckResult:
-    """Return the result of what was only seen, whose usual fix does not help: its text asks for it."""
-    if not any(mistake.id.startswith("run.") for mistake in result.mistakes):
-        return result
-    follow = say(
-        "The usual change for this was tried, and the check still fails with it. Follow the program step "
-        "by step to the line that logs: log the values that each step uses, and compare them with what "
-        "you expect."
-    )
-    return result.model_copy(update={"fix": translate(follow)})
 
 
 @dataclass(frozen=True)
@@ -308,10 +297,10 @@ def _with_change(
     result: CheckResult, old: Files, tried: Tried, new: Files, translate: Translator
 ) -> CheckResult:
     """Return a result with its fix, and with those that the check needs after it, if that is known."""
-    patch, rest = patch_text(old, tried.files), []
-    if tried.files is not new and not result.consequence_of:
-        rest = [translate(text) for text in (FURTHER, *tried.later)]
-    return result.model_copy(update={"patch": patch, "advice": [*result.advice, *rest]})
+    rest = [FURTHER, *tried.later] if tried.files is not new and not result.consequence_of else []
+    patch, fix = patch_text(old, tried.files), matching_text(result, old, new, translate)
+    update = {"patch": patch, "fix": fix, "advice": [*result.advice, *map(translate, rest)]}
+    return result.model_copy(update=update)
 
 
 class _Trial:

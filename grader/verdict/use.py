@@ -9,14 +9,15 @@ from typing import Generic, TypeVar
 
 from grader.base.i18n.message import say
 from grader.course.assignment import CheckUse
-from grader.course.scenario import Node, RunPlan
-from grader.package.source.node import read_node
+from grader.course.scenario import RunPlan
 from grader.report.model import Where
-from grader.run.conduct import full_name
 from grader.run.observations import End, Message, Observations, Role
+from grader.run.programs import full_name
 from grader.run.run import Run
 from grader.verdict.checks.declare import EDGE, Parameters
 from grader.verdict.checks.faults import node_file
+from grader.verdict.checks.own_interface import fault_of_type
+from grader.verdict.checks.spinning import is_spun
 from grader.verdict.evidence import Evidence
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Inconclusive
@@ -37,7 +38,7 @@ class Use(Generic[P_co]):
     @property
     def plan(self) -> RunPlan:
         """The plan of the run that is judged."""
-        return self.evidence.assignment.plan(self.use.run)
+        return self.evidence.assignment.plan(self.evidence.run_name or self.use.run)
 
     @property
     def in_scenario(self) -> bool:
@@ -49,51 +50,54 @@ class Use(Generic[P_co]):
         """The run that is judged, also if its nodes did not start."""
         if not self.in_scenario:
             return self.evidence.run
-        if self._other_package:
-            self.blocked_by("package.beside", package=self._other_package)
-        return self.evidence.run_of(self.plan.name)
+        package = self.evidence.assignment.package
+        if package != self.evidence.asked.package:
+            self.blocked_by("package.beside", package=package)
+        return self.evidence.run
 
     @property
     def run(self) -> Run:
-        """A scenario's run that is judged. Raises Blocked if its nodes did not start."""
+        """A scenario's run that is judged. Raises Blocked if its node did not start, or does not spin."""
         run = self.observed
         if not run.started:
             raise Blocked(by="run.starts")
-        if not run.watch.settled and not run.ended_by_itself:
+        if not run.ended_by_itself and not is_spun(run):
             raise Blocked(by="run.spins")
         return run
 
     @property
+    def whole_run(self) -> Run:
+        """The same run with the nodes of all its programs."""
+        return self.evidence.run_of(self.run.name) if self.in_scenario else self.run
+
+    @property
     def seen(self) -> Observations:
-        """What that run showed."""
+        """What that run showed. Raises Failed if the check needs a type that could not be used."""
         seen = self.run.seen
         assert seen is not None
+        for name in self._types if seen.unusable else ():
+            if name in seen.unusable:
+                raise fault_of_type(self.evidence, name, seen.unusable[name])
         return seen
+
+    @property
+    def _types(self) -> list[str]:
+        """The types that the check needs: its own, its topic's, and that of what it comes after."""
+        own = getattr(self.given, "type", "")
+        topic = self.plan.topics.get(getattr(self.given, "topic", ""), "")
+        before = self.plan.stimulus(self.use.after)
+        return [own, topic, *(one.type for one in (before.typed if before else {}).values())]
+
+    @property
+    def wanted(self) -> str:
+        """The full name that the node that is judged must have."""
+        return full_name(self.evidence.assignment, self.plan.start[self.evidence.start])
 
     @property
     def node(self) -> str:
         """The full name of the node that is judged: that of `of`, else the run's first."""
-        assignment, plan = self.evidence.assignment, self.plan
-        begin = next((one for one in plan.start if one.node == self.use.of), plan.start[0])
-        wanted = full_name(assignment, begin)
         names = [node.name for node in self.run.nodes]
-        if wanted not in names and len(names) == 1 and len(plan.start) == 1:
-            return names[0]  # its name is another check's matter
-        return wanted
-
-    @property
-    def _judged(self) -> Node | None:
-        """The node that is judged, as the assignment describes it."""
-        if not self.in_scenario:
-            return None
-        begin = self.use.of or (self.plan.start[0].node if self.plan.start else "")
-        return self.evidence.assignment.nodes.get(begin)
-
-    @property
-    def _other_package(self) -> str:
-        """The package of the judged node, if it is not the main one."""
-        node, main = self._judged, self.evidence.asked.package
-        return node.package if node is not None and node.package != main else ""
+        return names[0] if len(names) == 1 else self.wanted  # its name is another check's matter
 
     @property
     def end(self) -> float:
@@ -166,32 +170,12 @@ class Use(Generic[P_co]):
 
         A call with the text `mentions` among its arguments comes before the others.
         """
-        if self._other_package:
-            return self._call_in_other(*names, mentions=mentions)
         source = source_of_node(self.evidence)
         found = source.calls_of(*names) if source is not None else []
         if source is None or not found:
             return node_file(self.evidence)
         best = _best(found, mentions)
         return Where(file=source.module_of(best).path, line=best.lineno)
-
-    def _call_in_other(self, *names: str, mentions: str) -> Where:
-        """Return the same as `call`, in the package of the judged node."""
-        node, package = self._judged, self.evidence.submission.package(self._other_package)
-        assert node is not None
-        module, _, function = node.target.partition(":")
-        path = f"{module.partition('.')[0]}/{node.file}"
-        place = Where(file=f"{self._other_package}/{path}")
-        if package is None:
-            return place
-        texts = {file.path: file.data for file in package.files if file.kind == "file"}
-        source = read_node(texts.get, path, function)
-        found = source.calls_of(*names) if source is not None else []
-        if source is None or not found:
-            return place
-        best = _best(found, mentions)
-        file = f"{self._other_package}/{source.module_of(best).path}"
-        return Where(file=file, line=best.lineno)
 
 
 def _best(found: Sequence[ast.Call], mentions: str) -> ast.Call:

@@ -191,6 +191,15 @@ def of_people(
     return [(p.name, p.number, scored(score)) for p in class_ if p.submitted]
 
 
+def moodle_files(path: Path, files: Iterable[tuple[Person, str, bytes]]) -> Path:
+    """Write "Download all submissions" of people who each handed in one file."""
+    with zipfile.ZipFile(path, "w") as archive:
+        for person, name, content in files:
+            prefix = moodle_prefix(person.name, person.number)
+            archive.writestr(f"{prefix}_assignsubmission_file/{name}", content)
+    return path
+
+
 def canvas_zip(path: Path, class_: Iterable[Person], score: float = 90) -> Path:
     """Write Canvas' "Download Submissions" of these people; the number is the user's id."""
     with zipfile.ZipFile(path, "w") as archive:

@@ -49,9 +49,9 @@ class Run:
         return int(found[1]) if found else 0
 
 
-def grade_all(path: Path, out: Path, *words: str | Path) -> Run:
+def grade_all(path: Path, out: Path, *words: str | Path, quiet: bool = True) -> Run:
     """Run `grader grade-all`."""
-    options = ("--out", out, "--sandbox", "bubblewrap", "--quiet", *words)
+    options = ("--out", out, "--sandbox", "bubblewrap", *(["--quiet"] if quiet else []), *words)
     command = [sys.executable, "-m", "tests.batch.stub_run", "grade-all", path, *options]
     done = processes.run(command)
     assert "Traceback" not in done.stderr, done.stderr
@@ -60,12 +60,30 @@ def grade_all(path: Path, out: Path, *words: str | Path) -> Run:
 
 def verdict(task: Task) -> Report:
     """Return the report of a package whose node states its score: `# score: 85`."""
+    if task.submission.root is None:
+        return nothing_found(task)
     found = [SCORE.search(file.data) for file in task.submission.files]
     score = next(float(match[1]) for match in found if match)
     one = check("run.output", "passed" if score == 100 else "failed", score=score, max_score=100)
     made = report(checks=[one])
-    known = {"name": task.name, "path": str(task.submission.path), "student_id": task.student_id}
-    submission = made.submission.model_copy(update={**known, "sha256": task.submission.sha256})
+    return of_task(task, made, package="my_robot_controller", score=score)
+
+
+def nothing_found(task: Task) -> Report:
+    """Return the report of a submission without a package: nothing passed, 0 of 100."""
+    failed = check("package.found", "failed", max_score=100, actual=task.submission.problem)
+    return of_task(task, report(checks=[failed]), package=None, score=0)
+
+
+def of_task(task: Task, made: Report, *, package: str | None, score: float) -> Report:
+    """Return a report with the task's submission and these points."""
+    known: dict[str, str | None] = {
+        "name": task.name,
+        "path": str(task.submission.path),
+        "student_id": task.student_id,
+    }
+    known |= {"sha256": task.submission.sha256, "package": package}
+    submission = made.submission.model_copy(update=known)
     return made.model_copy(update={"submission": submission, "score": score, "max_score": 100})
 
 

@@ -145,8 +145,11 @@ def test_ambiguous_groups_get_no_verdict(tmp_path: Path) -> None:
     assert [student.name for student in found.missing] == [p.name for p in class_[:4]]
     assert found.elsewhere.keys() == {student.key for student in found.missing}
     assert all("Team" in where.reason for where in found.elsewhere.values())
+    assert all(where.is_unclear for where in found.elsewhere.values())
+    assert len(found.unclear) == 2
+    assert all(one.unclear for one in found.handed_in if one.student.name == "Team 1")
     assert found.on_roster is not None
-    assert len(found.on_roster.strangers) == 2
+    assert not found.on_roster.strangers, "they are on the roster, it is only not clear where"
 
 
 def test_the_group_column_is_found_in_an_unknown_language(tmp_path: Path) -> None:

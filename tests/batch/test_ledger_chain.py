@@ -97,7 +97,7 @@ def test_a_chain_made_anew_needs_the_key(
 ) -> None:
     monkeypatch.setenv("GRADER_STATE", str(tmp_path / "without"))
     change(path, "UPDATE verdict SET score = 100", "DROP TABLE link", "PRAGMA user_version = 1",
-           "ALTER TABLE verdict DROP COLUMN evidence")  # fmt: skip
+           "ALTER TABLE verdict DROP COLUMN evidence", "ALTER TABLE override DROP COLUMN verdict")  # fmt: skip
     assert found(path, None).faults == [], "without a key it cannot be known"
     assert found(path, key).faults
 

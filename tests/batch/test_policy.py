@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from datetime import datetime, timedelta, timezone
-from typing import Any
+from typing import Any, cast
 from zoneinfo import ZoneInfo
 
 import pytest
 
-from grader.batch.model import GradebookEntry, Override, Student
+from grader.batch.model import UNKNOWN, GradebookEntry, LapsedOverride, Override, Student
 from grader.batch.policy import Attempt, lateness, penalty, standing
 from grader.course.policy import Policy
 from tests.report.samples import check, report
@@ -48,7 +49,8 @@ def test_nothing_is_late_within_the_grace_time(seconds: float, grace: str, late:
 
 def test_without_a_due_date_nothing_is_late() -> None:
     assert lateness(after(10 * DAY), Policy()) == 0
-    assert lateness(None, Policy()) == 0
+    assert lateness(None, Policy()) is None, "not 0: nothing is known"
+    assert penalty(80, 100, None, policy(per_day="10%")) == 0
 
 
 @pytest.mark.parametrize(
@@ -114,6 +116,7 @@ def attempt(number: int, seconds: float | None, lost: Sequence[str] = (), **more
 
 
 def stand(*attempts: Attempt, overrides: Sequence[Override] = (), **rules: Any) -> GradebookEntry:
+    """Return the entry; `overrides` correct no verdict of these attempts."""
     return standing(KIM, attempts, overrides, policy(**rules), 100)
 
 
@@ -168,7 +171,7 @@ def test_a_missing_student_gets_what_the_policy_says(missing: str, final: float 
 
 def test_a_corrected_check_counts_before_the_penalty() -> None:
     override = Override("kim", "run.output", 8, "the text was given wrongly in class")
-    entry = stand(attempt(1, 1, ["run.output"]), overrides=[override], per_day="50%")
+    entry = stand(attempt(1, 1, ["run.output"], overrides=(override,)), per_day="50%")
     assert (entry.score, entry.penalty, entry.final) == (98, 50, 48)
     assert entry.report is not None
     assert entry.report.score == 90, "the verdict itself is never changed"
@@ -178,11 +181,66 @@ def test_a_corrected_check_counts_before_the_penalty() -> None:
 def test_a_corrected_total_is_final() -> None:
     override = Override("kim", "", 77, "agreed in the office hour")
     for found in (
-        stand(attempt(1, 5 * DAY, ["run.output"]), overrides=[override], per_day="10%"),
-        stand(attempt(1, 0, report=None, problem="corrupt"), overrides=[override]),
+        stand(attempt(1, 5 * DAY, ["run.output"], overrides=(override,)), per_day="10%"),
+        stand(attempt(1, 0, report=None, problem="corrupt", overrides=(override,))),
         stand(overrides=[override]),
     ):
         assert (found.score, found.penalty, found.final) == (77, 0, 77)
+
+
+@pytest.mark.parametrize("check_id", ["", "run.output"])
+@pytest.mark.parametrize("attempts", ["best", "last"])
+def test_a_correction_counts_for_its_own_attempt_only(check_id: str, attempts: str) -> None:
+    override = Override("kim", check_id, 5, "shown in class", verdict=1)
+    first = attempt(1, -HOUR, ["run.output"], overrides=(override,))
+    entry = stand(first, attempt(2, -60), attempts=attempts)
+    assert (entry.attempt, entry.final, entry.overrides) == (2, 100, ())
+    assert entry.lapsed == (LapsedOverride(override, attempt=1),)
+    # repeated for the attempt that counts, it is listed no longer
+    again = replace(override, points=99, verdict=2)
+    entry = stand(first, attempt(2, -60, overrides=(again,)), attempts=attempts)
+    assert (entry.attempt, entry.overrides, entry.lapsed) == (2, (again,), ())
+    # undone, its attempt has its own points again
+    assert stand(attempt(1, -HOUR, ["run.output"]), attempts=attempts).final == 90
+
+
+def test_a_correction_that_makes_an_attempt_the_best_one_holds() -> None:
+    override = Override("kim", "", 95, "shown in class", verdict=1)
+    first = attempt(1, -HOUR, ["run.output"], overrides=(override,))
+    entry = stand(first, attempt(2, -60, ["run.output"]), attempts="best")
+    assert (entry.attempt, entry.final, entry.overrides, entry.lapsed) == (1, 95, (override,), ())
+
+
+@pytest.mark.parametrize("verdict", [1, UNKNOWN])
+def test_a_correction_of_no_attempt_is_listed(verdict: int) -> None:
+    override = Override("kim", "", 10, "copied", verdict=verdict)
+    assert stand(attempt(1, 0), overrides=[override]).lapsed == (LapsedOverride(override),)
+    assert stand(overrides=[override], missing="zero").final == 0
+    assert stand(overrides=[override]).lapsed == (LapsedOverride(override),)
+
+
+def without_package(**more: Any) -> Attempt:
+    found = report(check("package.found", "failed", actual="a.7z is a 7z archive"))
+    submission = found.submission.model_copy(update={"package": None})
+    return attempt(1, 0, report=found.model_copy(update={"submission": submission}), **more)
+
+
+def test_what_holds_no_package_has_no_grade_until_the_instructor_gives_one() -> None:
+    for rules in cast("list[dict[str, Any]]", [{}, {"missing": "zero"}, {"attempts": "best"}]):
+        entry = stand(without_package(), **rules)
+        assert (entry.status, entry.score, entry.final) == ("ungradable", None, None)
+        assert entry.by_hand == ("a.7z is a 7z archive",)
+        assert entry.report is not None, "the student reads what to do"
+    entry = stand(without_package(overrides=(Override("kim", "", 70, "read it"),)))
+    assert (entry.status, entry.final, entry.by_hand) == ("graded", 70, ())
+
+
+def test_a_later_attempt_that_holds_no_package_is_listed_beside_the_best_one() -> None:
+    entry = stand(attempt(1, -60, ["run.output"]), replace(without_package(), number=2))
+    assert (entry.status, entry.final) == ("graded", 90)
+    assert entry.by_hand == ("attempt 2, later than the one that counts: a.7z is a 7z archive",)
+    fixed = stand(without_package(), attempt(2, 0))
+    assert (fixed.attempt, fixed.final, fixed.by_hand) == (2, 100, ())
 
 
 def test_an_unknown_time_costs_nothing_and_is_noted() -> None:

@@ -20,6 +20,7 @@ from grader.ros.prefix import Ros
 from tests.batch.pool_tasks import CORPUS, JOB, own_workers, tasks
 from tests.marking import ASSIGNMENT
 from tests.processes import descendants
+from tests.report.samples import check, report
 
 pytestmark = pytest.mark.prefix
 
@@ -103,6 +104,42 @@ def test_a_worker_that_always_ends_is_a_grader_fault_for_each_submission(
     assert {done.tries for done in found} == {3}
     assert all(done.answer.report is None for done in found)
     assert all("no memory is left" in done.answer.fault for done in found)
+
+
+UNSURE = """
+import json, os, sys, time
+log, undecided, decided = sys.argv[1:4]
+def note(text):
+    with open(log, "a") as file:
+        file.write(text + "\\n")
+sys.stdin.readline()
+for line in iter(sys.stdin.readline, ""):
+    name = json.loads(line)["student"]
+    first = f"begin {name}" not in open(log).read()
+    note(f"begin {name}")
+    time.sleep(0.05 if first else 0.2)
+    note(f"end {name}")
+    report = open(undecided if first and name.endswith(("0", "2")) else decided).read()
+    answer = {"report": report, "fault": "", "seconds": 1, "recording": None}
+    print(json.dumps(answer), flush=True)
+"""
+
+
+def test_what_is_undecided_is_tried_again_at_the_end_with_nothing_beside_it(tmp_path: Path) -> None:
+    log, names = tmp_path / "log", ("undecided", "decided")
+    log.touch()
+    for name, status in zip(names, ("inconclusive", "passed")):
+        text = report(check("run.period", status)).model_dump_json(by_alias=True)
+        (tmp_path / name).write_text(text)
+    command = (sys.executable, "-c", UNSURE, str(log), *(str(tmp_path / name) for name in names))
+    pool = LocalPool(JOB, 2, command=command)
+    found = list(pool.run(tasks(tmp_path, ["solution"] * 5), started=_ignore))
+    again = ["solution-0", "solution-2"]
+    assert {done.task.student for done in found if done.tries == 2} == set(again)
+    assert all(done.answer.report and not done.answer.report.inconclusive for done in found)
+    last = log.read_text().splitlines()[-4:]
+    assert sorted(last[::2]) == [f"begin {name}" for name in again]
+    assert [line.replace("begin", "end") for line in last[::2]] == last[1::2]
 
 
 def test_an_invalid_answer_is_not_a_verdict(tmp_path: Path) -> None:

@@ -258,14 +258,18 @@ def test_a_name_shared_by_two_students_matches_neither(tmp_path: Path) -> None:
         tmp_path, ["Ann Lee", "Joe"], "name,id number\nAnn Lee,1\nLee Ann,2\nJoe,3\n"
     )
     assert names_of(found) == [("Joe", "Joe"), ("Ann Lee", "Ann Lee")]
-    assert "more than one" in notes_of(found.handed_in[1])
+    assert "two students of this name (1, 2)" in found.handed_in[1].unclear
+    assert found.unclear == (found.handed_in[1].unclear,)
+    assert all(found.elsewhere[student.key].is_unclear for student in found.missing)
     assert [student.id_number for student in found.missing] == ["1", "2"]
 
 
 def test_two_submissions_for_one_line_are_both_kept(tmp_path: Path) -> None:
     found = discovered(tmp_path, ["ann lee", "lee ann"], "name,id number\nAnn Lee,1\n")
     assert sorted(names_of(found)) == [("ann lee", "ann lee"), ("lee ann", "lee ann")]
-    assert all("more than one" in notes_of(given) for given in found.handed_in)
+    assert len({given.unclear for given in found.handed_in}) == 1
+    assert "one student of this name (1), two submissions" in found.handed_in[0].unclear
+    assert found.elsewhere["1"].is_unclear
 
 
 def test_a_user_name_outranks_a_full_name(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ import pytest
 
 from grader.batch.earlier_gradebook import EarlierGradebook, read_earlier_gradebook
 from grader.batch.lowered import lowered
-from grader.batch.model import GradebookEntry, Override
+from grader.batch.model import GradebookEntry, Override, Student
 from grader.publish.gradebook_csv import gradebook_csv
 from tests.pages import classes
 from tests.report import samples
@@ -80,12 +80,16 @@ def test_a_student_whose_key_has_changed_is_found(tmp_path: Path) -> None:
     before = before_of(tmp_path, old)
     renamed = dataclasses.replace(old, student=dataclasses.replace(old.student, key="ann"))
     assert before.lowered(classes.result([renamed])) == []
-    kept = before.elsewhere(renamed.student)
-    assert kept is not None
-    assert kept.final == 90
+    nameless = Student("x", old.student.name)
     other = dataclasses.replace(classes.student(4), name=old.student.name)
-    assert before.elsewhere(other) is not None, "by the name, if nobody else has it"
-    assert before.elsewhere(classes.student(5)) is None
+
+    def kept(student: Student) -> list[float | None]:
+        return [had.final for had in before.elsewhere([student], [student]).values()]
+
+    assert kept(renamed.student) == [90]
+    assert kept(nameless) == [90], "by the name, if nobody else has it"
+    assert kept(other) == [], "the same name with another email address is somebody else"
+    assert kept(classes.student(5)) == []
 
 
 @pytest.mark.parametrize(

@@ -29,6 +29,8 @@ IF = "        if not hasattr(self, 'counter'):\n"
         ("        try:\n            pass\n        finally:\n{}", "write pass in its place"),
         ("        if True:\n            pass\n{}", ""),
         ("        if True: self.counter_ = 0  # again\n", ""),
+        ("        n = 1; self.counter_ = 0  # again\n", "has another statement too: keep that"),
+        ("        self.counter_ = 0; n = 1  # again\n", "has another statement too: keep that"),
     ],
 )  # fmt: skip
 def test_what_becomes_of_the_block_is_said(block: str, said: str) -> None:

@@ -8,6 +8,7 @@ it is English, so it can be used like any string.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from string import Formatter
 from typing import Protocol
 
 Value = str | int | float
@@ -23,6 +24,27 @@ class Catalogue(Protocol):
         """Return the template for a count in the language."""
 
 
+class Template(str):
+    """A text of the source that is filled later: no reader may see it as it is."""
+
+    __slots__ = ()
+
+    @property
+    def places(self) -> list[str]:
+        """The names of its places, such as `topic` of `{topic}`."""
+        return [name for _, name, _, _ in Formatter().parse(self) if name is not None]
+
+
+class UnfilledError(ValueError):
+    """A text with places would have been shown without their values."""
+
+
+def must_be_filled(value: Value) -> None:
+    """Raise UnfilledError for a template with places: `say` or `Message` must fill it first."""
+    if isinstance(value, Template) and value.places:
+        raise UnfilledError(f"a text is shown without its values: {str(value)!r}")
+
+
 class Message(str):
     """A template (gettext's msgid, in the form of `str.format`) and its parameters."""
 
@@ -34,6 +56,8 @@ class Message(str):
     def __new__(cls, template: str, params: Mapping[str, Value] | None = None) -> Message:
         """Fill the template; KeyError if a placeholder has no value."""
         values = dict(params or {})
+        for value in values.values():
+            must_be_filled(value)
         made = super().__new__(cls, template.format(**values))
         made.template, made.params = template, values
         return made
@@ -122,6 +146,8 @@ class Joined(Message):
 
     def __new__(cls, parts: tuple[str, ...], by: str) -> Joined:
         """Join the parts with `by` between them."""
+        for part in parts:
+            must_be_filled(part)
         made = str.__new__(cls, by.join(parts))
         made.parts, made.by = parts, by
         made.template, made.params = "", {}
@@ -149,9 +175,9 @@ def say_plural(one: str, many: str, count: int, **params: Value) -> Message:
     return Plural(one, many, count, params)
 
 
-def msg(template: str) -> str:
+def msg(template: str) -> Template:
     """Mark a template for translation; it is filled later."""
-    return template
+    return Template(template)
 
 
 def reworded(text: str, words: tuple[tuple[str, str], ...]) -> str:

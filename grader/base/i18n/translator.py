@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from grader.base.errors import GraderError
-from grader.base.i18n.message import Message
+from grader.base.i18n.message import Message, must_be_filled
 
 DOMAIN = "grader"
 FOLDER = Path(__file__).resolve().parent
@@ -27,8 +27,12 @@ class Translator:
         self.lang = lang if lang in LANGUAGES else SOURCE
 
     def __call__(self, text: str) -> str:
-        """Return a text in the language; a string that is not a `Message` is returned unchanged."""
+        """Return a text in the language; a string that is not a `Message` is returned unchanged.
+
+        UnfilledError for a template whose places have no values.
+        """
         if not isinstance(text, Message):
+            must_be_filled(text)
             return text
         return text.translated(_catalogue(self.lang)) if self.lang != SOURCE else str(text)
 

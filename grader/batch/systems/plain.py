@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from grader.batch.model import HandedIn, Student
-from grader.batch.systems.layout import NO_SUBMISSION, FolderItem, Layout, Read, Reading
+from grader.batch.systems.layout import FolderItem, Layout, Read, Reading
 from grader.batch.systems.notes import printable
 from grader.package.intake.archive_kind import without_ending
 
@@ -19,25 +19,22 @@ def recognise(layout: Layout) -> bool:
 
 def read(layout: Layout, reading: Reading) -> Read:
     """Return every folder and archive as a student's submission."""
-    return Read(read_items(layout.path, layout.items, reading))
+    del reading
+    files = [item for item in layout.items if not item.may_be_submission]
+    return Read(read_items(layout.path, layout.items), rest=files)
 
 
-def read_items(path: Path, items: Iterable[FolderItem], reading: Reading) -> list[HandedIn]:
-    """Return folders and archives as students' submissions; add a note about other files.
+def read_items(path: Path, items: Iterable[FolderItem]) -> list[HandedIn]:
+    """Return folders and archives as students' submissions.
 
     `jane.zip` and `jane/` are attempts of one student, in this order, because an archive is
     unpacked after it was written. Several archives are in the order in which they were written.
     """
     by_key: dict[str, list[FolderItem]] = {}
-    others = []
     for item in items:
         if item.may_be_submission:
             stem = without_ending(item.name) if item.kind == "archive" else item.name
             by_key.setdefault(printable(stem), []).append(item)
-        else:
-            others.append(item.name)
-    if others:
-        reading.notes.add_names(NO_SUBMISSION, others)
     return [handed_in for key, group in by_key.items() for handed_in in _student(path, key, group)]
 
 

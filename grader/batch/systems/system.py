@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from grader.batch.roster import Roster
     from grader.batch.sheet import Filled, Sheet
     from grader.batch.systems.layout import Layout, Read, Reading
+    from grader.batch.times import Times
     from grader.course.assignment import Assignment
     from grader.report.model import Report
 
@@ -99,7 +100,7 @@ class RosterForm:
     returns the identifier in a key's cell; `is_identity`: that is an email address or an id number.
     `numbers_groups`: the list names the system's groups, which have numbers as participants have.
     `fields` are further columns by their headers, from which `evidence` says which submission or
-    grade of a student the system has ("" if none). `is_header`: whether a folded header is one of
+    grade of a student the system has ("" if none), and `times` when it was handed in. `is_header`: whether a folded header is one of
     the system's.
     """
 
@@ -110,6 +111,7 @@ class RosterForm:
     fields: Mapping[str, Collection[str]] = field(default_factory=dict)
     is_header: Callable[[str], bool] = frozenset[str]().__contains__
     evidence: Callable[[Mapping[str, str]], str] = _none
+    times: Callable[[Mapping[str, str]], Times] | None = None
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ Param = str | int | float
 
 @dataclass(frozen=True)
 class Finding:
-    """A failed check: its mistake with parameters, and the place in the package."""
+    """A failed check: its mistake with parameters, the place in the package, and the node, if any."""
 
     check: str
     mistake: str
@@ -29,6 +29,7 @@ class Finding:
     file: str = ""
     line: int | None = None
     actual: str = ""
+    node: str = ""
 
     @property
     def known_by(self) -> tuple[object, ...]:
@@ -38,11 +39,15 @@ class Finding:
 
 @dataclass(frozen=True)
 class Case:
-    """One finding in one package."""
+    """One finding in one package; its assignment is about the node of the finding."""
 
     files: Files
     finding: Finding
     assignment: Assignment
+
+    def __post_init__(self) -> None:
+        """Let the assignment be about the finding's node."""
+        object.__setattr__(self, "assignment", self.assignment.about(self.finding.node))
 
     @property
     def package(self) -> str:
@@ -121,4 +126,5 @@ def finding_of(result: CheckResult) -> Finding | None:
         file=result.where.file if result.where else "",
         line=result.where.line if result.where else None,
         actual=result.actual,
+        node=result.node,
     )

@@ -70,7 +70,7 @@ def _value_of(
     if by_super and any(dotted(given) in known for given in named):
         return f"{quote}{assignment.node_name}{quote}"
     if any(dotted(t.period) in known for t in source.timers if t.period is not None):
-        return repr(assignment.output.period)
+        return assignment.seconds
     counters = {f"self.{own_name(n)}" for n in _increased(source) if own_name(n)}
     return str(assignment.output.start) if known & counters else ""
 

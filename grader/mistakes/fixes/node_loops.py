@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from dataclasses import replace
 
+from grader.course.assignment import Assignment
 from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
@@ -47,10 +48,21 @@ def timer_for_loop(case: Case) -> Files | None:
         return None
     if not isinstance(module.parents.get(calls[0]), ast.Expr):
         return None
-    seconds = case.assignment.output.period
-    new = f"self.create_timer({seconds!r}, self.{method.name})"
+    new = f"self.create_timer({seconds_of(node, loop, case.assignment)}, self.{method.name})"
     made = case.changed(module, module.text.swap(calls[0], new))
     return without_loop(replace(case, files=made)) if made is not None else None
+
+
+def seconds_of(source: NodeSource, loop: Loop, assignment: Assignment) -> str:
+    """Return the period of the timer that replaces a loop, as Python code.
+
+    It is the assignment's; if that names none, what the loop sleeps; "…" if that is unknown too.
+    """
+    slept = [call.args[0] for call in sleeps_in(source, loop) if len(call.args) == 1]
+    if assignment.period is not None or len(slept) != 1:
+        return assignment.seconds
+    code = source.module_of(loop).text.code(slept[0])
+    return code if isinstance(slept[0], ast.Constant) or code.startswith("self.") else "…"
 
 
 def only_call(source: NodeSource, loop: Loop) -> str:
@@ -78,7 +90,7 @@ def timer_for_calls(case: Case) -> Files | None:
     if found[2].name != "__init__":
         return None
     start, end = module.text.span(loop)
-    new = f"self.create_timer({case.assignment.output.period!r}, self.{method})"
+    new = f"self.create_timer({seconds_of(node, loop, case.assignment)}, self.{method})"
     return case.changed(module, Splice(start, end, new)) if method else None
 
 

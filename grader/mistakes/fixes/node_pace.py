@@ -53,7 +53,7 @@ def unthrottled(case: Case) -> Files | None:
 
 
 def _right(case: Case, module: Module, written: ast.expr) -> Splice:
-    return module.text.swap(written, repr(case.assignment.output.period))
+    return module.text.swap(written, case.assignment.seconds)
 
 
 def without_sleep(case: Case) -> Files | None:
@@ -101,7 +101,7 @@ def unmeasured(case: Case) -> Files | None:
             return None
         start = text.start_of(number)
         splices.append(Splice(start, start + len(old), new))
-    if not is_right(seconds_of(node, given), case.assignment.output.period):
+    if not is_right(seconds_of(node, given), case.assignment.period or 0.0):
         written = value_of(node, given) or given
         if node.module_of(written) is not module:
             return None

@@ -70,7 +70,7 @@ def _value(source: NodeSource, assignment: Assignment, call: ast.Call) -> str:
         plain = [t for t in source.timers if t.period is not None and is_period(source, t, call)]
         names = (ast.Name, ast.Attribute, ast.Call)
         if all(isinstance(timer.period, names) for timer in plain):
-            return repr(float(assignment.output.period))
+            return assignment.seconds
     logged = logged_counter(source)
     for node in source.own_nodes:
         if not isinstance(node, ast.Assign) or isinstance(node.value, ast.BinOp):

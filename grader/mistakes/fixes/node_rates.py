@@ -27,7 +27,7 @@ def spin_for_rate(case: Case) -> Files | None:
     if node.timers or len(rows) != len(rates) or not module.has(init) or not alone:
         return None
     text = module.text
-    timer = f"self.create_timer({case.assignment.output.period!r}, self.{method})"
+    timer = f"self.create_timer({case.assignment.seconds}, self.{method})"
     return case.changed(
         module,
         text.before(
@@ -85,7 +85,7 @@ def timer_for_loop(case: Case) -> Files | None:
     deeper = loop.body[0].col_offset - loop.col_offset
     inside = [row for row in range(loop.lineno + 1, (loop.end_lineno or 0) + 1) if row not in gone]
     left = [text.start_of(row) for row in inside if text.line(row).strip()]
-    timer = f"self.create_timer({case.assignment.output.period!r}, self.{method.name})"
+    timer = f"self.create_timer({case.assignment.seconds}, self.{method.name})"
     return case.changed(
         module,
         text.before(

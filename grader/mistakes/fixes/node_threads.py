@@ -34,13 +34,14 @@ def timer(case: Case) -> Files | None:
         return None
     if any(not isinstance(statement, ast.Assign | ast.Expr) for statement in used):
         return None
-    seconds = case.assignment.output.period
+    loop = endless_loop(node, thread.target)
+    seconds = node_loops.seconds_of(node, loop, case.assignment) if loop is not None else ""
     rows = sorted({s.lineno for s in used if s is not None and s is not made})
     if any(s is not None and s.lineno != s.end_lineno for s in used):
         return None
     first = case.changed(
         module,
-        module.text.swap(made, f"self.create_timer({seconds!r}, self.{name})"),
+        module.text.swap(made, f"self.create_timer({seconds}, self.{name})"),
         *(module.text.without(row) for row in rows),
     )
     return _without_loop(replace(case, files=first), name) if first is not None else None
@@ -70,7 +71,7 @@ def timer_of_node(case: Case) -> Files | None:
         return None
     module, text = node.module, node.module.text
     made = f"{found.kept} = " if found.kept else ""
-    new = f"{made}self.create_timer({case.assignment.output.period!r}, self.{found.method})"
+    new = f"{made}self.create_timer({case.assignment.seconds}, self.{found.method})"
     rows = set(found.rows)
     # the empty line above a method goes with it
     rows |= {n - 1 for n in rows if n - 1 not in rows and _begins_method(module, n)}

@@ -159,7 +159,7 @@ def arguments(case: Case) -> Files | None:
         return None
     module = node.module_of(timer)
     text = module.text
-    found = completed(node, timer_of(timer, None), repr(case.assignment.output.period))
+    found = completed(node, timer_of(timer, None), case.assignment.seconds)
     if found is not None:
         return case.changed(module, found.splice) if found.is_certain else None
     if timer.keywords:
@@ -269,10 +269,10 @@ def period(case: Case) -> Files | None:
     node = case.node
     timers = timers_of_lines(node) if node is not None else []
     period = timers[0].period if len(timers) == 1 else None
-    if node is None or period is None:
+    wanted = case.assignment.period
+    if node is None or period is None or wanted is None:
         return None
     given = value_of(node, period)
-    wanted = case.assignment.output.period
     if origin_of(node, period) is not None:
         wrong = wrong_number(node, period, wanted)
         if wrong is None:
@@ -320,7 +320,7 @@ def subscribed(case: Case) -> Files | None:
     used = [n for n in ast.walk(function) if isinstance(n, ast.Name) and n.id == second.arg]
     if len(calls) != 1 or used or node.module_of(calls[0]) is not module:
         return None
-    new = f"self.create_timer({case.assignment.output.period!r}, self.{method})"
+    new = f"self.create_timer({case.assignment.seconds}, self.{method})"
     gone = Splice(module.text.span(first)[1], module.text.span(second)[1], "")
     return case.changed(module, module.text.swap(calls[0], new), gone)
 
@@ -341,8 +341,8 @@ def made(case: Case) -> Files | None:
         return None
     text = node.module.text
     indent = indent_of(text.line(init.body[-1].lineno))
-    seconds = case.assignment.output.period
-    row = f"{indent}{node.held_node or 'self'}.create_timer({seconds!r}, self.{found[0].name})"
+    seconds = case.assignment.seconds
+    row = f"{indent}{node.held_node or 'self'}.create_timer({seconds}, self.{found[0].name})"
     return case.changed(node.module, text.before((last.end_lineno or last.lineno) + 1, row))
 
 

@@ -74,7 +74,7 @@ def logs_instead(case: Case) -> Files | None:
         module,
         *(text.without(s.lineno) for s in gone),
         text.swap(base.args[0], f"{quote}{wanted.node_name}{quote}"),
-        text.swap(period, repr(wanted.output.period)),
+        text.swap(period, wanted.seconds),
         text.swap(call.args[0], as_sum(wanted.output, counter)),
     )
 

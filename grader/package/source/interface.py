@@ -16,12 +16,13 @@ FIELD_NAME = re.compile(r"[a-z](?:_?[a-z0-9])*")
 
 @dataclass(frozen=True)
 class Declared:
-    """One line of a .msg file that declares something: a field, or a constant with its value."""
+    """One line of a .msg file that declares something: a field with its default, or a constant with its value."""
 
     line: int
     type: str
     name: str
     constant: str = ""
+    default: str = ""
 
 
 @dataclass(frozen=True)
@@ -44,9 +45,8 @@ def message_text(text: str) -> MessageText:
         code = line.partition("#")[0].strip()
         found = LINE.match(code)
         if found and not _is_comment(found["type"], (found["default"] or "").strip()):
-            declared.append(
-                Declared(number, found["type"], found["name"], (found["constant"] or "").strip())
-            )
+            constant, default = ((found[key] or "").strip() for key in ("constant", "default"))
+            declared.append(Declared(number, found["type"], found["name"], constant, default))
         elif code:
             unknown.append(number)
     return MessageText(tuple(declared), tuple(unknown))

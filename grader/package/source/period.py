@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from grader.package.source.budget import known
 from grader.package.source.counter import targets_of
 from grader.package.source.endless import calls_of_methods
 from grader.package.source.module import Function
@@ -156,7 +157,7 @@ def number_in(value: ast.expr | None) -> float | None:
         left, right = number_in(value.left), number_in(value.right)
         if not left or not right:
             return None
-        return left * right if isinstance(value.op, ast.Mult) else left / right
+        return known(left * right if isinstance(value.op, ast.Mult) else left / right)
     if not isinstance(value, ast.Constant) or isinstance(value.value, bool):
         return None
     return float(value.value) if isinstance(value.value, int | float) else None
@@ -178,10 +179,10 @@ def seconds_of(source: NodeSource, period: ast.expr, steps: int = MOST_STEPS) ->
         if left is None or right is None:
             return None
         if isinstance(period.op, ast.Mult):
-            return left * right
+            return known(left * right)
         if right == 0:
             return None
-        return left // right if isinstance(period.op, ast.FloorDiv) else left / right
+        return known(left // right if isinstance(period.op, ast.FloorDiv) else left / right)
     if isinstance(period, ast.Call) and dotted(period.func) in ENVIRONMENT and period.args[1:]:
         text = period.args[1]
         found = str(text.value) if isinstance(text, ast.Constant) else ""
@@ -203,7 +204,7 @@ def _searched(source: NodeSource, period: ast.expr | None) -> tuple[_Search, flo
         seconds = search.value(period) if period is not None else 0.0
     except (_Unknown, ZeroDivisionError, OverflowError):
         return None
-    return (search, seconds) if len(search.terms) == 1 and 0 < seconds < math.inf else None
+    return (search, seconds) if len(search.terms) == 1 and seconds > 0 and known(seconds) else None
 
 
 class _Search:

@@ -12,6 +12,7 @@ import warnings
 from dataclasses import dataclass
 
 from grader.base.i18n.message import say
+from grader.package.source.budget import MOST_BYTES, MOST_DEPTH, MOST_PARTS, first_beyond
 from grader.package.source.kept import keep_small
 from grader.package.source.newer_python import SINCE, first_difference, with_older_quotes
 
@@ -19,8 +20,6 @@ SHEBANG = "#!/usr/bin/env python3"
 PART = re.compile(r"\.?\d[\w.]*|\w+|[^\w\s]")
 """The first line that the course asks for."""
 
-MOST_BYTES = 100_000
-"""A larger hostile file takes seconds and hundreds of megabytes to parse."""
 ENCODINGS = re.compile(
     r"utf-8(-sig)?|ascii|iso8859-\d+|cp\d+|koi8-[rut]|mac-\w+|gbk|gb2312|gb18030|big5(hkscs)?"
     r"|shift_jis\w*|euc[_-](jp|kr)\w*"
@@ -96,7 +95,7 @@ def _parse(found: bytes) -> PythonFile:
         raise PythonFault("size", say("the file is larger than {size} kB", size=MOST_BYTES // 1000))
     text = decode(found)
     try:
-        return PythonFile(text, _compiled(text))
+        return PythonFile(text, _bounded(_compiled(text)))
     except SyntaxError as error:
         older = with_older_quotes(text) if sys.version_info < SINCE else None
         if older is None:
@@ -106,7 +105,7 @@ def _parse(found: bytes) -> PythonFile:
             "syntax", say("too deeply nested to be read ({error})", error=str(error))
         ) from None
     try:
-        return PythonFile(text, _compiled(older), newer=first_difference(text, older))
+        return PythonFile(text, _bounded(_compiled(older)), newer=first_difference(text, older))
     except SyntaxError as error:
         raise _fault(error, text) from None
 
@@ -117,6 +116,21 @@ def _compiled(text: str) -> ast.Module:
         tree = ast.parse(text)
         # (the compiler refuses what the parser accepts, e.g. a return outside a function)
         compile(text, "<file>", "exec", dont_inherit=True)
+    return tree
+
+
+def _bounded(tree: ast.Module) -> ast.Module:
+    """Return the tree of a file, without numbers that are too large; PythonFault if it has too much."""
+    line = first_beyond(tree)
+    if line:
+        count = f"{MOST_PARTS:,}"
+        text = say(
+            "the file has more than {count} names, numbers and calls, or more than {depth} inside "
+            "each other",
+            count=count,
+            depth=MOST_DEPTH,
+        )
+        raise PythonFault("size", text, line)
     return tree
 
 

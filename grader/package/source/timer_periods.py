@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from grader.package.intake.model import SourceFile
+from grader.package.source.budget import known
 from grader.package.source.counter import targets_of
 from grader.package.source.names import called_name, dotted, last_part
 from grader.package.source.node_modules import node_modules
@@ -32,8 +33,8 @@ class TimerPeriods:
     @property
     def fastest(self) -> float | None:
         """The shortest period above 0; None if no period is known."""
-        known = (seconds for seconds in self.seconds if seconds is not None and seconds > 0)
-        return min(known, default=None)
+        above = (seconds for seconds in self.seconds if seconds is not None and seconds > 0)
+        return min(above, default=None)
 
     @property
     def are_known(self) -> bool:
@@ -82,7 +83,7 @@ def _number(value: ast.expr, values: Mapping[str, list[ast.expr]], steps: int) -
         if left is None or right is None:
             return None
         try:
-            return OPERATORS[type(value.op)](left, right)
+            return known(OPERATORS[type(value.op)](left, right))
         except (ZeroDivisionError, OverflowError):
             return None
     found = values.get(last_part(dotted(value)), [])

@@ -14,7 +14,8 @@ from grader.report.model import Report
 def calculation(entry: GradebookEntry, visible: set[str]) -> list[str]:
     """Return how the final points were calculated, one step per line."""
     report = entry.report
-    lines = _given(report) if report is not None else []
+    marked = report if entry.status != "ungradable" else None
+    lines = _given(marked) if marked is not None else []
     lines += [_correction(override, entry, visible) for override in entry.overrides]
     if entry.overrides and entry.score is not None:
         lines.append(say("The score is then {score}.", score=points(entry.score)))
@@ -52,7 +53,10 @@ def _given(report: Report) -> list[str]:
 def _lateness(entry: GradebookEntry) -> str:
     """Return the line about the late penalty, "" if there is none."""
     taken = in_points(entry.penalty)
-    if entry.late_seconds <= 0:
+    if entry.late_seconds is None:
+        unknown = say("The time of submission is unknown: no points taken for lateness.")
+        return unknown if entry.is_lateness_open else ""
+    if not entry.late_seconds:
         return say("Penalty: {points} taken.", points=taken) if entry.penalty else ""
     late = duration(entry.late_seconds)
     if not entry.penalty:

@@ -20,7 +20,7 @@ from grader.base.i18n.message import Message, say
 from grader.base.i18n.translator import SOURCE, Translator
 from grader.base.plain_text import one_line, points, shorten, visible
 from grader.batch.model import Student
-from grader.batch.words import SIGNS, STATES, duration, instant, plural
+from grader.batch.words import SIGNS, STATES, duration, instant, lapsed_words, plural
 from grader.report.blocks import WORDS, all_of
 from grader.report.report_page import hidden_checks
 
@@ -77,6 +77,7 @@ def _environment(translate: Translator) -> Environment:
         duration=duration,
         instant=instant,
         plural=plural,
+        lapsed_words=lapsed_words,
         one_line=one_line,
         who=_who,
     )

@@ -108,7 +108,7 @@ def _check(
     if check.status == "skipped":
         names = [o.id if o.id in visible else UNSEEN for o in roots(check, entry.report.checks)]
         because = [translate(name) for name in dict.fromkeys(names)]
-    found = evidence_of(check, entry.report.evidence, QUOTES)
+    found = evidence_of(check, entry.report, QUOTES)
     log = ""
     if found is not None and getattr(entry.report.evidence, found.log).strip():
         log = ANCHORS[found.log]

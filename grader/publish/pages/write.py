@@ -119,12 +119,16 @@ def _index(renderer: Renderer, result: ClassResult, *, show_hidden: bool) -> byt
     entries = result.entries
     scores = overview.scores(result)
     groups = {
+        "unclear": result.unclear,
+        "open_lateness": [entry for entry in entries if entry.is_lateness_open],
         "unsure": overview.unsure(result, show_hidden=show_hidden),
         "identical": _identical(result),
         **{
             status: [entry for entry in entries if entry.status == status]
-            for status in ("ungradable", "error", "elsewhere", "missing", "pending")
+            for status in ("error", "elsewhere", "missing", "pending")
         },
+        "by_hand": [entry for entry in entries if entry.by_hand],
+        "lapsed": [entry for entry in entries if entry.lapsed],
     }
     return renderer.page(
         "index.html.j2",
@@ -162,13 +166,14 @@ def _cards(entries: Sequence[GradebookEntry]) -> list[tuple[str, int]]:
         ("students", len(entries)),
         ("graded", count("graded")),
         ("with full marks", len(full)),
-        ("late", sum(entry.late_seconds > 0 for entry in entries)),
-        ("ungradable", count("ungradable")),
+        ("late", sum(bool(entry.late_seconds) for entry in entries)),
+        ("to look at by hand", count("ungradable")),
         ("missing", count("missing")),
     ]
     rare = {
         "a fault of the grader": count("error"),
         "submitted elsewhere": count("elsewhere"),
+        STATES["unclear"]: count("unclear"),
         "not marked yet": count("pending"),
     }
     return [*cards, *((name, number) for name, number in rare.items() if number)]

@@ -1,8 +1,9 @@
 """The world "robot": a robot with two wheels and a laser scanner in a square room with a box.
 
-It shows what a world is: a class with `NAME`, `collect`, `advance`, `spawn`, `move`, `steps` and
-`events`. `Drive` has the update rule alone, without ROS. The probe runs it in ROS time, under
-the prefix's Python: it imports nothing of the grader.
+It shows what a world is: a class with `NAME`, `STEP`, `now`, `collect`, `advance`, `sent`, `spawn`,
+`move`, `unnamed`, `steps` and `events`. `Drive` has the update rule alone, without ROS. The probe runs
+it in ROS time, under the prefix's Python: it imports nothing of the grader. What it offers to an
+assignment stands in `grader/course/worlds.py`.
 
 - `/cmd_vel` (geometry_msgs/msg/Twist): linear.x and angular.z hold for one second.
 - `/odom` (nav_msgs/msg/Odometry): pose and velocity, at each step.
@@ -104,6 +105,7 @@ class World:
     """The node `robot`."""
 
     NAME = "robot"
+    STEP = STEP
 
     def __init__(self, node: Any, group: Any) -> None:
         """Offer the topics on a node; the subscription is in a callback group for `collect`."""
@@ -120,6 +122,7 @@ class World:
         self._scans = node.create_publisher(LaserScan, "scan", QUEUE)
         self._count = 0
         self._touches = False
+        self.sent: list[Any] = []  # the publishers of what the last update sent
         self.steps: list[tuple[str, float, float, float]] = []
         self.events: list[dict[str, Any]] = []
 
@@ -132,19 +135,21 @@ class World:
                 return
             self.drive.command(taken[0].linear.x, taken[0].angular.z, at)
 
-    def advance(self, to: int) -> int:
-        """Make the updates until `to` (ns) and publish; return the number of updates."""
-        made = 0
+    def advance(self, to: int) -> None:
+        """Make the updates until `to` (ns) and publish."""
         while self.now + STEP <= to:
             self.now += STEP
-            made += 1
             touches = self.drive.step(self.now)
             if touches and not self._touches:
                 self.events.append({"kind": "bump", "turtle": self.NAME})
             self._touches = touches
             self.steps.append((self.NAME, self.drive.x, self.drive.y, self.drive.theta))
             self._publish()
-        return made
+
+    def unnamed(self, how: str) -> str:
+        """Return what is put elsewhere if the assignment does not name it."""
+        del how
+        return self.NAME
 
     def spawn(self, name: str, x: float, y: float, theta: float) -> bool:
         """Return False: there is one robot."""
@@ -169,6 +174,7 @@ class World:
         odom.twist.twist.linear.x = drive.forward
         odom.twist.twist.angular.z = drive.turning
         self._odom.publish(odom)
+        self.sent = [self._odom]
         self._count += 1
         if self._count % SCAN_STEPS:
             return
@@ -180,6 +186,7 @@ class World:
         scan.range_min, scan.range_max = NEAREST, FARTHEST
         scan.ranges = drive.scan()
         self._scans.publish(scan)
+        self.sent.append(self._scans)
 
     def _stamp(self, header: Any, frame: str) -> None:
         header.frame_id = frame

@@ -5,7 +5,8 @@ prefix's Python: they import nothing else of the grader. `commands(probe)` retur
 - `prepare` makes the subscriptions (`watch`), publishers (`publish`), clients (`call`) and action
   clients (`goal`) that the scenario needs, and the `world`; `unknown` has the types that do not exist;
 - `tick` moves the world to `at`, whose messages go out, publishes this instant on /clock and makes
-  a barrier: round trips, which are behind all of that in each node's queue;
+  a barrier: round trips, which are behind all of that in each node's queue; it does the same at each
+  update of the world before that whose messages a node hears, `each` s of wall time for a barrier;
 - `publish`, `call`, `goal`, `cancel`, `set` and `place` act on the nodes and the world, with a
   barrier after it;
 - `look_closely` returns the whole graph; `parameters` those of the node `name`.
@@ -30,7 +31,15 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from grader.run.in_probe.goals import Goals
 from grader.run.in_probe.graph import ends_of_others
-from grader.run.in_probe.messages import Values, fill, interface, taken_from, taken_with_info
+from grader.run.in_probe.messages import (
+    LONGEST_REASON,
+    Values,
+    fill,
+    interface,
+    taken_from,
+    taken_with_info,
+    why_unusable,
+)
 from grader.run.in_probe.parameters import read_parameters, set_parameters
 
 SECOND = 1_000_000_000
@@ -39,11 +48,10 @@ MOST_MESSAGES = 40  # of a topic in one answer
 ACK_SECONDS = 1.0  # wall time for the acknowledgement of a message
 MATCH_SECONDS = 2.0  # wall time for a publisher and a subscription to find each other
 MISSING_TRIES, MISSING_SECONDS = 12, 0.3  # barriers and wall time after which a message is missing
-ECHO_SECONDS = 0.05  # wall time for those messages, before round trips are made instead
 SERVE_TURNS = 6  # of the executor
 SERVE_SECONDS = 0.005  # wall time after which the executor runs if no answer comes
 MOST_LOGS = 1_000  # records that are taken at once
-MOST_TRIPS = 7  # at once, behind as many messages of a world
+TRIPS = 2  # at once: a node takes one request and one message of a topic at a time
 REACTION_TRIES = 3  # further barriers after a stimulus
 PAUSE_SECONDS = 0.002
 
@@ -79,7 +87,6 @@ class Scenario:
         self.periods: dict[str, int] = {}  # ns between the messages that are awaited on topics
         self.latest: dict[str, int] = {}  # when a message was read last, and how long after another
         self.gaps: dict[str, int] = {}
-        self.echo = ""  # a topic that had a message for each step of the world at the last instant
         self.asked = False  # whether nodes have clients, which may ask the world
         self.at = 0  # ns, the instant that the clock shows
         self.began = 0  # ns of wall time, when the clock showed its first instant
@@ -88,12 +95,16 @@ class Scenario:
         self.counts: dict[str, int] = {}
 
     def prepare(self, command: dict[str, Any], _: float) -> dict[str, Any]:
-        """Make the ends that the scenario needs."""
+        """Make the ends that the scenario needs, but those of types that cannot be used."""
         named = [*command["watch"], *command["publish"], *command["call"], *command["goal"]]
-        kinds = {name: interface(name) for _, name in named}
+        students = {n for _, n in named if n.partition("/")[0] in command["students"]}
+        unusable = {name: why for name in students if (why := why_unusable(name))}
+        kinds = {name: interface(name) for _, name in named if name not in unusable}
         unknown = [name for name, kind in kinds.items() if kind is None]
         if unknown:
             return {"unknown": unknown}
+        for ends in ("watch", "publish", "call", "goal"):
+            command[ends] = [end for end in command[ends] if end[1] not in unusable]
         for topic, name in command["watch"]:
             self.watched[topic] = [self.subscribe(topic, kinds[name], ReliabilityPolicy.RELIABLE)]
         for topic, name in command["publish"]:
@@ -110,7 +121,7 @@ class Scenario:
         self.periods = command["periods"]
         if command["world"]:
             self.open_world(command["world"])
-        return {"unknown": []}
+        return {"unknown": [], "unusable": unusable}
 
     def open_world(self, source: Sequence[str]) -> None:
         """Make the world of a module, given by its name and text."""
@@ -234,21 +245,17 @@ class Scenario:
         """Move the world and the clock to an instant."""
         self.began = self.began or time.time_ns()
         self.at = at = command["at"]
-        steps = 0
-        if self.world is not None:
-            self.world.collect(at)
-            steps = self.world.advance(at)
         found = dict.fromkeys(self.watched, 0)
-        if steps:  # a node takes one message of a topic and one request at a time
+        if self.world is not None:
+            self.advance_world(at, found, command["each"])
+            deadline = time.monotonic() + command["each"]
             self.probe.show(at)
-            echoed = self.await_echo(steps, found, deadline)
-            barrier = self.trips(1 if echoed else min(steps, MOST_TRIPS) + 1, deadline)
+            barrier = self.trips(TRIPS, deadline)
             if self.asked:
                 self.serve()
         else:
             barrier = self.probe.set_clock(command, deadline)
         self.take_into(found)
-        self.echo = next((topic for topic, count in found.items() if 1 < count == steps), "")
         tries, began = 0, time.monotonic()
         while barrier and any(not found[topic] for topic in found if self.is_due(topic, at)):
             if tries >= MISSING_TRIES and time.monotonic() - began > MISSING_SECONDS:
@@ -256,26 +263,40 @@ class Scenario:
             tries += 1
             barrier = self.trips_later(found, deadline)
         for topic in [topic for topic, count in found.items() if count]:
-            if topic in self.latest:
+            if self.latest.get(topic, at) < at:  # (an instant may be shown again)
                 self.gaps[topic] = at - self.latest[topic]
             self.latest[topic] = at
         if self.world is not None:
             self.world.collect(at)
         return self.result(barrier)
 
-    def await_echo(self, steps: int, found: dict[str, int], deadline: float) -> bool:
-        """Wait for the messages of a node that answered each step of the world at the last instant.
+    def advance_world(self, at: int, found: dict[str, int], seconds: float) -> None:
+        """Move the world to an instant, update by update.
 
-        One round trip after that is enough, since all others are behind those. Return whether
-        they came; `found` has their number.
+        Where nodes hear what an update sends, the clock shows it and the world waits for what they
+        do, for `seconds` of wall time at most: the next update follows their commands. The last
+        one before the instant is left to the caller, and so are all if nodes do not answer.
         """
-        if not self.echo:
-            return False
-        until = min(deadline, time.monotonic() + ECHO_SECONDS)
-        while found[self.echo] < steps and time.monotonic() < until:
-            self.wait_for(subscriptions=self.watched[self.echo])
+        world, answers = self.world, True
+        world.collect(at)
+        while world.now + world.STEP <= at:
+            world.advance(world.now + world.STEP)
+            if world.now + world.STEP > at or not answers or not self.is_heard(world.sent):
+                continue
+            self.probe.show(world.now)
+            until = time.monotonic() + seconds
+            nodes = sum(peer.answered for peer in self.probe.peers.values())
+            for _ in range(nodes):  # a reaction may go through all of them
+                answers = bool(answers and self.trips(TRIPS, until))
             self.take_into(found)
-        return found[self.echo] >= steps
+            world.collect(world.now)
+
+    def is_heard(self, publishers: Sequence[Any]) -> bool:
+        """Whether somebody else subscribes to one of the world's topics."""
+        return any(
+            one.get_subscription_count() > len(self.watched.get(one.topic_name, ()))
+            for one in publishers
+        )
 
     def is_due(self, topic: str, at: int) -> bool:
         """Whether a message is awaited at an instant: by the checks, or as those before came."""
@@ -342,12 +363,20 @@ class Scenario:
         return ready()
 
     def publish(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
-        """Publish a message and wait until every subscriber has run its callback."""
-        publisher = self.publishers[command["topic"]]
+        """Publish a message and wait until every subscriber has run its callback.
+
+        If there is none, it is published only at the `last` try.
+        """
+        publisher = self.publishers.get(command["topic"])
+        if publisher is None:
+            return self.undone(deadline)
         ours = len(self.watched.get(command["topic"], ()))
-        self.await_ready(lambda: publisher.get_subscription_count() > ours, deadline)
-        message = interface(command["type"])()
-        fill(message, command["values"])
+        there = self.await_ready(lambda: publisher.get_subscription_count() > ours, deadline)
+        if not there and not command["last"]:
+            return {**self.result(True), "heard": 0}
+        message, why = made(command, "")
+        if why:
+            return self.undone(deadline, why)
         heard = publisher.get_subscription_count() - ours
         publisher.publish(message)
         publisher.wait_for_all_acked(Duration(seconds=ACK_SECONDS))
@@ -356,29 +385,36 @@ class Scenario:
 
     def call(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
         """Call a service; the reply comes with this answer or a later one."""
-        client = self.clients[command["service"]]
+        client = self.clients.get(command["service"])
+        request, why = made(command, "Request") if client is not None else (None, "")
+        if client is None or request is None:
+            return self.undone(deadline, why)
         heard = self.await_ready(client.service_is_ready, deadline)
         if heard:
-            request = interface(command["type"]).Request()
-            fill(request, command["values"])
             self.calls.append((command["name"], client.call_async(request)))
         barrier = self.react(deadline)
         return {**self.result(barrier), "heard": int(heard)}
 
+    def undone(self, deadline: float, why: str = "") -> dict[str, Any]:
+        """Return the answer for what a type does not allow; `why` is about its fields."""
+        return {**self.result(self.react(deadline)), "heard": 0, "misfit": why[:LONGEST_REASON]}
+
     def place(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
         """Put a turtle into the world: a new one, or one that is there."""
-        where = [command[key] for key in ("turtle", "x", "y", "theta")]
-        heard = int(getattr(self.world, command["how"])(*where))
+        where = [command[key] for key in ("x", "y", "theta")]
+        turtle = command["turtle"] or self.world.unnamed(command["how"])
+        heard = int(getattr(self.world, command["how"])(turtle, *where))
         barrier = self.react(deadline)
         return {**self.result(barrier), "heard": heard}
 
     def goal(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
         """Send a goal; what becomes of it comes with this answer or later ones."""
-        client = self.actions[command["action"]]
+        client = self.actions.get(command["action"])
+        goal, why = made(command, "Goal") if client is not None else (None, "")
+        if client is None or goal is None:
+            return self.undone(deadline, why)
         heard = self.await_ready(client.server_is_ready, deadline)
         if heard:
-            goal = interface(command["type"]).Goal()
-            fill(goal, command["values"])
             self.goals.send(command["name"], client, goal)
         barrier = self.react(deadline)
         return {**self.result(barrier), "heard": int(heard)}
@@ -407,6 +443,20 @@ class Scenario:
         ends = ends_of_others(self.probe.node, topics)
         self.asked = self.asked or any(end["role"] == "client" for end in ends)
         return {"ends": ends}
+
+
+def made(command: dict[str, Any], part: str) -> tuple[Any, str]:
+    """Return a message with the values of a command, or None and why they do not fit its type.
+
+    The type can be a student's, with other fields than the assignment asks for.
+    """
+    kind = interface(command["type"])
+    message = (getattr(kind, part) if part else kind)()
+    try:
+        fill(message, command["values"])
+    except Exception as error:
+        return None, f"{type(error).__name__}: {error}"
+    return message, ""
 
 
 def commands(probe: Any) -> dict[str, Any]:

@@ -61,6 +61,8 @@ class Turtle:
     turned: float = 0.0
     pen: Pen = field(default_factory=Pen)
     hits: int = 0
+    touches: bool = False
+    bumps: bool = False  # whether it began to touch the wall with the last update
 
     def command(self, forward: float, sideways: float, turning: float, at: int) -> None:
         """Take a velocity command that arrived at `at` (ns)."""
@@ -81,7 +83,9 @@ class Turtle:
         x = self.x + (math.cos(self.theta) * self.forward - math.sin(self.theta) * side) * DT
         y = self.y + (math.sin(self.theta) * self.forward + math.cos(self.theta) * side) * DT
         self.x, self.y = min(max(x, 0.0), SIZE), min(max(y, 0.0), SIZE)
-        if (self.x, self.y) == (x, y):
+        touched, self.touches = self.touches, (self.x, self.y) != (x, y)
+        self.bumps = self.touches and not touched
+        if not self.touches:
             return ""
         self.hits += 1
         return f"Oh no! I hit the wall! (Clamping from [x={x:f}, y={y:f}])"
@@ -139,6 +143,7 @@ class World:
     """
 
     NAME = "turtlesim"
+    STEP = STEP
 
     def __init__(self, node: Any, group: Any) -> None:
         """Offer the interfaces on a node; subscriptions are in a callback group for `collect`.
@@ -169,6 +174,16 @@ class World:
             node.create_service(self._services.Kill, "kill", self._kill)
         self._add("turtle1")
 
+    @property
+    def now(self) -> int:
+        """The instant (ns) of the last update."""
+        return self.field.now
+
+    @property
+    def sent(self) -> list[Any]:
+        """The publishers of what each update sends."""
+        return [*self._poses.values(), *self._colors.values()]
+
     def collect(self, at: int) -> None:
         """Take the velocity commands that have arrived; they hold from the next update on."""
         for name, subscription in list(self._commands.items()):
@@ -183,12 +198,10 @@ class World:
                     self._abort(name, "Velocity command received during rotation goal")
                 turtle.command(twist.linear.x, twist.linear.y, twist.angular.z, at)
 
-    def advance(self, to: int) -> int:
-        """Make the updates until `to` (ns) and publish the poses; return the number of updates."""
-        before = self.field.now
+    def advance(self, to: int) -> None:
+        """Make the updates until `to` (ns) and publish the poses."""
         self.field.holonomic = bool(self.node.get_parameter("holonomic").value)
         self.field.advance(to, self._publish, self.node.get_logger().warning)
-        return (self.field.now - before) // STEP
 
     def spawn(self, name: str, x: float, y: float, theta: float) -> bool:
         """Add a turtle; return whether there was none of that name."""
@@ -196,6 +209,10 @@ class World:
             return False
         self._add(name)
         return True
+
+    def unnamed(self, how: str) -> str:
+        """Return the name of what is put into the world if the assignment does not name it."""
+        return self.field.new_name() if how == "spawn" else "turtle1"
 
     def move(self, name: str, x: float, y: float, theta: float) -> bool:
         """Put a turtle elsewhere; return whether it is there."""
@@ -208,6 +225,8 @@ class World:
     def _publish(self) -> None:
         for name, turtle in self.field.turtles.items():
             self.steps.append((name, turtle.x, turtle.y, turtle.theta))
+            if turtle.bumps:
+                self._event("bump", name)
             if self._messages is None:
                 continue
             pose = self._messages.Pose(

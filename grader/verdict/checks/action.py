@@ -8,9 +8,12 @@ from pydantic import Field
 
 from grader.base.i18n.message import say, say_plural
 from grader.course.values import Form, first_misfit, shown_value
+from grader.package.source.action_sleeps import sleep_in_action
+from grader.report.model import Where
 from grader.verdict.checks.declare import EDGE, Parameters, kind
 from grader.verdict.checks.fields import must_fit
 from grader.verdict.checks.offered import must_offer
+from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -108,8 +111,10 @@ def feedback(use: Use[Feedback]) -> Passed:
     )
     if len(goal.feedback) < given.at_least:
         use.require_window()
+        where, variant = _waits(use, where)
         raise Failed(
             "action.no_feedback",
+            variant=variant,
             expected=say_plural(
                 "at least {count} message of feedback",
                 "at least {count} messages of feedback",
@@ -154,8 +159,10 @@ def result(use: Use[Result]) -> Passed:
         if use.end < goal.at + given.within - EDGE:
             raise use.unreached()
         late = say("it ends at {at} s", at=f"{goal.ended:g}") if goal.ended is not None else ""
+        where, variant = _waits(use, where)
         raise Failed(
             "action.no_result",
+            variant=variant,
             expected=expected,
             actual=late or say("the goal does not end"),
             where=where,
@@ -192,9 +199,25 @@ def cancels(use: Use[Cancels]) -> Passed:
         return Passed(actual=say("it ends as {status}", status=goal.status))
     if use.end < begin + given.within - EDGE:
         raise use.unreached()
-    ended = say("it ends as {status}", status=goal.status) if goal.status else ""
+    ended = ""
+    if goal.ended is not None:
+        at, after = f"{goal.ended:g}", f"{goal.ended - begin:g}"
+        ended = (
+            say("it ends as {status} at {at} s, before it is cancelled", status=goal.status, at=at)
+            if goal.ended < begin
+            else say(
+                "it ends as {status} at {at} s, {after} s after the request to cancel it",
+                status=goal.status,
+                at=at,
+                after=after,
+            )
+        )
+    where, variant = use.call("ActionServer", mentions=given.action), ""
+    if goal.refused is None:
+        where, variant = _waits(use, where)
     raise Failed(
         "action.not_cancelled",
+        variant=variant,
         expected=say(
             "the goal ends as {status} within {within} s",
             status="canceled",
@@ -203,9 +226,21 @@ def cancels(use: Use[Cancels]) -> Passed:
         actual=say("the node refuses to cancel it")
         if goal.refused is not None
         else ended or say("the goal does not end"),
-        where=use.call("ActionServer", mentions=given.action),
+        where=where,
         words={"service": given.action},
     )
+
+
+def _waits(use: Use[Parameters], where: Where) -> tuple[Where, str]:
+    """Return the line on which the action waits by the wall clock and the variant for it.
+
+    If none does, these are `where` and "".
+    """
+    source = source_of_node(use.evidence)
+    call = sleep_in_action(source) if source is not None else None
+    if source is None or call is None:
+        return where, ""
+    return Where(file=source.module_of(call).path, line=call.lineno), "sleeps"
 
 
 def _goal(use: Use[Parameters]) -> Goal:

@@ -29,9 +29,10 @@ from grader.package.source.setup_py import (
 )
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
+from grader.sandbox.base import LOAD
 from grader.verdict.checks.build_log import is_inside, last_error, setup_error, summary_of
-from grader.verdict.checks.cmake import CMAKE, cmake_error
 from grader.verdict.checks.declare import BUILD, check
+from grader.verdict.checks.own_interface import build_stopped
 from grader.verdict.checks.parsed import (
     data_of,
     has_subpackages,
@@ -39,7 +40,7 @@ from grader.verdict.checks.parsed import (
     paths_in,
     printable_reason,
 )
-from grader.verdict.outcome import Blocked, Failed, Passed
+from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
@@ -179,8 +180,12 @@ def _is_about(cause: str, evidence: Evidence) -> bool:
     return "package.xml" in log or "CMake" in log
 
 
-def _stopped(evidence: Evidence) -> Failed:
+def _stopped(evidence: Evidence) -> Failed | Inconclusive:
     build = evidence.build
+    if build.stopped_by == LOAD:
+        return Inconclusive(
+            say("the machine was too busy to build it: mark it again when less runs beside it")
+        )
     if build.stopped_by == "wall time":
         return Failed(
             "build.timeout",
@@ -275,15 +280,9 @@ def _broken(evidence: Evidence) -> Failed:
             where=Where(file=ignored[0]),
             words={"name": ignored[0]},
         )
-    stop = cmake_error(build.log)
-    if stop is not None and evidence.submission.package(stop.package) is not None:
-        return Failed(
-            "interface.cmake_error",
-            expected=expected,
-            actual=stop.text,
-            where=Where(file=f"{stop.package}/{CMAKE}", line=stop.line),
-            params={"line": stop.line},
-        )
+    stopped = build_stopped(evidence, build.log, expected)
+    if stopped is not None:
+        return stopped
     option = NO_OPTION.search(build.log)
     if option is not None:
         return _unknown_option(evidence, expected, option)

@@ -14,7 +14,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Literal
 
-from grader.base.i18n.message import Message, say
+from grader.base.i18n.message import Message, Template, say
 from grader.base.part import Part
 from grader.report.model import Quote
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
@@ -31,6 +31,7 @@ class Parameters(Part):
 
 CheckFunction = Callable[["Evidence"], "Passed | None"]
 Needs = Literal["files", "build", "run"]
+Covers = Literal["", "files", "runs"]
 
 
 @dataclass(frozen=True)
@@ -58,12 +59,14 @@ class Check:
 
     It is skipped unless the checks in `depends` passed. It is evaluated after those in `after`,
     because it uses their results, or because they name the cause of a mistake that both find.
-    `needs` is what usually decides it, `quotes` what of the evidence shows why it failed.
+    `needs` is what usually decides it, `quotes` what of the evidence shows why it failed. One that
+    `covers` something is evaluated for each node of the assignment: its "files" and what was built
+    of them, or all "runs" that start it. A use with `of:` is about that node alone.
     The stimulus that its use names after `after:` must do one of `stimulus`, if there are any.
     """
 
     id: str
-    title: str  # a template of `grader.base.i18n.message`
+    title: Template
     stage: Stage
     needs: Needs
     depends: tuple[str, ...]
@@ -72,6 +75,12 @@ class Check:
     function: Callable[..., Passed | None] = field(repr=False)
     parameters: type[Parameters] | None = None
     stimulus: tuple[str, ...] = ()
+    covers: Covers = ""
+
+    @property
+    def is_of_run(self) -> bool:
+        """Whether it judges one run, with parameters of its own."""
+        return self.stage == RUN and self.parameters is not None
 
     def title_of(self, use: CheckUse) -> Message:
         """Return the title of a use: its own, or the kind's with the values of its parameters."""
@@ -111,9 +120,10 @@ def check(
     depends: Sequence[str] = (),
     after: Sequence[str] = (),
     quotes: Quote | None = None,
+    covers: Covers = "",
 ) -> Callable[[CheckFunction], Check]:
     """Declare a check, as `Check` describes it; `needs` is the stage's unless it is given."""
-    return _declare(check_id, stage, needs, depends, after, quotes, None)
+    return _declare(check_id, stage, needs, depends, after, quotes, None, covers)
 
 
 def kind(
@@ -124,13 +134,14 @@ def kind(
     depends: Sequence[str] = STARTED,
     after: Sequence[str] = (),
     stimulus: Sequence[str] = (),
+    covers: Covers = "",
 ) -> Callable[[Callable[[Use[Any]], Passed | None]], Check]:
     """Declare a kind of check with parameters, as `Check` describes it.
 
     It judges a run whose nodes start and spin, unless `stage` and `depends` say otherwise.
     """
     quotes: Quote | None = "before_ctrl_c" if stage is None else None
-    declare = _declare(check_id, stage or RUN, None, depends, after, quotes, parameters)
+    declare = _declare(check_id, stage or RUN, None, depends, after, quotes, parameters, covers)
     return lambda function: replace(declare(function), stimulus=tuple(stimulus))
 
 
@@ -148,9 +159,10 @@ def _declare(
     after: Sequence[str],
     quotes: Quote | None,
     parameters: type[Parameters] | None,
+    covers: Covers,
 ) -> Callable[[Callable[..., Passed | None]], Check]:
     def declare(function: Callable[..., Passed | None]) -> Check:
-        title = (function.__doc__ or check_id).strip().splitlines()[0].rstrip(".")
+        title = Template((function.__doc__ or check_id).strip().splitlines()[0].rstrip("."))
         return Check(
             id=check_id,
             parameters=parameters,
@@ -161,6 +173,7 @@ def _declare(
             after=tuple(after),
             quotes=quotes,
             function=function,
+            covers=covers,
         )
 
     return declare

@@ -139,7 +139,8 @@ def missing(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed:
     if lost:
         return _group_twice(evidence, points, lost[0])
     same = [e for e in entries if "".join(e.target.split()) == evidence.assignment.target]
-    names = [entry.name for entry in entries]
+    of_others = {(node.executable, node.target) for node in evidence.assignment.nodes.values()}
+    names = [e.name for e in entries if (e.name, "".join(e.target.split())) not in of_others]
     close = nearest(wanted, names, cutoff=0.7)
     meant_here = same or [e for e in entries if e.name == close]
     if meant_here:

@@ -9,7 +9,6 @@ from grader.base.i18n.message import Value, say
 from grader.base.shown import shown
 from grader.mistakes.placeholders import placeholder_values
 from grader.report.model import Where
-from grader.run.run import Program
 from grader.verdict.checks.actual_node import actual_path
 from grader.verdict.checks.build import limit_name
 from grader.verdict.checks.build_log import python_error
@@ -17,7 +16,6 @@ from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Failed
 
 if TYPE_CHECKING:
-    from grader.course.scenario import Node
     from grader.run.probe_link import LogRecord
     from grader.run.run import Run
     from grader.verdict.evidence import Evidence
@@ -57,54 +55,7 @@ def line_of(evidence: Evidence, record: LogRecord | None) -> Where:
     return place
 
 
-def ended_program(run: Run) -> Run | Program | None:
-    """Return the first program of a run that ended by itself; a run stands for its first program."""
-    if run.ended_by_itself:
-        return run
-    return next((other for other in run.others if other.by_itself), None)
-
-
-def others_there(evidence: Evidence, run: Run) -> list[Program]:
-    """Return the other programs of a run, without those whose package a check has found missing."""
-    missing = any(
-        result.status == "failed" and any(m.id == "beside.missing" for m in result.mistakes)
-        for result in evidence.results.values()
-    )
-    return [
-        program
-        for program in run.others
-        if not missing
-        or f"Package '{_package_of(evidence, program)}' not found" not in program.transcript
-    ]
-
-
-def _package_of(evidence: Evidence, program: Program) -> str:
-    return evidence.assignment.nodes[program.node].package or evidence.assignment.package
-
-
-def file_of_program(evidence: Evidence, program: Run | Program) -> Where:
-    """Return the file of a program's node as the place of a fault without a line."""
-    if not isinstance(program, Program):
-        return node_file(evidence)
-    return file_of_node(evidence, evidence.assignment.nodes[program.node])
-
-
-def file_of_node(evidence: Evidence, node: Node) -> Where:
-    """Return the file of a node of the assignment as the place of a fault without a line."""
-    return Where(file=_in_package(evidence, node.package, f"{_folder_of(node)}/{node.file}"))
-
-
-def _folder_of(node: Node) -> str:
-    """Return the inner folder of a node's package."""
-    return node.target.partition(".")[0]
-
-
-def _in_package(evidence: Evidence, package: str, path: str) -> str:
-    """Return the path of a package's file as a report has it."""
-    return path if package in ("", evidence.assignment.package) else f"{package}/{path}"
-
-
-def traceback_of(evidence: Evidence, run: Run | Program) -> tuple[str, Where | None]:
+def traceback_of(evidence: Evidence, run: Run) -> tuple[str, Where | None]:
     """Return the last error that a program printed, and the line of the student's code, if any.
 
     Python's own suggestion ("Did you mean") is left out: the diagnosis suggests what fits.
@@ -113,40 +64,35 @@ def traceback_of(evidence: Evidence, run: Run | Program) -> tuple[str, Where | N
     return SUGGESTION.sub("", error), where
 
 
-def raised_in(evidence: Evidence, run: Run | Program) -> tuple[str, Where | None]:
+def raised_in(evidence: Evidence, run: Run) -> tuple[str, Where | None]:
     """Return the last error as Python printed it, and the line of the student's code, if any."""
     text = _with_cause(_without_ignored(run.transcript))
     aborted = ABORTED.search(text)
     if aborted:  # C code of an interface ends the process, without a traceback
         return aborted[0], None
     error, _ = python_error(text, evidence.assignment.node_file)
-    node = evidence.assignment.nodes[run.node] if isinstance(run, Program) else None
-    package = node.package if node is not None else ""
-    folder = _folder_of(node) if node is not None else evidence.assignment.folder
+    folder = evidence.assignment.folder
     mine = [m for m in FRAME.findall(_last_report(text)) if m[0].startswith(f"{folder}/")]
     if not mine:
         return error, None
-    path = _in_package(evidence, package, mine[-1][0])
-    return error, Where(file=path, line=int(mine[-1][1]))
+    return error, Where(file=mine[-1][0], line=int(mine[-1][1]))
 
 
-def raised_inside(evidence: Evidence, run: Run | Program) -> str:
+def raised_inside(evidence: Evidence, run: Run) -> str:
     """Return the library whose code raised the last error; "" if the student's own line did."""
     text = _with_cause(_without_ignored(run.transcript))
     calls = CALL.findall(text.rpartition(TRACEBACK)[2])
-    node = evidence.assignment.nodes[run.node] if isinstance(run, Program) else None
-    folder = _folder_of(node) if node is not None else evidence.assignment.folder
+    folder = evidence.assignment.folder
     path = calls[-1][0] if calls else ""
     if not path or (f"/{folder}/" in path and path.endswith(".py")):
         return ""
     return "rclpy" if "/rclpy/" in path else "Python"
 
 
-def calls_to(evidence: Evidence, run: Run | Program) -> list[tuple[str, int]]:
+def calls_to(evidence: Evidence, run: Run) -> list[tuple[str, int]]:
     """Return the student's functions, and the line of each, through which the last error came."""
     text = _with_cause(_without_ignored(run.transcript))
-    node = evidence.assignment.nodes[run.node] if isinstance(run, Program) else None
-    folder = _folder_of(node) if node is not None else evidence.assignment.folder
+    folder = evidence.assignment.folder
     calls = CALL.findall(text.rpartition(TRACEBACK)[2])
     return [
         (function, int(line))

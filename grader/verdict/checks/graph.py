@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
 
 class NodeName(Parameters):
-    """The name of the node, with its namespace if that is not /."""
+    """The name of the node, with its namespace if that is not /; "" for each node's own name."""
 
-    name: str
+    name: str = ""
 
 
 class Nodes(Parameters):
@@ -39,10 +39,10 @@ class Connection(Parameters):
     receiver: str
 
 
-@kind("graph.node_name", NodeName, depends=["run.starts"], after=["run.spins"])
+@kind("graph.node_name", NodeName, depends=["run.starts"], after=["run.spins"], covers="runs")
 def node_name(use: Use[NodeName]) -> Passed:
     """The node has the required name."""
-    run, wanted = use.observed, f"/{use.given.name.lstrip('/')}"
+    run, wanted = use.observed, f"/{use.given.name.lstrip('/')}" if use.given.name else use.wanted
     names = [run.counting] if run.counting else [node.name for node in run.nodes]
     if wanted in names:
         return Passed(actual=wanted)
@@ -53,7 +53,7 @@ def node_name(use: Use[NodeName]) -> Passed:
     if any(node.name == wanted for node in run.nodes):
         right = "other"
         listed = say("the lines come from {name}", name=run.counting)
-    if wanted != f"/{use.evidence.assignment.node_name}":
+    if use.given.name and wanted != f"/{use.evidence.assignment.node_name}":
         raise _missing(wanted, wanted, listed, use)
     close = nearest(wanted, names) or names[0]
     raise Failed(
@@ -90,7 +90,7 @@ def _missing(name: str, expected: str, actual: str, use: Use[Parameters]) -> Fai
 def nodes(use: Use[Nodes]) -> Passed:
     """The ROS graph has the nodes {names}"""
     given = use.given
-    found = {node.name for node in use.run.nodes}
+    found = {node.name for node in use.whole_run.nodes}
     missing = [name for name in given.names if name not in found]
     more = sorted(found - set(given.names))
     listed = ", ".join(sorted(found)) or "-"

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     needs="files",  # (if setup.py computes the entry point, the build decides)
     depends=["package.found"],
     quotes="transcript",
+    covers="files",
 )
 def mapping(evidence: Evidence) -> Passed:
     """setup.py maps the executable's name to the function that starts the node."""
@@ -80,7 +81,7 @@ def _in_other_group(evidence: Evidence) -> Failed | None:
 def _other_name(evidence: Evidence) -> list[str]:
     """Return which executable is run, if it is not the one that the assignment names."""
     name, wanted = evidence.named.executable, evidence.assignment.executable
-    if name == wanted:
+    if name in ("", wanted):
         return []
     targets = dict(scripts(evidence.build.entry_points))
     if wanted in targets:
@@ -208,10 +209,12 @@ def _in_project(evidence: Evidence) -> bool:
     depends=["build.colcon"],
     after=["package.setup_cfg", "entry_point.mapping"],
     quotes="transcript",
+    covers="files",
 )
 def executable(evidence: Evidence) -> Passed:
     """The executable is where ros2 run looks for it."""
-    package, name = evidence.assignment.package, evidence.named.executable
+    package = evidence.assignment.package
+    name = evidence.named.executable or evidence.assignment.executable
     files = evidence.build.files
     place = f"install/{package}/lib/{package}/{name}"
     there = evidence.build.installed(f"lib/{package}/{name}")
@@ -246,6 +249,7 @@ def executable(evidence: Evidence) -> Passed:
     nothing = say(
         "nothing named {name} was installed: ros2 run says No executable found", name=name
     )
+    nothing = joined(nothing, there_are(evidence), by="\n")
     with_error = say(
         "nothing named {name} was installed ({error}): ros2 run says No executable found",
         name=name,
@@ -257,3 +261,21 @@ def executable(evidence: Evidence) -> Passed:
         actual=with_error if error else nothing,
         where=Where(file="setup.py"),
     )
+
+
+def there_are(evidence: Evidence) -> str:
+    """Return the names of the executables that the build made of the package; "" if there are none."""
+    folder = f"lib/{evidence.assignment.package}/"
+    made = evidence.build.files
+    names = {path.partition(f"/{folder}")[2] for path in made if path.startswith("install/")}
+    known = ", ".join(shown(name) for name in sorted(names) if name and "/" not in name)
+    return say("there are only: {names}", names=known) if known else ""
+
+
+def executable_must_be_there(evidence: Evidence) -> None:
+    """Raise why `ros2 run` finds no executable of the node: what a check of it found, or would find."""
+    for found in (mapping, executable):
+        if evidence.has_failed(found.id):
+            raise Blocked(by=found.id)
+        if found.id not in evidence.results:
+            found.function(evidence)

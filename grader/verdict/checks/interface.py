@@ -9,11 +9,13 @@ from pydantic import Field
 
 from grader.base.i18n.message import say
 from grader.base.nearest import nearest, with_difference
-from grader.package.source.interface import FIELD_NAME, message_text
+from grader.course.interfaces import SEPARATOR
+from grader.package.source.interface import message_text
 from grader.package.source.manifest import ManifestError, read_manifest
 from grader.report.model import Where
 from grader.verdict.checks.cmake import CMAKE
 from grader.verdict.checks.declare import INTAKE, Parameters, kind
+from grader.verdict.checks.own_interface import fault_in, missing_package
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -165,32 +167,11 @@ def fields(use: Use[Fields]) -> Passed:
     if text is None:
         use.blocked_by("interface.package")
         raise Blocked(by="package.found")
-    declared = message_text(text)
+    fault = fault_in(found, path)
+    if fault is not None:
+        raise fault
+    declared = message_text(SEPARATOR.sub("", text))
     file = f"{name}/{path}"
-    if declared.unknown:
-        line = declared.unknown[0]
-        raise Failed(
-            "interface.line_unknown",
-            expected=say("a type and a name on each line"),
-            actual=text.splitlines()[line - 1].strip()[:100],
-            where=Where(file=file, line=line),
-        )
-    wrong = next(
-        (
-            one
-            for one in declared.declared
-            if not one.constant and not FIELD_NAME.fullmatch(one.name)
-        ),
-        None,
-    )
-    if wrong is not None:
-        raise Failed(
-            "interface.field_name",
-            expected=say("lower case letters and digits, with single _ between them"),
-            actual=wrong.name,
-            where=Where(file=file, line=wrong.line),
-            params={"name": wrong.name},
-        )
     for field, kind_ in use.given.fields.items():
         own = declared.field(field)
         if own is None:
@@ -223,13 +204,7 @@ def _package(use: Use[Parameters], name: str) -> Package:
     if found is not None:
         return found
     use.blocked_by("interface.package")
-    names = [one.name for one in use.evidence.submission.candidates]
-    raise Failed(
-        "interface.missing",
-        expected=say("a package {name} beside {package}", name=name, package=_own(use)),
-        actual=", ".join(names) or "-",
-        params={"name": name},
-    )
+    raise missing_package(use.evidence, name)
 
 
 def _own(use: Use[Parameters]) -> str:

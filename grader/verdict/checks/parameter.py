@@ -17,7 +17,7 @@ ELSEWHERE = ("parameter.not_declared", "parameter.wrong_type")  # why a change i
 
 
 class Declared(Parameters):
-    """A parameter with a type (`double`, `integer`, `bool`, `string`, …) and a value."""
+    """A parameter with a type (`double`, `integer`, `bool`, `string`, …) and a value at the start."""
 
     name: str
     type: str = ""
@@ -67,8 +67,6 @@ def declared(use: Use[Declared]) -> Passed:
             words=words,
         )
     form = Form.model_validate(given.value) if given.value is not None else None
-    if form is not None:
-        use.require_window()  # it may be set in the course of the run
     if form is not None and not form.fits(own.value):
         raise Failed(
             "parameter.wrong_value",

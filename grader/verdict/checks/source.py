@@ -56,7 +56,7 @@ OPTIONS = "bBdEhiIOPqsStuvVx?RJ"
 """Python's options of one letter without a value, as `python3 --help` lists them, and those it ignores."""
 
 
-@check("source.node_file", stage=INTAKE, depends=["package.found"])
+@check("source.node_file", stage=INTAKE, depends=["package.found"], covers="files")
 def node_file(evidence: Evidence) -> Passed:
     """The node's file is in the inner folder, and Python can read it."""
     path = node_path(evidence)
@@ -177,9 +177,10 @@ def _other_version(evidence: Evidence, path: str) -> str:
     code = file.data if file is not None else b""
     if b"create_timer" in code:
         return ""
+    others = {"__init__.py", *(node.file for node in evidence.assignment.nodes.values())}
     for name in names_in(evidence, inner):
         there = f"{inner}/{name}"
-        known = name == "__init__.py" or there == path or name.removesuffix(".py").encode() in code
+        known = name in others or there == path or name.removesuffix(".py").encode() in code
         if name.endswith(".py") and not known and has_node(evidence, there):
             return shown(there)
     return ""
@@ -411,7 +412,7 @@ def _named(evidence: Evidence, path: str) -> tuple[str, dict[str, str]]:
     return "elsewhere", {**words, "there": shlex.quote(shown(path))}
 
 
-@check("source.exec_bit", stage=INTAKE, depends=["package.found"])
+@check("source.exec_bit", stage=INTAKE, depends=["package.found"], covers="files")
 def exec_bit(evidence: Evidence) -> Passed:
     """The node's file is executable."""
     path, file = _node(evidence)
@@ -452,7 +453,7 @@ def _of(evidence: Evidence, path: str, text: str) -> str:
     return text if path == node_path(evidence) else joined(shown(path), text, by=": ")
 
 
-@check("source.shebang", stage=INTAKE, depends=["package.found"])
+@check("source.shebang", stage=INTAKE, depends=["package.found"], covers="files")
 def shebang(evidence: Evidence) -> Passed:
     """The node's file begins with a line that names Python 3."""
     path, file = _node(evidence)

@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
 from grader.package.source.names import dotted, last_part
-from grader.run.conduct import full_name
 from grader.verdict.checks.declare import RUN, check
-from grader.verdict.checks.faults import file_of_node, going_on, line_of, node_file, words
+from grader.verdict.checks.faults import going_on, line_of, node_file, words
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 
@@ -23,16 +22,15 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 
-@check("run.spins", stage=RUN, depends=["run.starts"], quotes="before_ctrl_c")
+@check("run.spins", stage=RUN, depends=["run.starts"], quotes="before_ctrl_c", covers="runs")
 def spins(evidence: Evidence) -> Passed:
     """The node spins, so that ROS calls its callbacks."""
     run = evidence.run
     # a flood ends the run: whether the node answered before that would be chance
     if run.confirmed is False or run.flooded:
         raise Blocked(by=going_on(evidence))
-    if not _answers(run) and not _follows(run):
+    if not is_spun(run):
         raise _never(evidence)
-    _others_spin(evidence)
     # of a single line, the instant is chance; log.counts says that no more came
     if not run.watch.while_still or len(run.watch.counted) == 1:
         return Passed(actual=say("the node answers while it counts"))
@@ -84,23 +82,9 @@ def _named(node: ast.AST) -> str:
     return last_part(dotted(node))
 
 
-def _others_spin(evidence: Evidence) -> None:
-    """Raise the failure of a node of the scenario that never answers while others do."""
-    assignment, run = evidence.assignment, evidence.run
-    if not run.others:
-        return
-    by_name = {node.name: node for node in run.nodes}
-    for begin in assignment.plan(run.name).start:
-        name = full_name(assignment, begin)
-        node = by_name.get(name)
-        if node is not None and node.services and not node.answers:
-            raise Failed(
-                "run.never_spins",
-                expected=say("a node that spins: it answers, and ROS calls its callbacks"),
-                actual=say("{node} does not answer: nothing calls its callbacks", node=name),
-                where=file_of_node(evidence, assignment.nodes[begin.node]),
-                words=words(evidence),
-            )
+def is_spun(run: Run) -> bool:
+    """Whether something of a run shows that its node spins: what does not is judged nowhere else."""
+    return _answers(run) or _follows(run)
 
 
 def _answers(run: Run) -> bool:

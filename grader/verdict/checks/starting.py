@@ -18,15 +18,15 @@ from grader.verdict.checks.actual_node import actual_path
 from grader.verdict.checks.declare import RUN, check
 from grader.verdict.checks.faults import (
     FRAME,
-    file_of_program,
     flood,
     going_on,
     node_file,
-    others_there,
     resource,
     traceback_of,
     words,
 )
+from grader.verdict.checks.installed import executable_must_be_there
+from grader.verdict.checks.own_interface import fault_in_traceback
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Outcome, Passed
 
@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 
 OWN_ERROR = re.compile(r"^(?:Name|UnboundLocal|Attribute|Type)Error\b", re.MULTILINE)
 OF_SPIN = re.compile(r", line \d+, in _?spin")
+NO_EXECUTABLE = "No executable found"  # what `ros2 run` says
 SIGNALLED = 240  # ros2 run exits with minus the signal that ended the node, modulo 256
 
 
@@ -44,12 +45,12 @@ SIGNALLED = 240  # ros2 run exits with minus the signal that ended the node, mod
     depends=["entry_point.executable"],
     after=["package.manifest", "source.node_file", "entry_point.mapping"],
     quotes="transcript",
+    covers="runs",
 )
 def starts(evidence: Evidence) -> Passed:
     """ros2 run starts the node, and the node keeps running."""
     run = evidence.run
     if run.started and not _died_first(evidence):
-        _others_start(evidence)
         seconds = f"{run.node_seconds or 0:.1f}"
         said = say("the node was on the ROS graph after {seconds} s", seconds=seconds)
         return Passed(actual=said, advice=_refused_arguments(evidence))
@@ -94,6 +95,8 @@ def _died_first(evidence: Evidence) -> bool:
 def _ended(evidence: Evidence) -> Outcome:
     """Return the outcome of a program that ended before its node was seen."""
     run = evidence.run
+    if not run.command or NO_EXECUTABLE in run.transcript:
+        executable_must_be_there(evidence)
     for cause in ("source.node_file", "entry_point.mapping"):
         if evidence.has_failed(cause):
             return Blocked(by=cause)
@@ -116,6 +119,9 @@ def _ended(evidence: Evidence) -> Outcome:
                 distro=evidence.distro.name,
             )
         )
+    interface = fault_in_traceback(evidence, run.transcript) if error else None
+    if interface is not None:
+        return interface
     if error:
         return Failed(
             "run.died_at_start",
@@ -158,28 +164,6 @@ def _newer_line(evidence: Evidence) -> tuple[int, str]:
         return 0, ""
     older = with_older_quotes(parsed.text) if parsed.newer else None
     return parsed.newer, older.splitlines()[parsed.newer - 1].strip() if older else ""
-
-
-def _others_start(evidence: Evidence) -> None:
-    """Raise the failure of another program of the scenario that ended before the clock began."""
-    for program in others_there(evidence, evidence.run):
-        if program.started:
-            continue
-        error, where = traceback_of(evidence, program)
-        raise Failed(
-            "run.died_at_start" if error else "run.exits_at_once",
-            expected=say("the node starts and runs until Ctrl+C"),
-            actual=say("{node} stopped on startup with {error}", node=program.node, error=error)
-            if error
-            else say(
-                "{node} ended by itself, with status {status}",
-                node=program.node,
-                status=str(program.status),
-            ),
-            where=where or file_of_program(evidence, program),
-            params={"error": error.partition(":")[0], "text": error} if error else {},
-            words=words(evidence),
-        )
 
 
 def _no_node(evidence: Evidence, actual: str) -> Failed:
@@ -262,6 +246,7 @@ def _outside_of_try(evidence: Evidence) -> list[str]:
     depends=["run.starts"],
     after=["log.period"],
     quotes="transcript",
+    covers="runs",
 )
 def interrupt(evidence: Evidence) -> Passed:
     """Ctrl+C ends the node."""

@@ -2,60 +2,59 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
-from grader.run.run import Program
 from grader.verdict.checks.declare import RUN, check
-from grader.verdict.checks.faults import (
-    ended_program,
-    file_of_program,
-    flood,
-    node_file,
-    others_there,
-    resource,
-    traceback_of,
-    words,
-)
-from grader.verdict.outcome import Failed, Passed
+from grader.verdict.checks.faults import flood, node_file, resource, traceback_of, words
+from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
+    from grader.run.run import Run
     from grader.verdict.evidence import Evidence
 
 
-@check("run.stays", stage=RUN, depends=["run.starts"], after=["run.spins"], quotes="before_ctrl_c")
+@check(
+    "run.stays",
+    stage=RUN,
+    depends=["run.starts"],
+    after=["run.spins"],
+    quotes="before_ctrl_c",
+    covers="runs",
+)
 def stays(evidence: Evidence) -> Passed:
     """The nodes run and answer until Ctrl+C."""
-    expected = say("the nodes run and answer until Ctrl+C")
-    for plan in evidence.assignment.runs:
-        run = evidence.run_of(plan.name)
-        if run.resource:
-            raise resource(evidence, expected)
-        if run.flooded:
-            raise flood(evidence, expected)
-        there = others_there(evidence, run)
-        program = ended_program(replace(run, others=there))
-        if program is not None:
-            error, where = traceback_of(evidence, program)
-            shown = error or say("status {status}", status=str(program.status))
-            raise Failed(
-                "run.ended_early",
-                expected=expected,
-                actual=say("{node} ended by itself ({error})", node=program.node, error=shown)
-                if isinstance(program, Program)
-                else say("the node ended by itself ({error})", error=shown),
-                where=where or file_of_program(evidence, program),
-                variant="callback" if error else "",
-                params={"error": error.partition(":")[0]},
-                words=words(evidence),
-            )
-        if run.seen is not None and run.seen.stuck is not None:
-            raise Failed(
-                "run.stuck",
-                expected=expected,
-                actual=say("from {at} s on, the node no longer answers", at=f"{run.seen.stuck:g}"),
-                where=node_file(evidence),
-                words=words(evidence),
-            )
+    expected, run = say("the nodes run and answer until Ctrl+C"), evidence.run
+    if run.resource:
+        raise resource(evidence, expected)
+    if run.flooded:
+        raise flood(evidence, expected)
+    if run.ended_by_itself:
+        error, where = traceback_of(evidence, run)
+        shown = error or say("status {status}", status=str(run.status))
+        raise Failed(
+            "run.ended_early",
+            expected=expected,
+            actual=say("the node ended by itself ({error})", error=shown),
+            where=where or node_file(evidence),
+            variant="callback" if error else "",
+            params={"error": error.partition(":")[0]},
+            words=words(evidence),
+        )
+    if run.seen is not None and run.seen.stuck is not None and _is_stuck(run):
+        if evidence.has_failed("run.spins"):
+            raise Blocked(by="run.spins")
+        raise Failed(
+            "run.stuck",
+            expected=expected,
+            actual=say("from {at} s on, the node no longer answers", at=f"{run.seen.stuck:g}"),
+            where=node_file(evidence),
+            words=words(evidence),
+        )
     return Passed()
+
+
+def _is_stuck(run: Run) -> bool:
+    """Whether it is this node of a run that does not answer; each, if it is not known which."""
+    silent = run.seen.silent if run.seen is not None else []
+    return not silent or any(node.name in silent for node in run.nodes)

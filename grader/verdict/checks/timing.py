@@ -31,6 +31,7 @@ from grader.package.source.sleeps import longest_sleep
 from grader.package.source.timer import Timer
 from grader.report.model import Where
 from grader.run.clock import GRID
+from grader.run.run import WALL_TOLERANCE
 from grader.verdict.checks.declare import Parameters, kind
 from grader.verdict.checks.faults import line_of, words
 from grader.verdict.checks.instants import stops_before, wrong_gaps
@@ -45,7 +46,7 @@ if TYPE_CHECKING:
     from grader.verdict.use import Use
 
 SHORT = 0.1  # seconds, below which a text shows milliseconds
-WALL_TOLERANCE, WALL_SLACK = 0.05, 0.02  # a share of the period, and seconds
+WALL_SLACK = 0.02  # seconds, beside the share of a period on the wall clock
 MOST_INSTANTS = 5  # of those whose lines are counted in a text
 MILLISECONDS = (1000.0, 0.001)  # by which ms are divided or multiplied
 LONGEST_CODE = 80  # characters of a calculation in a text
@@ -201,9 +202,7 @@ def _wall_period(evidence: Evidence, wanted: float, expected: str) -> Passed:
     if evidence.run.inconsistent and evidence.has_failed(count):
         raise Blocked(by=count)  # lines beside the count, whose gaps are chance
     if evidence.run.inconsistent:
-        busy = say(
-            "{actual}, but another run differed: the machine is too busy to tell", actual=actual
-        )
+        busy = say("{actual}, but the machine is too busy to tell", actual=actual)
         raise Inconclusive(busy)
     raise _wrong_period(evidence, expected, actual, seconds=watch.period)
 

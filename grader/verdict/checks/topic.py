@@ -272,11 +272,18 @@ def period(use: Use[Period]) -> Passed:
     )
 
 
-def _nothing(use: Use[Parameters]) -> Blocked:
-    """Return the outcome for a topic without messages: the check of the publisher says it."""
+def _nothing(use: Use[Period] | Use[Each]) -> Failed:
+    """Return the failure of a topic without messages; Blocked if the check of the publisher says it."""
     use.blocked_by("topic.publishes")
     use.require_window()
-    return Blocked(by="topic.publishes")
+    topic = use.given.topic
+    return Failed(
+        "topic.never_published",
+        expected=topic,
+        actual=say("no message from {first} s to {last} s", **_times(use)),
+        where=use.call("publish", "create_publisher", mentions=topic),
+        words={"topic": topic},
+    )
 
 
 @kind("topic.values", Each, after=["topic.publishes"])
@@ -411,7 +418,15 @@ def quality(use: Use[Quality]) -> Passed:
     given = use.given
     ends = [end for end in use.ends(given.role) if end.name == given.topic]
     if not ends:
-        raise Blocked(by="topic.publishes" if given.role == "publisher" else "topic.subscribes")
+        use.blocked_by("topic.publishes" if given.role == "publisher" else "topic.subscribes")
+        short = use.plan.topics.get(given.topic, "").rpartition("/")[2]
+        raise Failed(
+            "topic.no_publisher" if given.role == "publisher" else "topic.no_subscription",
+            expected=given.topic,
+            actual=say("{node} has no such end on the ROS graph", node=use.node),
+            where=use.call(CALLS[given.role], mentions=given.topic),
+            words={"topic": given.topic, "short": short or "…"},
+        )
     for wanted, found in (
         (given.reliability, ends[0].reliability),
         (given.durability, ends[0].durability),

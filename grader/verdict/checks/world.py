@@ -4,23 +4,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
-from grader.base.i18n.message import say
+from grader.base.i18n.message import Message as Text
+from grader.base.i18n.message import say, say_plural
 from grader.base.part import Part
+from grader.base.yaml_model import broken
 from grader.course.values import Form
-from grader.run.in_probe import robot, turtlesim
-from grader.verdict.checks.declare import Parameters, kind
+from grader.course.worlds import BUMP, WORLDS
+from grader.run.observations import Pose
+from grader.verdict.checks.declare import EDGE, Parameters, kind
 from grader.verdict.checks.fields import is_integer_bits, must_fit
 from grader.verdict.outcome import Failed, Passed
 
 if TYPE_CHECKING:
-    from grader.run.observations import Pose
     from grader.verdict.use import Use
 
-SIZES = {"": turtlesim.SIZE, "turtlesim": turtlesim.SIZE, "robot": robot.SIZE}  # m, of the field
 AT_REST = 0.01  # m: a turtle that moved less stands still
 LONGEST_STEP = 0.5  # m between two poses: a longer one is no driving
 CIRCLE_POINTS = 60  # of a circle that is drawn
@@ -34,35 +35,57 @@ class Circle(Part):
 
 
 class Path(Parameters):
-    """The path that a turtle must follow from its first pose in the window."""
+    """The path that a turtle must follow from its first pose in the window.
 
-    turtle: str = "turtle1"
+    `turtle` is what moves in the world: the one that it begins with unless it is given.
+    """
+
+    turtle: str = Field(default="", description="the world's first")
     circle: Circle
 
 
 class Inside(Parameters):
-    """The turtle stays `margin` m away from the edge of the field.
+    """The turtle touches nothing, and stays `margin` m away from the edge of the field.
 
     It moves `at_least` m, and over an area whose longer side is at least `covers` m.
     """
 
-    turtle: str = "turtle1"
+    turtle: str = Field(default="", description="the world's first")
     margin: float = Field(default=0.0, ge=0)
     at_least: float = Field(default=1.0, ge=0)
     covers: float = Field(default=0.0, ge=0)
 
 
 class Happens(Parameters):
-    """What the world was asked for: `pen` (r, g, b, width, off), `spawn` or `kill` of a turtle.
+    """How often something happens to the turtle, and the form of fields of the last time.
 
-    In the world of the robot, `bump` is that it runs into something.
-
-    The last such request in the window counts.
+    The events of each world are [below](#worlds). `bump` must not happen (`at_most: 0`), and any
+    other event must happen at least once (`at_least: 1`), unless the check gives `at_least` or
+    `at_most`: `{event: spawn, turtle: turtle2, at_most: 0}` is that nobody adds this turtle.
     """
 
     event: Literal["pen", "spawn", "kill", "bump"]
-    turtle: str = "turtle1"
+    turtle: str = Field(default="", description="the world's first")
+    at_least: int | None = Field(default=None, ge=0)
+    at_most: int | None = Field(default=None, ge=0)
     each: dict[str, Form] = Field(default_factory=dict)
+
+    @property
+    def bounds(self) -> tuple[int, float]:
+        """How often it happens at least and at most."""
+        least, most = self.at_least, self.at_most
+        if least is None:
+            least = int(self.event != BUMP and most != 0)
+        if most is None:
+            return least, 0 if self.event == BUMP and not least else math.inf
+        return least, most
+
+    @model_validator(mode="after")
+    def _can_be(self) -> Happens:
+        least, most = self.bounds
+        if least > most:
+            raise broken(f"at_least is {least}, above at_most, which is {most:g}")
+        return self
 
 
 @kind("world.path", Path, after=["topic.values", "topic.period"])
@@ -108,8 +131,7 @@ def stays(use: Use[Inside]) -> Passed:
     poses = _poses(use, given.turtle)
     expected = say("{turtle} drives, and never touches the wall", turtle=given.turtle)
     words = {"turtle": given.turtle}
-    low, high = given.margin, SIZES[use.plan.world] - given.margin
-    hit = next((p for p in poses if not (low < p.x < high and low < p.y < high)), None)
+    hit = _touching(use, poses)
     if hit is not None:
         use.blocked_by("topic.values")
         _no_garbage(use)
@@ -158,32 +180,95 @@ def stays(use: Use[Inside]) -> Passed:
     return Passed(actual=say("it drove {length} m", length=f"{driven:.1f}"))
 
 
-@kind("world.event", Happens, after=["service.calls"])
-def event(use: Use[Happens]) -> Passed:
-    """The node makes the world do what it must ({event})"""
-    given = use.given
-    found = [
+def _touching(use: Use[Inside], poses: Sequence[Pose]) -> Pose | None:
+    """Return the first pose at which the turtle is too near the edge, or begins to touch something."""
+    margin = use.given.margin
+    low, high = margin, WORLDS[use.plan.world].size - margin
+    bumps = [float(one["at"]) for one in _events(use, BUMP, use.given.turtle)]
+    first = min(bumps, default=math.inf)
+    return next(
+        (p for p in poses if p.at >= first or not (low < p.x < high and low < p.y < high)), None
+    )
+
+
+def _events(use: Use[Parameters], event: str, turtle: str) -> list[dict[str, Any]]:
+    """Return what happened to a turtle in the window."""
+    return [
         one
         for one in use.in_window(use.seen.events, lambda one: float(one["at"]))
-        if one["kind"] == given.event and one["turtle"] == given.turtle
+        if one["kind"] == event and one["turtle"] == turtle
     ]
+
+
+@kind("world.event", Happens, after=["service.calls"])
+def event(use: Use[Happens]) -> Passed:
+    """What happens to {turtle}: {event}"""
+    given = use.given
+    found = _events(use, given.event, given.turtle)
+    least, most = given.bounds
+    if len(found) > most:
+        raise _too_often(use, found)
     expected = ", ".join(f"{path}: {form}" for path, form in given.each.items()) or given.event
     words = {"turtle": given.turtle, "service": given.event}
     where = use.call("call_async", "call", "create_client")
-    if not found:
+    if len(found) < least or most < math.inf:
         use.require_window()
+    if len(found) < least:
         use.blocked_by_call(use.use.after)
         use.blocked_by("service.calls")
         raise Failed(
             "world.not_asked",
-            expected=expected,
-            actual=say("nothing asked {turtle} for it", turtle=given.turtle),
+            expected=expected if least == 1 else _times(given.event, least),
+            actual=_times(given.event, len(found))
+            if found
+            else say("nothing asked {turtle} for it", turtle=given.turtle),
             where=where,
             words=words,
         )
+    if not found:
+        return Passed(actual=_times(given.event, 0))
     values = found[-1]
     must_fit(values, given.each, "world.wrong_request", where=where, words=words)
     return Passed(actual=say("it came at {at} s", at=f"{values['at']:g}"))
+
+
+def _times(event: str, count: int) -> Text:
+    return say_plural("{event}: {count} time", "{event}: {count} times", count, event=event)
+
+
+def _too_often(use: Use[Happens], found: Sequence[dict[str, Any]]) -> Failed:
+    """Return the failure of a turtle to which something happens too often."""
+    given, at = use.given, float(found[0]["at"])
+    most = int(given.bounds[1])
+    if given.event == BUMP:
+        pose = next((one for one in _poses(use, given.turtle) if one.at >= at - EDGE), None)
+        place = pose or Pose(given.turtle, at, math.nan, math.nan, math.nan)
+        return Failed(
+            "world.bumps",
+            expected=say("{turtle} never runs into anything", turtle=given.turtle)
+            if not most
+            else _times(given.event, most),
+            actual=say(
+                "it runs into something at {at} s, at x={x}, y={y}",
+                at=f"{at:.2f}",
+                x=f"{place.x:.2f}",
+                y=f"{place.y:.2f}",
+            ),
+            where=use.call("publish"),
+            words={"turtle": given.turtle},
+        )
+    return Failed(
+        "world.too_often",
+        expected=say_plural(
+            "{event}: at most {count} time",
+            "{event}: at most {count} times",
+            most,
+            event=given.event,
+        ),
+        actual=_times(given.event, len(found)),
+        where=use.call("call_async", "call", "create_client"),
+        words={"turtle": given.turtle, "service": given.event},
+    )
 
 
 def _no_garbage(use: Use[Parameters]) -> None:

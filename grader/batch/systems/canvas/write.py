@@ -102,7 +102,7 @@ class CanvasGradebook:
             if index is None or entry.final is None:
                 continue
             row = self.roster.lines[index].row
-            held = self._cell(row) not in NONE or entry.status == "elsewhere"
+            held = self._cell(row) not in NONE or entry.keeps_grade
             if not (is_without_verdict(entry) and held):
                 yield row, entry
 
@@ -136,7 +136,7 @@ def new_gradebook(result: ClassResult, *, title: str = "") -> bytes:
     table.writerow([*OWN, cells.text(title or result.title or result.assignment)])
     table.writerow([POSSIBLE, *[""] * (len(OWN) - 1), cells.number(result.max_score)])
     for entry in result.entries:
-        if entry.final is None or entry.status == "elsewhere":
+        if entry.final is None or entry.keeps_grade:
             continue
         student = entry.student
         number = student.key if result.system.name == "canvas" else ""
@@ -201,6 +201,8 @@ def _points_warning(sheet: Sheet, column: int, result: ClassResult) -> list[str]
 def _warnings(result: ClassResult, match: Match) -> Iterator[str]:
     """Yield a warning for each student without exactly one row or found by name only."""
     for entry in result.entries:
+        if entry.status == "unclear":
+            continue  # the class says it already
         if entry.student.key not in match.rows:
             yield f"{_who(entry)} is not in the gradebook: nothing was filled in"
         elif entry.student.key in match.by_name:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from grader.batch.model import ClassResult, Comment
 from grader.batch.sheet import Filled, Sheet
-from grader.batch.systems.moodle import read, roster
+from grader.batch.systems.moodle import read, roster, times
 from grader.batch.systems.moodle.gradebook_import import moodle_import
 from grader.batch.systems.system import (
     Columns,
@@ -56,6 +56,7 @@ SYSTEM = System(
         fields=roster.FIELDS,
         is_header=roster.is_header,
         evidence=roster.evidence,
+        times=times.times,
     ),
     sheet=SheetForm(
         option="worksheet",

@@ -34,7 +34,7 @@ def moodle_import(result: ClassResult, comment: Comment, *, by: By | None = None
     table.writerow([HEADS[column], "Full name", title, "Feedback"])
     warnings = []
     for entry in result.entries:
-        if entry.final is None or entry.status == "elsewhere":
+        if entry.final is None or entry.keeps_grade:
             continue
         value = _identity(entry.student, column)
         if not value or counts[value] > 1 or not cells.is_plain(value):

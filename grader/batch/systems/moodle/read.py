@@ -24,7 +24,7 @@ NAMED = re.compile(
 )
 NO_TIMES = (
     "Moodle's download does not contain the times of submission (the times in the zip are those of "
-    "the download): nothing counts as late"
+    "the download): they are read from the grading worksheet (--worksheet)"
 )
 ONLINE_TEXT = "left out: text typed into Moodle"
 ONLY_TEXT = say("the submission is only text typed into Moodle: there is no file to mark")

@@ -105,7 +105,7 @@ class Worksheet:
             if index is None or entry.final is None:
                 continue
             line = self.roster.lines[index]
-            if is_without_verdict(entry) and (line.evidence or entry.status == "elsewhere"):
+            if is_without_verdict(entry) and (line.evidence or entry.keeps_grade):
                 continue
             yield line.row, entry
 
@@ -204,6 +204,8 @@ def _maximum(sheet: Sheet, grade: int) -> int | None:
 def _warnings(result: ClassResult, match: Match) -> Iterator[str]:
     """Yield a warning for each student without a row or found by name only."""
     for entry in result.entries:
+        if entry.status == "unclear":
+            continue  # the class says it already
         if entry.student.key not in match.rows:
             yield f"{_who(entry)} is not in the worksheet: nothing was filled in"
         elif entry.student.key in match.by_name:

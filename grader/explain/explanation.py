@@ -9,15 +9,15 @@ from typing import TextIO
 
 from grader.base.errors import UsageError
 from grader.base.gate import show
-from grader.base.i18n.message import Message, Value, msg, say
+from grader.base.i18n.message import Message, Value, joined, msg, say
 from grader.base.i18n.translator import Translator, errors_in
 from grader.base.nearest import meant, nearest
 from grader.base.shown import shown
 from grader.base.stream import takes_styles, width_of
 from grader.course.assignment import Assignment
-from grader.mistakes.catalogue import CATALOGUE
+from grader.explain.from_terminal import ENTRIES, Seen, seen_in
+from grader.explain.terminal_text import TerminalText
 from grader.mistakes.example_values import example_values, lesson_values
-from grader.mistakes.from_terminal import seen_in
 from grader.mistakes.kind import Kind
 from grader.mistakes.links import address
 from grader.report.page import Page
@@ -49,16 +49,16 @@ class Reader:
 
 def print_entry(mistake: str, *, file: TextIO, reader: Reader) -> None:
     """Print one entry; UsageError, which suggests the nearest id, if it does not exist."""
-    kind = CATALOGUE.get(mistake)
+    kind = ENTRIES.get(mistake)
     if kind is None:
-        slugs = {name.partition(".")[2]: name for name in CATALOGUE}
-        close = slugs.get(mistake) or nearest(mistake, CATALOGUE)
+        slugs = {name.partition(".")[2]: name for name in ENTRIES}
+        close = slugs.get(mistake) or nearest(mistake, ENTRIES)
         none = say("there is no mistake '{id}' in the catalogue", id=shown(mistake))
         remedy = say("Run grader explain without an id to list them all.")
         with errors_in(reader.lang):
             raise UsageError(none + meant(close), remedy=remedy)
     page = _page(file, reader)
-    _entry(page, kind, {}, reader)
+    _entry(page, Seen(kind, {}, ""), reader)
     show(str(page), file)
 
 
@@ -74,8 +74,8 @@ def print_recognised(text: str, *, file: TextIO, reader: Reader) -> bool:
     for number, seen in enumerate(found[:MOST_ROOTS]):
         if number:
             page.gap()
-        page.quote([shown(seen.line)])
-        _entry(page, seen.kind, seen.params, reader)
+        page.quote([shown(line) for line in seen.line.splitlines()])
+        _entry(page, seen, reader)
     if len(found) > MOST_ROOTS:
         page.gap()
         names = ", ".join(seen.kind.id for seen in found[MOST_ROOTS:])
@@ -87,29 +87,34 @@ def print_recognised(text: str, *, file: TextIO, reader: Reader) -> bool:
 def print_list(*, file: TextIO, reader: Reader) -> None:
     """Print the ids and titles of all entries."""
     page = _page(file, reader)
-    for kind in CATALOGUE.values():
+    for kind in ENTRIES.values():
         page.line((kind.id, "bold"), ": ", Message(kind.title))
     show(str(page), file)
 
 
-def _entry(page: Page, kind: Kind, params: Mapping[str, str], reader: Reader) -> None:
-    known = {**reader.words(kind), **params}
+def _entry(page: Page, seen: Seen, reader: Reader) -> None:
+    kind, params = seen.kind, seen.params
+    own = kind.values if isinstance(kind, TerminalText) else {}
+    known = {**{n: v for n, v in reader.words(kind).items() if n not in own}, **params}
     if "package" in params:  # the names of Debian's packages have dashes
         known["debian"] = params["package"].replace("_", "-")
-    values = {**example_values(kind.id), **known}
+    values = {**example_values(kind.id), **own, **known}
+    why, fix = kind.rationale(values, seen.variant), kind.fix_text(values, seen.variant)
     page.line((kind.id, "bold"), ": ", Message(kind.title))
-    page.field(say("why"), kind.rationale(values))
-    page.field(say("fix"), kind.fix_text(values), "bold")
-    if _names(kind) - known.keys():
+    if seen.shown:
+        page.field(say("shown"), joined(*seen.shown))
+    page.field(say("why"), why)
+    page.field(say("fix"), fix, "bold")
+    if _names(why, fix) - known.keys():
         page.field(say("note"), say("The names in this text are an example. Yours may differ."))
-    if close := _nearest_package(params, reader):
+    if kind.stage == "terminal" and (close := _nearest_package(params, reader)):
         page.field(say("also"), say("Did you mean the package {package}?", package=close))
     page.code(say("docs"), [address(kind.link, reader.distro)])
 
 
-def _names(kind: Kind) -> set[str]:
+def _names(*texts: Message) -> set[str]:
     """Return the placeholders of an entry's texts."""
-    parts = [part for text in (kind.why, kind.fix) for part in string.Formatter().parse(text)]
+    parts = [part for text in texts for part in string.Formatter().parse(text.template)]
     return {name for _, name, _, _ in parts if name}
 
 

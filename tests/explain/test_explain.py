@@ -14,8 +14,8 @@ import pytest
 
 from grader.course.find import assignment_file
 from grader.course.load import load_assignment
-from grader.mistakes.catalogue import CATALOGUE
-from grader.mistakes.explanation import Reader, print_entry
+from grader.explain.explanation import Reader, print_entry
+from grader.explain.from_terminal import ENTRIES
 from grader.ros.distro import find_distro
 from tests import processes
 
@@ -80,7 +80,7 @@ def test_control_characters_of_the_text_do_not_reach_the_terminal() -> None:
 
 def test_all_entries_are_listed() -> None:
     listed = explain().stdout
-    assert [kind for kind in CATALOGUE if f"{kind}: " not in listed] == []
+    assert [kind for kind in ENTRIES if f"{kind}: " not in listed] == []
 
 
 def test_an_entry_has_an_example_instead_of_a_placeholder() -> None:
@@ -92,11 +92,11 @@ def test_an_entry_has_an_example_instead_of_a_placeholder() -> None:
 
 def test_every_placeholder_has_an_example(subtests: pytest.Subtests) -> None:
     """(A placeholder without a value is a KeyError.)"""
-    for kind in CATALOGUE:
+    for kind in ENTRIES:
         with subtests.test(kind):
             out = io.StringIO()
             print_entry(kind, file=out, reader=Reader("en", find_distro("jazzy")))
-            assert CATALOGUE[kind].title in " ".join(out.getvalue().split())
+            assert ENTRIES[kind].title in " ".join(out.getvalue().split())
 
 
 def test_the_names_of_the_lesson_are_no_example() -> None:

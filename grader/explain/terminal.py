@@ -1,10 +1,17 @@
-"""The catalogue: mistakes at the student's own terminal, recognised by what it shows."""
+"""Mistakes at the student's own terminal, recognised by what it shows."""
 
 from __future__ import annotations
 
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
 from grader.base.i18n.message import msg
+from grader.explain.environment import CONDA, OWN_INTERFACES, VENV
+from grader.explain.terminal_text import TerminalText
 from grader.mistakes import links
-from grader.mistakes.kind import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 FRESH = msg("A terminal knows a workspace only after you source its setup file in that terminal.")
 
@@ -16,12 +23,26 @@ OF_ROS = (  # packages of ROS that tutorials run, and that a small installation 
 )
 
 
+NONE: Mapping[str, str] = MappingProxyType({})
+
+
 def _lab(
-    slug: str, title: str, why: str, fix: str, link: str = links.COLCON, *, seen: str = ""
-) -> Kind:
-    return Kind(
-        id=f"lab.{slug}", stage="terminal", title=title, why=why, fix=fix, link=link, seen=seen
-    )
+    slug: str,
+    title: str,
+    why: str,
+    fix: str,
+    link: str = links.COLCON,
+    *,
+    seen: str = "",
+    unless: str = "",
+    values: Mapping[str, str] = NONE,
+    chosen: Mapping[str, str] = NONE,
+    fixes: Mapping[str, str] = NONE,
+) -> TerminalText:
+    return TerminalText(
+        id=f"lab.{slug}", stage="terminal", title=title, why=why, fix=fix, link=link, seen=seen,
+        unless=unless, values=values, chosen=chosen, fixes=fixes,
+    )  # fmt: skip
 
 
 KINDS = (
@@ -29,7 +50,7 @@ KINDS = (
          msg("The ros2 command is found only after you source ROS's own setup file in this "
              "terminal."),
          msg("Run: source /opt/ros/{distro}/setup.bash"),
-         links.ENVIRONMENT, seen=r"ros2: (?:command )?not found"),
+         links.ENVIRONMENT, seen=r"ros2: (?:command )?not found|command not found: ros2|[Cc]ommand 'ros2' not found"),
     _lab("wrong_folder", msg("The workspace's setup file is not in this folder"),
          msg("colcon build creates install/ in the folder in which you run it. So install/ exists "
              "only after a build, and only in the workspace's root."),
@@ -46,7 +67,14 @@ KINDS = (
              "and only the system's own Python does (not that of conda, a venv or an editor's "
              "button)."),
          msg("Run source /opt/ros/{distro}/setup.bash, and start the node with ros2 run."),
-         links.ENVIRONMENT, seen=r"ModuleNotFoundError: No module named 'rclpy'"),
+         links.ENVIRONMENT, seen=r"ModuleNotFoundError: No module named 'rclpy'",
+         chosen={"conda": CONDA, "venv": VENV},
+         fixes={
+             "conda": msg("Run conda deactivate and source /opt/ros/{distro}/setup.bash, and start the "
+                          "node with ros2 run."),
+             "venv": msg("Run deactivate and source /opt/ros/{distro}/setup.bash, and start the node "
+                         "with ros2 run."),
+         }),
     _lab("not_installed", msg("This package of ROS is not installed here"),
          msg("{package} is a package of ROS, not one of your workspace. A small installation of ROS, "
              "such as the lab's, has only what the lessons need. Building or sourcing your "
@@ -60,11 +88,67 @@ KINDS = (
              "package's name."),
          links.WORKSPACE, seen=r"^Package '(?P<package>[^'\n]{1,120})' not found"),
     _lab("no_executable", msg("The package has no executable with that name"),
-         msg("ros2 run looks for the name to the left of the = in console_scripts in setup.py, as "
-             "it was at the last build. The file's name does not count."),
-         msg("Run ros2 pkg executables to see the names. If yours is missing, add its entry to "
-             "console_scripts, build again and source the workspace again."),
-         links.DEVELOPING, seen=r"^No executable found"),
+         msg("ros2 run looks in install/{package}/lib/{package} for an executable file with the name to "
+             "the left of the = in console_scripts in setup.py. The file's name does not count."),
+         msg("Run ros2 pkg executables {package} and ls -l install/{package}/lib/{package} "
+             "install/{package}/bin in the workspace, and compare:\n"
+             "- setup.py has no entry with the name: add it to console_scripts, and build.\n"
+             "- setup.py has it, install has it nowhere: it was not built since. Run colcon build "
+             "--symlink-install and source the workspace again.\n"
+             "- It is in bin: setup.cfg lacks script_dir and install_scripts with "
+             "$base/lib/{package}.\n"
+             "- It is in lib/{package} without an x: delete build and install, and build again."),
+         links.DEVELOPING, seen=r"^No executable found",
+         chosen={"ros": rf"ros2 run (?P<package>{OF_ROS}) ", "named": r"ros2 run (?P<package>\w{1,100}) "},
+         fixes={"ros": msg("Run ros2 pkg executables {package} to see the names, and compare.")}),
+    _lab("launch_not_installed", msg("The launch file is not installed"),
+         msg("ros2 launch looks in install/{package}/share/{package}, and not in src. setup.py installs "
+             "only the files that data_files names."),
+         msg("Add this line to data_files in setup.py, then build and source the workspace again: "
+             "('share/' + package_name + '/launch', glob('launch/*')). At the top of setup.py: from "
+             "glob import glob. In a package with CMakeLists.txt: install(DIRECTORY launch DESTINATION "
+             "share/${{PROJECT_NAME}}). If it is installed, compare the name with {file}"),
+         links.LAUNCH,
+         seen=r"file '(?P<file>[^'\n]{1,200})' was not found in the share directory of package "
+              r"'(?P<package>[^'\n]{1,120})'(?! which is at '/opt/ros/)",
+         values={"file": "my_robot.launch.py"}),
+    _lab("exec_format", msg("The installed file is no program of this computer"),
+         msg("Linux starts a file by its first line, such as #!/usr/bin/env python3, or by its format. "
+             "{path} has neither for this computer."),
+         msg("If it is a Python file: write #!/usr/bin/env python3 as the first line of its source, "
+             "before everything else. If it was compiled on another computer: delete the folders build "
+             "and install. Then build again."),
+         seen=r"OSError: \[Errno 8\] Exec format error: '(?P<path>[^'\n]{1,300})'"),
+    _lab("field_type", msg("A field of a message gets a value of another type"),
+         msg("A field of a ROS message accepts only its own type. For Python, 2 is an int and 2.0 is "
+             "a float."),
+         msg("Give the field {field} a value of the type {type}. If the value is in a variable: "
+             "{type}(…)"),
+         links.INTERFACES,
+         seen=r"AssertionError: The '(?P<field>\w{1,80})' (?:numpy array |array |\w{0,20} ?)field must be of type "
+              r"'(?P<type>int|float|str|bool)'",
+         chosen={"number": r"\.(?P<field>\w{1,80}) = (?P<value>-?\d{1,9})\n(?:[ ~^]{1,200}\n)?[^\n]*\n[^\n]*\n"
+                           r"(?:[ ~^]{1,200}\n)?AssertionError: The '(?P=field)' field must be of type 'float'"},
+         fixes={"number": msg("Write {field} = {value}.0 instead of {field} = {value}.")},
+         values={"field": "x", "type": "float", "value": "2"}),
+    _lab("no_module", msg("Python does not find the module"),
+         msg("Python looks for {module} in its own modules, in those of ROS, and in the packages of the "
+             "workspaces that this terminal has sourced."),
+         msg("If {module} is a file of your package, import it with the package's name: from "
+             "my_package.{module} import …. If it is a package of yours, build it and source the "
+             "workspace. If it is from the internet, install it with apt: its name begins with "
+             "python3-. Otherwise compare the spelling."),
+         links.PYTHON_MODULES,
+         seen=r"ModuleNotFoundError: No module named '(?P<module>(?!rclpy['.])[\w.]{1,200})'",
+         chosen={"entry": r"^  File \"<frozen importlib\._bootstrap>\", line \d{1,6}, in \w{1,60}\n"
+                          r"ModuleNotFoundError: No module named '(?P<module>\w{1,200})'"},
+         fixes={
+             "entry": msg("An entry of console_scripts in setup.py names it: write name = "
+                          "package.module:function there, with the package's name first. If {module} "
+                          "is the package: the folder {module} with an __init__.py has to be beside "
+                          "setup.py. Then build again."),
+         },
+         values={"module": "my_module"}),
     _lab("stale_script", msg("The installed script is older than setup.py"),
          msg("The script of a renamed entry stays in install/, but no longer finds its entry."),
          msg("Delete the folders build and install of the workspace, and build again."),
@@ -86,7 +170,8 @@ KINDS = (
          msg("Run cd ~/ros2_ws, then colcon list, and check that the package is in src."),
          # (of a failed build, the next line says: 1 package failed)
          seen=r"Summary: 0 packages finished[^\n]{0,40}$"
-              r"(?!\n +\d+ packages? (?:failed|aborted|not processed))"),
+              r"(?!\n +\d+ packages? (?:failed|aborted|not processed))",
+         unless="ignoring unknown package|Duplicate package names not supported"),
     _lab("build_in_src", msg("colcon build was run in src or in the package"),
          msg("colcon creates build, install and log where you run it; a second install folder "
              "confuses the terminal."),
@@ -108,7 +193,8 @@ KINDS = (
     _lab("build_type_forgotten", msg("A C++ package was created"),
          msg("Without --build-type, ros2 pkg create creates a package for CMake."),
          msg("Delete the folder, then run: ros2 pkg create --build-type ament_python <package>"),
-         links.PACKAGE, seen=r"creating \S{0,200}CMakeLists\.txt"),
+         links.PACKAGE, seen=r"creating \S{0,200}CMakeLists\.txt",
+         unless=rf"--build-type|creating \S{{0,100}}{OWN_INTERFACES}/"),
     _lab("package_name", msg("The package's name breaks ROS's naming rules"),
          msg("Package names contain only lowercase letters, digits and underscores, and begin with "
              "a letter. A Python module's name cannot contain a dash."),
@@ -138,5 +224,6 @@ KINDS = (
          msg("A program that ran as root (sudo, a container) created them; your editor may not "
              "change them."),
          msg("Run sudo chown -R $USER: ~/ros2_ws, and never run colcon build with sudo."),
-         links.WORKSPACE, seen=r"EACCES: permission denied|PermissionError: \[Errno 13\]"),
+         links.WORKSPACE,
+         seen=r"EACCES: permission denied|PermissionError: \[Errno 13\] Permission denied: '(?!/dev/)"),
 )  # fmt: skip
