@@ -12,6 +12,7 @@ from grader.course.assignment import Assignment
 from grader.course.find import COURSE, chosen, lessons_of
 from grader.course.load import load_assignment
 from grader.verdict.checks.all import CHECKS
+from grader.verdict.order import load_visible
 from tests.processes import ROOT
 from tests.scenario_kinds import ASSIGNMENT
 
@@ -201,6 +202,11 @@ def test_the_first_lesson_of_the_order_is_the_default(
     order.write_text("schema: 1\nlessons: [gamma, delta]\n", encoding="utf-8")
     with pytest.raises(AssignmentError, match=r"course\.yaml:2:18: there is no lesson 'delta'"):
         chosen(None)
+
+
+def test_the_type_of_a_parameter_is_no_interface() -> None:
+    """The radius of draw_circle is a double: ROS needs no package of that name."""
+    assert {*load_visible("draw_circle").types()} == {"geometry_msgs/msg/Twist"}
 
 
 def test_our_own_course_begins_with_the_first_node() -> None:

@@ -12,26 +12,20 @@ import click
 
 from grader.base.gate import bytes_of
 from grader.batch.systems.known import report_forms
+from grader.cli import options
 
 if TYPE_CHECKING:
     from grader.report.model import Report
 
 OF_SYSTEMS = report_forms()
 FORMS = [*OF_SYSTEMS, "json", "junit", "md"]
-FEEDBACK = ("policy", "full", "hints", "where", "score")
 
 
 @click.command("convert")
 @click.argument("form", type=click.Choice(FORMS))
 @click.argument("report", type=click.Path(path_type=Path))
 @click.option("--show-hidden", is_flag=True, help="Name the hidden checks.")
-@click.option(
-    "--feedback",
-    type=click.Choice(FEEDBACK),
-    default="policy",
-    show_default=True,
-    help="How much it says about failed checks (default: as the assignment's feedback: says).",
-)
+@options.feedback
 def convert(form: str, report: Path, show_hidden: bool, feedback: str) -> int:
     """Print a report.json in the format of another system (FORM), in the report's language.
 
@@ -74,12 +68,7 @@ def _as_in(form: Callable[[Report, bool], str], show_hidden: bool, report: Repor
 
 
 def _read(path: Path, feedback: str) -> Report:
-    from grader.report.detail import FeedbackRules  # noqa: PLC0415 - keeps --help fast
+    from grader.report.feedback import with_rules  # noqa: PLC0415 - keeps --help fast
     from grader.report.files import read_report  # noqa: PLC0415
 
-    report = read_report(path)
-    if feedback == "policy":
-        return report
-    rules = FeedbackRules.model_validate(feedback)
-    info = report.assignment.model_copy(update={"feedback": rules})
-    return report.model_copy(update={"assignment": info})
+    return with_rules(read_report(path), feedback)

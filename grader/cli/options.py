@@ -33,6 +33,8 @@ class GivenFile(click.Path):
             raise click.BadParameter(text, ctx=ctx, param=param) from None
 
 
+FEEDBACK = ("policy", "full", "hints", "where", "score")
+"""`AS_POLICY` and `WORDS` of `grader.report.detail`, which imports pydantic."""
 CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
 assignment = click.option(
     "--assignment",
@@ -75,6 +77,13 @@ lang = click.option(
     "--lang",
     type=click.Choice(["en", "ko"]),
     help=msg("The language of the texts (default: from LC_ALL, LANG and LANGUAGE)."),
+)
+feedback = click.option(
+    "--feedback",
+    type=click.Choice(FEEDBACK),
+    default=FEEDBACK[0],
+    show_default=True,
+    help="How much it says about failed checks (default: as the assignment's feedback: says).",
 )
 verbose = click.option(
     "-v", "--verbose", is_flag=True, help=msg("Show the evidence of every check.")

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from grader.base.errors import UsageError
 from grader.cli import options
+
+if TYPE_CHECKING:
+    from grader.validate.matrix import Matrix
 
 
 @click.command()
@@ -27,6 +31,13 @@ from grader.cli import options
     help="Also write the mutants to this new folder, to mark one with `grader grade`.",
 )
 @click.option(
+    "--show",
+    default="",
+    metavar="NAME|all",
+    help="Print what a student would read about this mutant, or about each one.",
+)
+@options.feedback
+@click.option(
     "--json",
     "json_file",
     type=click.Path(path_type=Path, dir_okay=False),
@@ -36,6 +47,7 @@ from grader.cli import options
 @options.one_distro
 @options.sandbox
 @options.limits
+@options.lang
 def validate(
     assignment: str | None,
     static: bool,
@@ -43,11 +55,14 @@ def validate(
     only: str,
     named: bool,
     keep: Path | None,
+    show: str,
+    feedback: str,
     json_file: Path | None,
     keys: Path | None,
     distro: str,
     sandbox: str,
     limits: tuple[str, ...],
+    lang: str | None,
 ) -> int:
     """Test an assignment: mark its solution, starter and mutants, and check the verdicts.
 
@@ -59,8 +74,12 @@ def validate(
     from grader.validate import matrix, validation  # noqa: PLC0415
     from grader.verdict.order import make_orders  # noqa: PLC0415
 
+    if show and static:
+        raise click.UsageError("--show builds and runs the mutants: leave out --static")
+    if not show and feedback != options.FEEDBACK[0]:
+        raise click.UsageError("--feedback is about --show: name a mutant, or all")
     file = assignment_file(assignment)
-    order, *others = make_orders(Path(), assignment, distro, sandbox, limits, keys=keys, lang="en")
+    order, *others = make_orders(Path(), assignment, distro, sandbox, limits, keys=keys, lang=lang)
     if others:
         raise click.UsageError("validate marks on one distro: name one")
     folder = keys or own_keys(file)
@@ -69,8 +88,8 @@ def validate(
             f"no folder is given for the solution of {order.assignment.id}",
             remedy="Give the instructor's folder of the assignment with --keys (make: KEYS=…).",
         )
-    options = validation.ValidationOptions(
-        order=replace(order, tries_fixes=False),
+    wanted = validation.ValidationOptions(
+        order=replace(order, tries_fixes=bool(show)),
         keys=folder,
         starter=validation.starter_of(file),
         static=static,
@@ -78,11 +97,30 @@ def validate(
         only=only,
         named=named,
         keep=keep,
+        show=show,
     )
-    found = validation.validate(options, notify=lambda text: click.echo(text, err=True))
-    click.echo(matrix.table(found))
-    click.echo()
+    found = validation.validate(wanted, notify=lambda text: click.echo(text, err=True))
+    if show:
+        _print_reports(found, feedback)
+    else:
+        click.echo(matrix.table(found))
+        click.echo()
     click.echo(matrix.summary(found))
     if json_file is not None:
         validation.write_json(found, json_file)
     return 1 if found.faults else 0
+
+
+def _print_reports(found: Matrix, feedback: str) -> None:
+    """Print what a student would read about each mutant."""
+    from grader.report import terminal  # noqa: PLC0415 - keeps --help fast
+    from grader.validate.shown import as_student_reads, heading  # noqa: PLC0415
+    from grader.verdict.checks.all import QUOTES  # noqa: PLC0415
+
+    for row in found.rows:
+        click.echo(heading(row))
+        click.echo()
+        report = as_student_reads(row, feedback)
+        if report is not None:
+            terminal.print_report(report, quotes=QUOTES)
+        click.echo()

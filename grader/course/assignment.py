@@ -237,11 +237,12 @@ class Assignment(Part):
         )
 
     def types(self) -> Iterator[str]:
-        """Yield the types of its runs and checks."""
+        """Yield the interface types of its runs and checks; a parameter's, such as double, is none."""
         for plan in self.runs:
             yield from plan.topics.values()
             yield from (what.type for one in plan.do for what in one.typed.values())
-        yield from (str(use.with_["type"]) for use in self.checks if "type" in use.with_)
+        named = (str(use.with_.get("type", "")) for use in self.checks)
+        yield from (name for name in named if "/" in name)
 
     @property
     def max_score(self) -> float:

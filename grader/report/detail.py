@@ -14,6 +14,8 @@ from grader.base.part import Part
 
 Feedback = Literal["full", "hints", "where", "score"]
 WORDS: tuple[Feedback, ...] = get_args(Feedback)
+AS_POLICY = "policy"
+"""In place of a word: as the assignment's `feedback:` says."""
 
 
 class Detail(IntEnum):

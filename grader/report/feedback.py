@@ -11,7 +11,7 @@ from datetime import datetime, timezone
 
 from grader.base.i18n.translator import Translator
 from grader.report.blocks import UNSEEN, roots
-from grader.report.detail import Detail, FeedbackRules
+from grader.report.detail import AS_POLICY, Detail, FeedbackRules
 from grader.report.model import CheckResult, Evidence, Mistake, Report, RunInfo
 
 OF_DETAIL: Mapping[Detail, Mapping[str, object]] = {  # what a level adds: the fields it fills
@@ -85,6 +85,18 @@ def handed_back(
     due, rules = report.assignment.due, report.assignment.feedback
     detail = rules.handed_back(due, now or datetime.now(timezone.utc))
     return with_feedback(report, detail, show_hidden=show_hidden)
+
+
+def with_rules(report: Report, word: str) -> Report:
+    """Return the report with a feedback word in place of its assignment's rules.
+
+    `AS_POLICY` keeps them. The word is one of `detail.WORDS`.
+    """
+    if word == AS_POLICY:
+        return report
+    rules = FeedbackRules.model_validate(word)
+    info = report.assignment.model_copy(update={"feedback": rules})
+    return report.model_copy(update={"assignment": info})
 
 
 def for_lab(

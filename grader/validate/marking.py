@@ -16,7 +16,7 @@ from grader.batch.work import Done, Task
 from grader.package.edit.tree import Tree, write_tree
 from grader.package.submission import Submission
 from grader.publish.class_run import MOST_A_CORE
-from grader.report.model import CheckResult, CheckStatus
+from grader.report.model import CheckResult, CheckStatus, Report
 from grader.verdict.order import Order
 from grader.verdict.own_checks import static_of
 from grader.verdict.static import evaluate_static
@@ -31,7 +31,7 @@ class Marked:
     """The result of marking a package: each check's status, and the mistakes of failed checks.
 
     `problem` is the reason if it could not be marked, `seconds` the duration (0 for files only),
-    `transcript` the end of what the program printed.
+    `transcript` the end of what the program printed, `report` the whole report if it was built.
     """
 
     status: Mapping[str, CheckStatus]
@@ -41,6 +41,7 @@ class Marked:
     seconds: float = 0
     problem: str = ""
     transcript: str = ""
+    report: Report | None = None
 
     @property
     def failed(self) -> tuple[str, ...]:
@@ -105,7 +106,8 @@ def _of(done: Done) -> Marked:
         last = done.answer.fault.strip().splitlines()[-1:]
         return Marked({}, problem=last[0] if last else "the grader itself failed")
     marked = _marked(report.checks, score=report.score, ran=True, seconds=report.timing.total)
-    return replace(marked, transcript=report.evidence.transcript[-MOST_TRANSCRIPT:])
+    end = report.evidence.transcript[-MOST_TRANSCRIPT:]
+    return replace(marked, transcript=end, report=report)
 
 
 def _marked(

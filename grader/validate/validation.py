@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from grader.base.errors import AssignmentError, UsageError
+from grader.base.nearest import nearest
 from grader.course.assignment import Assignment
 from grader.course.shorthands import SHORTHANDS
 from grader.mistakes.catalogue import CATALOGUE
@@ -24,6 +25,7 @@ from grader.verdict.order import Order
 from grader.verdict.own_checks import checks_of
 
 ALL = "*"
+SHOW_ALL = "all"
 PROGRESS_EVERY = 10.0  # seconds between two lines of progress
 SOLUTION, STARTER = "the solution", "the starter"
 
@@ -35,7 +37,8 @@ class ValidationOptions:
     `keys` holds the solution and mutants.yaml, `starter` what students begin with (None: nothing).
     `static`: only mutants that their files decide; `only`: only names that match the pattern;
     `named`: only those of mutants.yaml; `workers`: how many are marked at once (0: as a class is
-    marked); `keep`: a folder to which the mutants are written as packages.
+    marked); `keep`: a folder to which the mutants are written as packages. `show`: the one mutant
+    whose report is wanted, or `SHOW_ALL`; then each is built and run, and nothing else is marked.
     """
 
     order: Order
@@ -46,6 +49,7 @@ class ValidationOptions:
     only: str = ALL
     named: bool = False
     keep: Path | None = None
+    show: str = ""
 
 
 def validate(options: ValidationOptions, notify: Callable[[str], None]) -> Matrix:
@@ -57,17 +61,18 @@ def validate(options: ValidationOptions, notify: Callable[[str], None]) -> Matri
     assignment = options.order.assignment
     original = solution_of(options.keys, assignment)
     mutants = collect(options, original)
-    wanted = [m for m in mutants if m.mistake or m.named] if options.named else mutants
-    chosen = [m for m in wanted if fnmatch.fnmatchcase(m.name, options.only)]
-    if not chosen and options.only != ALL:
-        raise UsageError(f"no mutant's name matches '{options.only}'")
+    chosen = _chosen(mutants, options)
     if options.keep is not None:
         keep(chosen, original, assignment, options.keep)
         notify(f"{len(chosen)} mutants written to {options.keep}")
-    marked, waiting = _by_files(chosen, original, options.order)
-    if not options.static:
-        notify(f"{len(marked)} mutants decided by their files, {len(waiting)} to be run")
-        marked |= _by_running({**_ends(options), **waiting}, options, notify)
+    if options.show:
+        waiting = {m.name: submit(m.of(original), options.order) for m in chosen}
+        marked = _by_running(waiting, options, notify)
+    else:
+        marked, waiting = _by_files(chosen, original, options.order)
+        if not options.static:
+            notify(f"{len(marked)} mutants decided by their files, {len(waiting)} to be run")
+            marked |= _by_running({**_ends(options), **waiting}, options, notify)
     rows = tuple(MutantResult(m, marked[m.name]) for m in chosen if m.name in marked)
     return Matrix(
         assignment=assignment.id,
@@ -79,6 +84,26 @@ def validate(options: ValidationOptions, notify: Callable[[str], None]) -> Matri
         starter=marked.get(STARTER),
         seconds=time.monotonic() - begin,
     )
+
+
+def _chosen(mutants: list[Mutant], options: ValidationOptions) -> list[Mutant]:
+    """Return the mutants that the options choose. Raises UsageError if there is none."""
+    if options.show not in ("", SHOW_ALL):
+        chosen = [m for m in mutants if m.name == options.show]
+        if not chosen:
+            close = nearest(options.show, [m.name for m in mutants])
+            raise UsageError(
+                f"there is no mutant '{options.show}'",
+                remedy=f"Did you mean '{close}'?"
+                if close
+                else "`validate --static` lists the names of the mutants.",
+            )
+        return chosen
+    wanted = [m for m in mutants if m.mistake or m.named] if options.named else mutants
+    chosen = [m for m in wanted if fnmatch.fnmatchcase(m.name, options.only)]
+    if not chosen and options.only != ALL:
+        raise UsageError(f"no mutant's name matches '{options.only}'")
+    return chosen
 
 
 def collect(options: ValidationOptions, original: Tree) -> list[Mutant]:
