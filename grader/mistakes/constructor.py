@@ -202,8 +202,17 @@ def _underscores(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
 
 
 def _init_of_other_name(raised: Raised, method: Function) -> RecognisedMistake:
-    """Another method than __init__ calls the __init__ of Node, and lines may call this method."""
-    calls = [c for c, name in raised.source.calls if last_part(name) == method.name]
+    """Another method than __init__ calls the __init__ of Node, and lines may call this method.
+
+    If it has the name of its class, as in other languages, a call of the name makes the node.
+    """
+    own = raised.source.node_class
+    named = f"self.{method.name}" if own is not None and own.name == method.name else ""
+    calls = [
+        call
+        for call, name in raised.source.calls
+        if (name == named if named else last_part(name) == method.name)
+    ]
     rows = ", ".join(str(row) for row in sorted({call.lineno for call in calls}))
     params = {"name": method.name, **({"lines": rows} if calls else {})}
     found = raised.finding("init_other_name", at=method, params=params)

@@ -81,6 +81,15 @@ def test_a_set_up_that_main_calls_becomes_init_and_its_call_goes() -> None:
     assert texts(at_error(NO_NAME, text, "= MyFirstNode()"))[0] == "node.init_underscores/"
 
 
+def test_a_set_up_with_the_name_of_its_class_is_not_called_by_the_line_that_makes_the_node() -> (
+    None
+):
+    text = HEAD + START.replace("__init__(self)", "MyFirstNode(self)") + CALLBACK + MAIN
+    kind, _, fix = texts(at_error(NO_NAME, text, "node = MyFirstNode()"))
+    assert kind == "node.init_other_name/uncalled"
+    assert "Delete" not in fix
+
+
 def test_a_plain_node_is_not_told_to_call_super() -> None:
     text = (HEAD + START + CALLBACK + MAIN).replace("= MyFirstNode()", "= Node()")
     kind, _, fix = texts(at_error(NO_NAME, text, "= Node()"))
