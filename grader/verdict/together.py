@@ -54,7 +54,7 @@ def _fix_of_node(part: CheckResult) -> str:
         return joined(part.node, part.fix, by=": ")
     line = "" if part.where.line is None else f":{part.where.line}"
     place = f"{part.where.file}{line}"
-    return say("{node} ({place}): {text}", node=part.node, place=place, text=part.fix)
+    return joined(f"{part.node} ({place})", part.fix, by=": ")
 
 
 def _advice(parts: Sequence[CheckResult]) -> Iterator[str]:
