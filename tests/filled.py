@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import gettext
 import re
 from functools import cache
 
-from grader.cli.update_translations import plurals, templates
+from grader.base.i18n.translator import DOMAIN, FOLDER
 from grader.report.model import Report
 
 PLACE = re.compile(r".{0,8}\{[a-z_]+\}.{0,8}")
@@ -23,6 +24,7 @@ def unfilled(report: Report) -> list[str]:
 
 @cache
 def _templates() -> str:
-    """Return all templates, as they are in the source."""
-    ones = [template for template, _ in templates()]
-    return "\n".join([*ones, *(text for both, _ in plurals() for text in both)])
+    """Return all templates: each has a translation, so they are the keys of the compiled file."""
+    with (FOLDER / "ko" / "LC_MESSAGES" / f"{DOMAIN}.mo").open("rb") as file:
+        texts = gettext.GNUTranslations(file)._catalog  # type: ignore[attr-defined]
+    return "\n".join(key if isinstance(key, str) else key[0] for key in texts)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
@@ -85,6 +86,12 @@ def main():
 def marked(folder: Path, client: str) -> Report:
     package = folder / "ana"
     shutil.copytree(SOLUTION, package)
+    setup = package / "setup.py"
+    text = setup.read_text(encoding="utf-8")
+    client_entry = '"console_scripts": ["test_node = my_robot_controller.my_first_node:main",'
+    text, count = re.subn(r"""['"]console_scripts['"]: \[""", client_entry, text)
+    assert count == 1
+    setup.write_text(text, encoding="utf-8")
     inner = package / "my_robot_controller"
     (inner / "draw_circle.py").write_text(SERVER, encoding="utf-8")
     (inner / "my_first_node.py").write_text(client, encoding="utf-8")

@@ -68,10 +68,13 @@ def _run_as_json(run: Run) -> dict[str, Any]:
     found["watch"]["seen"] = _events().dump_python(seen, mode="json")
     note = run.watch.note
     found["watch"]["note"] = note.template if isinstance(note, Message) else note
+    del found["exits"], found["done"]  # which the plan says, and the program's end
     if run.seen is None:  # a run that is no scenario's
         del found["seen"], found["name"]
-    elif not run.seen.silent:
-        del found["seen"]["silent"]
+    else:
+        for name in ("silent", "unusable"):
+            if not found["seen"][name]:
+                del found["seen"][name]
     if not run.others:
         del found["others"]
     if not run.watch.silent:  # of no watch on the wall clock
