@@ -178,9 +178,8 @@ class _Scene:
 
     @property
     def over(self) -> bool:
-        """Whether the run cannot go on; it does without the programs that have to end."""
-        lasting = [one for one, plan in zip(self.terminals, self.plan.start) if not plan.exits]
-        ended = bool(lasting) and all(terminal.ended or terminal.flooded for terminal in lasting)
+        """Whether the run cannot go on."""
+        ended = all(terminal.ended or terminal.flooded for terminal in self.terminals)
         stuck = self._unanswered >= UNANSWERED
         return ended or stuck or self.observer.flooded or self._run_clock.now() > self.deadline
 
@@ -235,7 +234,7 @@ class _Scene:
                     break
                 if now - first_seen > (COMPLETE_SECONDS if alone else most):
                     break
-            elif now - begin > most or all(terminal.ended for terminal in self.terminals):
+            elif now - begin > most:
                 return
         self._read_names()
 

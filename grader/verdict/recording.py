@@ -68,7 +68,6 @@ def _run_as_json(run: Run) -> dict[str, Any]:
     found["watch"]["seen"] = _events().dump_python(seen, mode="json")
     note = run.watch.note
     found["watch"]["note"] = note.template if isinstance(note, Message) else note
-    del found["exits"], found["done"]  # which the plan says, and the program's end
     if run.seen is None:  # a run that is no scenario's
         del found["seen"], found["name"]
     else:
