@@ -27,6 +27,7 @@ class Goals:
         self.feedback: list[Any] = []  # subscriptions
         self.sent: dict[bytes, str] = {}  # the name of each goal by its id
         self.accepted: dict[str, Any] = {}  # the handles of goals
+        self.open: set[str] = set()  # those that were accepted and have not ended
         self.became: list[list[Any]] = []  # name, what, values: since the last answer
 
     def take_feedback(self) -> None:
@@ -50,6 +51,7 @@ class Goals:
 
         def ended(future: Any) -> None:
             answer = future.result()
+            self.open.discard(name)
             status = STATUS.get(answer.status)
             if status:
                 tell(status, Values().of(answer.result))
@@ -59,6 +61,7 @@ class Goals:
             tell("accepted" if handle.accepted else "refused")
             if handle.accepted:
                 self.accepted[name] = handle
+                self.open.add(name)
                 handle.get_result_async().add_done_callback(ended)
 
         goal_id = UUID(uuid=list(uuid4().bytes))
