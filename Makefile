@@ -18,11 +18,12 @@ BOOTSTRAP := python3 grader/bootstrap.py $${PYTHON:+--python "$$PYTHON"}
 PYTEST := .venv/bin/python -m pytest -q --dist worksteal -n $$(( $$(getconf _NPROCESSORS_ONLN) + 1 ))
 # those with containers and real runs wait for a third of their time
 PYTEST_FULL := .venv/bin/python -m pytest -q --dist worksteal -n $$(( 2 * $$(getconf _NPROCESSORS_ONLN) ))
-# those that keep every core busy run after the others (PYTEST_ARGS chooses a part: all at once)
-ALONE := .venv/bin/python -m pytest -q -p no:xdist tests/test_load.py
+# those that keep every core busy, or whose limits in wall time need a quiet machine, run after the
+# others (PYTEST_ARGS chooses a part: all at once)
+ALONE := .venv/bin/python -m pytest -q -p no:xdist tests/test_load.py tests/test_ceiling.py
 define run_tests
 if [ -n "$${PYTEST_ARGS:-}" ]; then $(PYTEST_FULL) -m "$(1)" $${PYTEST_ARGS}; \
-  else $(PYTEST_FULL) -m "($(1)) and not alone" && $(ALONE) -m "$(1)"; fi
+  else $(PYTEST_FULL) -m "($(1)) and not alone" && $(ALONE) -m "($(1)) and alone"; fi
 endef
 # the tests whose verdicts are from recorded evidence
 RECORDED := tests/test_verdicts.py tests/test_build_check.py tests/fix tests/mistakes/test_korean_verdicts.py \

@@ -170,6 +170,7 @@ SETUP = "install/local_setup.bash"
 
 @pytest.mark.full
 @pytest.mark.prefix
+@pytest.mark.alone  # (its limits, measured in the time in which it had a core, are longer beside others)
 def test_a_node_that_ignores_signals_and_prints_dots_has_a_quick_verdict(tmp_path: Path) -> None:
     package = next(package for package in HOSTILE if package.name == "deaf_and_prints_dots")
     begin = time.monotonic()
