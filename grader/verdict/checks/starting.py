@@ -101,6 +101,10 @@ def _ended(evidence: Evidence) -> Outcome:
         if evidence.has_failed(cause):
             return Blocked(by=cause)
     if f"Package '{evidence.assignment.package}' not found" in run.transcript:
+        for use in evidence.assignment.checks:
+            is_this = use.with_.get("package") == evidence.assignment.package
+            if use.kind == "package.beside" and is_this and evidence.has_failed(use.id):
+                return Blocked(by=use.id)
         manifest = evidence.has_failed("package.manifest")
         return Blocked(by="package.manifest" if manifest else "build.colcon")
     error, where = traceback_of(evidence, run)
