@@ -86,9 +86,9 @@ class Node(ProbeLink):
             self._at_once = self._at_once * (1 + self._multiplies) + self._grows
         return Answer(barrier=self._barrier, logs=tuple(logs))
 
-    def _log(self) -> LogRecord:
+    def _log(self, stamp: int | None = None) -> LogRecord:
         text = self._text.format(n=self._count)
-        stamp = time.time_ns()
+        stamp = stamp or time.time_ns()
         line = f"[INFO] [{stamp // SECOND}.{stamp % SECOND:09}] [node]: {text}\r\n"
         before, after = (words.format(n=self._count) for words in self._prints)
         pieces = (before, line, after)
@@ -261,31 +261,36 @@ def test_lines_of_the_clock_are_not_several_at_one_time_on_the_wall() -> None:
     assert [(event.n, event.due) for event in watch.counted] == [(0, None), (1, None)]
 
 
-def test_the_period_on_the_wall_is_that_of_the_lines_of_then() -> None:
-    console = SlowConsole()
-    node = OnTheWall(console, [0.1, 0.2, 0.3])
-    observer = Observer(Terminal(console, most=1_000_000), node, OUTPUT)
+@pytest.mark.parametrize(("moments", "silent"), [([0.1, 0.2, 0.3], 1.0), ([0.6, 0.7, 0.8], 0.7)])
+def test_the_period_on_the_wall_is_that_of_the_lines_of_then(
+    moments: list[float], silent: float
+) -> None:
+    console, clock = SlowConsole(), SetClock()
+    node = OnTheWall(console, clock, list(moments))
+    observer = Observer(Terminal(console, most=1_000_000, run_clock=clock), node, OUTPUT)
     now = time.time()
     fast = [Event(f"Hello time: {n}", now - 1 + n / 100, n, "logger", n, due=n) for n in range(9)]
     watch = Watch(events=fast)
-    watch_wall(observer, OUTPUT, watch, lambda event: None, deadline=time.monotonic() + 1.5)
+    watch_wall(observer, OUTPUT, watch, lambda event: None, deadline=1.5)
     assert len(watch.counted) == 12
-    assert watch.period == pytest.approx(0.1, abs=0.05)
-    assert 1.0 < watch.silent < 1.6
+    assert watch.period == pytest.approx(0.1, abs=0.02)
+    assert watch.silent == pytest.approx(silent, abs=0.02)
 
 
 class OnTheWall(Node):
-    """A node that logs at moments of the wall clock, in seconds."""
+    """A node that logs at moments of a clock, in seconds; each look at it takes a hundredth."""
 
-    def __init__(self, console: SlowConsole, moments: list[float]) -> None:
+    def __init__(self, console: SlowConsole, clock: SetClock, moments: list[float]) -> None:
         super().__init__(console)
-        self._moments, self._began = moments, time.monotonic()
+        self._moments, self._clock, self._began = moments, clock, time.time_ns()
 
     def ask(self, do: str, *, seconds: float = 0, **more: int | str) -> Answer:
-        time.sleep(0.01)
-        due = self._moments and time.monotonic() - self._began > self._moments[0]
-        logs = [self._log()] if due else []
-        del self._moments[: len(logs)]
+        time.sleep(0.01)  # (no limit is over before its seconds on the wall)
+        self._clock.at += 0.01
+        logs = []
+        if self._moments and self._clock.at > self._moments[0]:
+            del self._moments[0]
+            logs = [self._log(self._began + round(self._clock.at * SECOND) + SECOND)]
         return Answer(barrier=True, logs=tuple(logs))
 
 

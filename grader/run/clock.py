@@ -470,6 +470,8 @@ def watch_wall(
     waited, quiet = seconds_waited(node), now
     first = observer.watch_still(min(end - now, FIRST_SECONDS))
     watch.events += first
+    if any(event.wall >= began for event in watch.counted):
+        quiet = observer.run_clock.now()
     for event in first:
         on_event(event)
     while observer.run_clock.now() < end and not observer.over:
