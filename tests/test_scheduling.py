@@ -76,6 +76,35 @@ def test_waiting_for_cores_that_the_run_itself_has_is_its_own_time(
     assert clock.now(at_once=True) - before == pytest.approx(0.6, abs=0.03)
 
 
+def test_threads_that_compute_side_by_side_wait_at_the_same_time(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """As of two workers of a build that share a core, while others have the second one."""
+    looks = Looks(monkeypatch)
+    clock = RunClock(lambda: ())
+    for _ in range(300):
+        looks.after(0.02, busy=0.04, ran=0.02, waited=0.02)
+        clock.now(at_once=True)
+    before = clock.now(at_once=True)
+    for _ in range(100):
+        looks.after(0.02, busy=0.04, ran=0.02, waited=0.02)
+        clock.now(at_once=True)
+    assert clock.now(at_once=True) - before == pytest.approx(1.0, abs=0.05)
+
+
+def test_a_wait_that_is_seen_when_it_is_over_is_made_up_for(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    looks = Looks(monkeypatch)
+    clock = RunClock(lambda: ())
+    before = clock.now()
+    for _ in range(20):  # (each wait takes five looks)
+        for waited in (0.0, 0.0, 0.0, 0.0, 0.09):
+            looks.after(0.02, busy=0.04, ran=0.002, waited=waited)
+            clock.now(at_once=True)
+    assert clock.now(at_once=True) - before == pytest.approx(0.2, abs=0.1)
+
+
 def test_a_limit_on_a_busy_machine_comes_to_an_end_that_proves_nothing(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

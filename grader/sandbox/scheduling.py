@@ -31,9 +31,12 @@ SAMPLE_SECONDS = 0.02  # of wall time between two looks at the processes
 LOOKS_COST = 20  # times its own duration until the next look, so that it takes 5 % of a core
 PACE_SECONDS = 1.0  # of wall time over which the pace is measured
 SLICE_SECONDS = 0.25  # of wall time for which one may wait without asking the clock
+MOST_OWED = 0.5  # seconds of a wait that the kernel counts when it is over
 MOST_SPARE = 0.5  # seconds that others had a core, and for which one may wait later
+FADE_SECONDS = 1.0  # in which what is known of threads side by side counts half
 SHORT_SECONDS = 0.3  # of a limit for which the clock is read anew each time
 NO_EVIDENCE = 0.5  # of a limit: what may pass although processes wait, before it is no evidence
+CORES = os.cpu_count() or 1
 TICKS = os.sysconf("SC_CLK_TCK")
 
 
@@ -87,7 +90,8 @@ class RunClock:
         self._now = self._latest.at
         self._next = self._latest.at + SAMPLE_SECONDS
         self._by_others = 0.0  # seconds that others had a core, and nobody has waited for
-        self._owed = self._longest_before = 0.0
+        self._owed = 0.0  # seconds by which it is ahead: of waits that began before they were seen
+        self._passed = self._wanted = FADE_SECONDS
         self.forced = 0.0
         """Seconds by which it went on although processes waited."""
         self.starved = False
@@ -102,9 +106,9 @@ class RunClock:
             before, self._latest = self._latest, self._look()
             passed = self._latest.at - before.at
             own = passed - self._starved(before, self._latest) - self._owed
-            self._owed = min(max(0.0, -own), self._longest_before)
             least = passed / STRETCH
-            self.forced += max(0.0, least - own)
+            self._owed = min(max(0.0, least - own), MOST_OWED)
+            self.forced += max(0.0, least - max(own, 0.0))
             self._now += max(own, least)
             wall, passed = self._latest.at - self._paced[0], self._now - self._paced[1]
             if wall > PACE_SECONDS:
@@ -118,21 +122,31 @@ class RunClock:
         """Return the seconds since a look in which a process waited for a core of others, at most.
 
         The kernel counts a wait when it is over, so that it may have begun before that look: that
-        part is owed. Others' time on a core counts for a while.
+        part is owed to the looks that follow. Others' time on a core counts for a while.
         """
         passed = after.at - before.at
-        waited = ran = longest = 0
+        waited = ran = 0.0
         for key, (on_core, waiting) in after.threads.items():
             ran_before, waited_before = before.threads.get(key, (0, 0))
             ran += on_core - ran_before
             waited += waiting - waited_before
-            longest = max(longest, waiting - waited_before)
-        self._longest_before = max(0.0, longest / SECOND - passed)
         others = max(0.0, after.busy - before.busy - ran / SECOND)
         self._by_others = min(self._by_others, MOST_SPARE) + others + 2 / TICKS
-        starved = min(waited / SECOND, self._by_others)
+        starved = min(
+            waited / SECOND / self._side_by_side(passed, (ran + waited) / SECOND), self._by_others
+        )
         self._by_others -= starved
-        return starved + after.stolen - before.stolen
+        return starved + (after.stolen - before.stolen) / CORES
+
+    def _side_by_side(self, passed: float, wanted: float) -> float:
+        """Return how many threads wanted a core at once lately, at least 1.
+
+        Threads that wait for one another wait one after the other, and what each waits holds the run
+        up. Threads that compute side by side wait at the same time.
+        """
+        fades = 2 ** (-passed / FADE_SECONDS)
+        self._passed, self._wanted = self._passed * fades + passed, self._wanted * fades + wanted
+        return max(1.0, min(self._wanted / self._passed, wanted / max(passed, 1e-9)))
 
     def limit(self, seconds: float) -> Limit:
         """Return a limit that begins now."""
