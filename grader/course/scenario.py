@@ -46,12 +46,14 @@ class Start(_Part):
     """The start of a node, with what `ros2 run` gives it.
 
     `arguments` are the program's own words, before `--ros-args`; `params_file` is a file of
-    parameters in the node's package, such as config/limits.yaml.
+    parameters in the node's package, such as config/limits.yaml. A program that `exits` ends by
+    itself, with status 0, before the run does: a client that asks once, for example.
     """
 
     node: str
     arguments: tuple[str, ...] = Field(default=(), exclude_if=lambda words: not words)
     params_file: str = Field(default="", exclude_if=lambda path: not path)
+    exits: bool = Field(default=False, exclude_if=lambda given: not given)
     parameters: dict[str, Value] = Field(default_factory=dict)
     remap: dict[str, str] = Field(default_factory=dict)
     namespace: str = ""

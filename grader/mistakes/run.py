@@ -431,6 +431,20 @@ KINDS = (
         links.EXECUTORS,
     ),
     _run(
+        "does_not_end",
+        "callback",
+        msg("The program does not end by itself"),
+        msg(
+            "This program has to end when its work is done. rclpy.spin returns only at Ctrl+C. "
+            "rclpy.spin_until_future_complete returns as soon as the future has its result."
+        ),
+        msg(
+            "Let the function of the entry point return when the work is done, for example when the "
+            "answer of the service is there. Below that line, nothing may spin or wait."
+        ),
+        links.SERVICES,
+    ),
+    _run(
         "stops",
         "timer",
         msg("The lines stop coming"),

@@ -178,19 +178,22 @@ class _Scene:
 
     @property
     def over(self) -> bool:
-        """Whether the run cannot go on."""
-        ended = all(terminal.ended or terminal.flooded for terminal in self.terminals)
+        """Whether the run cannot go on; it does without the programs that have to end."""
+        lasting = [one for one, plan in zip(self.terminals, self.plan.start) if not plan.exits]
+        ended = bool(lasting) and all(terminal.ended or terminal.flooded for terminal in lasting)
         stuck = self._unanswered >= UNANSWERED
         return ended or stuck or self.observer.flooded or self._run_clock.now() > self.deadline
 
     def play(self, begin: float, most: float) -> None:
         """Wait for the nodes, then go through all instants of the plan."""
         run, watch = self.run, self.run.watch
+        self.observer.lossy = True
         self._wait_for_nodes(begin, most)
         if run.nodes and not self.over:
             watch.clock = "virtual"
             watch.settled = self._settle()
             self._await_dying()
+            self.observer.lossy = any(start.exits for start in self.plan.start)
             for other, terminal in zip(run.others, self.terminals[1:]):
                 other.started = not terminal.ended
             self._look()
@@ -234,7 +237,7 @@ class _Scene:
                     break
                 if now - first_seen > (COMPLETE_SECONDS if alone else most):
                     break
-            elif now - begin > most:
+            elif now - begin > most or all(terminal.ended for terminal in self.terminals):
                 return
         self._read_names()
 

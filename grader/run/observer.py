@@ -22,6 +22,7 @@ BELOW_RCLPY = re.compile(r"(?:rcl|rcutils|rmw)(?:[._][\w.]{0,80})?")  # names of
 FLOOD = 200  # lines per second of the run's time, above which a program does not wait between them
 MOST_SLOWED = 8  # times as many lines as it has had wall time for may be due to a busy machine
 COMPARED = 1_000  # characters of a log line and its record; both are cut later than that
+LEVELS = {"DEBUG": 10, "INFO": 20, "WARN": 30, "ERROR": 40, "FATAL": 50}
 PREFIX = 60  # bytes, about, that a log line on the terminal has in front of its text
 
 Source = Literal["logger", "print", "faked"]
@@ -156,6 +157,21 @@ def number_reader(output: Output) -> Callable[[str], int | None]:
     return number
 
 
+@dataclass(frozen=True)
+class _Unmatched:
+    """A line that looks like a log record, which has not come yet.
+
+    `came` is when it was read by the run's clock, `virtual` in ROS time; `lacks` is whether it may
+    have none although it was logged: DDS loses what is sent while two are getting to know one
+    another, and the publisher of a program that ends may be gone before.
+    """
+
+    line: Line
+    came: float
+    virtual: float
+    lacks: bool
+
+
 class Observer:
     """Merges the lines of the terminal with the log records of ROS.
 
@@ -175,7 +191,7 @@ class Observer:
         self.output = output
         self.number = number_reader(output)
         self.run_clock = terminal.run_clock
-        self._unmatched: list[tuple[Line, float]] = []  # with when it was read, by the run's clock
+        self._unmatched: list[_Unmatched] = []
         self.records: list[LogRecord] = []
         self._shown: set[int] = set()  # the stamps of the records that a terminal showed
         self.now = 0.0  # virtual seconds
@@ -183,6 +199,7 @@ class Observer:
             0.0  # seconds of a watch on the wall clock: the node's wait for a core, by line
         )
         self._linked: float | None = None
+        self.lossy = False  # whether log records may be lost without anybody's fault
         self._mirrored = True  # whether log records appear on the terminal
         self.logged = 0  # bytes that the log records would take on a terminal
         self._flooding = False  # whether lines came without a pause
@@ -220,12 +237,14 @@ class Observer:
         for line in self.terminal.read(seconds):
             for part in line.parts():
                 if _is_of_a_node(part):
-                    self._unmatched.append((part, now))
+                    self._unmatched.append(_Unmatched(part, now, self.now, self.lossy))
                 elif part.log is None and part.text.strip():
                     events.append(self._event(part.text, part.wall, "print", None))
         for other in self.others:
             parts = (part for line in other.read() for part in line.parts())
-            self._unmatched += [(part, now) for part in parts if _is_of_a_node(part)]
+            self._unmatched += [
+                _Unmatched(part, now, self.now, self.lossy) for part in parts if _is_of_a_node(part)
+            ]
         return events + self._match()
 
     def _of_record(self, record: LogRecord) -> Event:
@@ -237,21 +256,29 @@ class Observer:
         return Event(text, wall, self.now, source, self.number(text), record=record)
 
     def _match(self) -> list[Event]:
-        """Return the lines that look like log records but have had none for the grace time."""
+        """Return the lines that look like log records but have had none for the grace time.
+
+        Those that may lack one count as logged.
+        """
         known = {
             (r.stamp, r.name, without_codes(r.text.split("\n")[0])[:COMPARED])
             for r in self.records[-4000:]
         }
         faked, waiting = [], []
-        for line, came in self._unmatched:
-            assert line.log is not None
-            _, stamp, name, text = line.log
+        for one in self._unmatched:
+            assert one.line.log is not None
+            level, stamp, name, text = one.line.log
             if (stamp, name, text[:COMPARED]) in known:
                 self._shown.add(stamp)
-            elif self._is_overdue(came):
-                faked.append(replace(self._event(text, line.wall, "faked", None), logger=name))
+            elif not self._is_overdue(one.came):
+                waiting.append(one)
+            elif one.lacks:
+                self._shown.add(stamp)
+                record = LogRecord(LEVELS.get(level, 20), name, text, "", "", 0, stamp)
+                event = self._event(text, one.line.wall, "logger", record)
+                faked.append(replace(event, virtual=one.virtual))
             else:
-                waiting.append((line, came))
+                faked.append(replace(self._event(text, one.line.wall, "faked", None), logger=name))
         self._unmatched = waiting
         return faked
 

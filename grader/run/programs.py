@@ -45,6 +45,15 @@ def of_program(run: Run, assignment: Assignment, plan: RunPlan, start: int) -> R
 
     Its nodes, its lines, its end and its transcript are those of that program.
     """
+    own = _program(run, assignment, plan, start)
+    if not plan.start[start].exits:
+        return own
+    done = own.ended_by_itself and own.status == 0
+    early = own.ended_by_itself and not done
+    return replace(own, exits=True, done=done, started=own.started or done, ended_by_itself=early)
+
+
+def _program(run: Run, assignment: Assignment, plan: RunPlan, start: int) -> Run:
     if len(plan.start) == 1 or len(run.others) + 1 != len(plan.start):
         return run
     names = names_of(assignment, plan, [node.name for node in run.nodes])

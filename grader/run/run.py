@@ -70,7 +70,8 @@ class Run:
     /rosout: its records prove nothing. `erased` is above 0 if the terminal no longer shows lines of
     the count. `held_up` is the median of the seconds for which the node held up its steps in two
     runs, 0 if it was at most a period. `name`, `seen` and `others` are of a run of a scenario, whose
-    first program all the rest is about.
+    first program all the rest is about. `exits` is whether the program has to end by itself, `done`
+    whether it did so, with status 0: that is no early end (`ended_by_itself`).
     """
 
     command: str
@@ -98,6 +99,8 @@ class Run:
     name: str = ""
     seen: Observations | None = None
     others: list[Program] = field(default_factory=list)
+    exits: bool = False
+    done: bool = False
 
     @property
     def counting_node(self) -> NodeSeen | None:

@@ -29,8 +29,10 @@ def spins(evidence: Evidence) -> Passed:
     # a flood ends the run: whether the node answered before that would be chance
     if run.confirmed is False or run.flooded:
         raise Blocked(by=going_on(evidence))
+    if run.done:
+        return Passed(actual=say("it ended by itself, as it must"))
     if not is_spun(run):
-        raise _never(evidence)
+        raise Blocked(by="run.stays") if run.exits else _never(evidence)
     # of a single line, the instant is chance; log.counts says that no more came
     if not run.watch.while_still or len(run.watch.counted) == 1:
         return Passed(actual=say("the node answers while it counts"))
@@ -84,7 +86,7 @@ def _named(node: ast.AST) -> str:
 
 def is_spun(run: Run) -> bool:
     """Whether something of a run shows that its node spins: what does not is judged nowhere else."""
-    return _answers(run) or _follows(run)
+    return run.done or _answers(run) or _follows(run)
 
 
 def _answers(run: Run) -> bool:

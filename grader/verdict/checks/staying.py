@@ -25,6 +25,10 @@ if TYPE_CHECKING:
 def stays(evidence: Evidence) -> Passed:
     """The nodes run and answer until Ctrl+C."""
     expected, run = say("the nodes run and answer until Ctrl+C"), evidence.run
+    if run.done:
+        return Passed(actual=say("it ended by itself, as it must"))
+    if run.exits:
+        expected = say("the program ends by itself, with status 0")
     if run.resource:
         raise resource(evidence, expected)
     if run.flooded:
@@ -39,6 +43,14 @@ def stays(evidence: Evidence) -> Passed:
             where=where or node_file(evidence),
             variant="callback" if error else "",
             params={"error": error.partition(":")[0]},
+            words=words(evidence),
+        )
+    if run.exits:
+        raise Failed(
+            "run.does_not_end",
+            expected=expected,
+            actual=say("it was still running at the end"),
+            where=node_file(evidence),
             words=words(evidence),
         )
     if run.seen is not None and run.seen.stuck is not None and _is_stuck(run):
