@@ -238,6 +238,7 @@ class Fast(Node):
         return replace(answer, logs=(*answer.logs, *logs))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("most", "flood"), [(100_000, True), (60, False)])
 def test_lines_without_a_pause_are_a_flood_before_the_limit_of_the_output(
     most: int, flood: bool

@@ -67,6 +67,7 @@ def test_a_right_node_with_a_fast_timer_is_on_time(period: float, every: int) ->
     assert len(watch.dues) == OUTPUT.ticks
 
 
+@pytest.mark.full
 def test_a_jump_of_the_clock_makes_a_wrong_node_look_right() -> None:
     """At 0.2 s: calls 2, 4, …; but with one jump to each line, call 2 comes at 1 s."""
     assert not driven(0.1, 2, GRID, fine=False).early
@@ -74,15 +75,18 @@ def test_a_jump_of_the_clock_makes_a_wrong_node_look_right() -> None:
     assert driven(0.1, 2, GRID).period == pytest.approx(0.2)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("period", [0.009, 0.02, 0.05])
 def test_a_period_below_the_steps_is_measured_in_milliseconds(period: float) -> None:
     assert driven(period, 1, GRID, fine=False).period == pytest.approx(period)
 
 
+@pytest.mark.full
 def test_larger_steps_than_the_timer_has_lose_ticks() -> None:
     assert driven(0.01, 100, GRID).missing
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("period", "every"), [(0.03, 10), (0.01, 10)])
 def test_the_period_of_a_wrong_node_is_measured(period: float, every: int) -> None:
     watch = driven(period, every, OUTPUT.period / period)

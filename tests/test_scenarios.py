@@ -93,7 +93,7 @@ def test_the_solutions_have_full_marks(lesson: str, distro: str) -> None:
     assert report.score == report.max_score == 100
 
 
-@pytest.mark.parametrize("distro", ["jazzy", "kilted"])
+@pytest.mark.parametrize("distro", ["jazzy", pytest.param("kilted", marks=pytest.mark.long)])
 def test_the_solution_of_draw_circle_has_full_marks(distro: str) -> None:
     file = ROOT / "lab" / "course" / "draw_circle" / "assignment.yaml"
     report = marked(SOLUTION, file, [], distro=distro)

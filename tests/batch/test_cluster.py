@@ -137,6 +137,7 @@ def test_a_scheduler_that_ends_during_the_wait_is_reported(
             list(cluster.run(tasks(tmp_path, ["solution"]), started=_ignore))
 
 
+@pytest.mark.long
 def test_no_verdict_is_lost_if_the_scheduler_ends(ros_jazzy: Ros, tmp_path: Path) -> None:
     folder = corpus_class(tmp_path / "class", ["solution", "entry_missing", "solution"])
     with scheduler_and_worker() as (scheduler, address):
@@ -196,6 +197,7 @@ def test_a_cluster_without_a_usable_worker_is_refused(
         pass
 
 
+@pytest.mark.long
 def test_an_unreachable_scheduler_is_reported(tmp_path: Path) -> None:
     folder = corpus_class(tmp_path / "class", ["solution"])
     done = grade_all(folder, tmp_path / "out", "--scheduler", "tcp://127.0.0.1:9")

@@ -104,7 +104,7 @@ def slow(*marks: pytest.MarkDecorator) -> list[object]:
     ]
 
 
-@pytest.mark.parametrize(("kind", "name"), slow(pytest.mark.full))
+@pytest.mark.parametrize(("kind", "name"), slow(pytest.mark.long))
 def test_input_made_to_be_slow_or_large_takes_bounded_time_and_memory(kind: str, name: str) -> None:
     TARGETS[name](SEEDS[name])  # (modules loaded by the first call do not count)
     found = HOSTILE[kind]

@@ -29,8 +29,10 @@ def test_both_languages_have_the_same_commands() -> None:
     assert first[0] == OUTSIDE
 
 
-@pytest.mark.full
-@pytest.mark.parametrize("lang", ["en", "ko"])
+@pytest.mark.parametrize(
+    "lang",
+    [pytest.param("en", marks=pytest.mark.full), pytest.param("ko", marks=pytest.mark.long)],
+)
 def test_the_commands_of_the_page_work(lang: str, tmp_path: Path) -> None:
     env = {"GRADER_LANG": lang, "LANG": "C.UTF-8"}
     with Lab(Kind("bubblewrap"), tmp_path / "ros2_ws", env=env) as lab:

@@ -15,6 +15,7 @@ from tests.lab.screen import Lab
 from tests.lab.workspaces import open_to_all
 
 
+@pytest.mark.full
 def test_the_ten_steps_work_literally_and_a_second_lab_keeps_them(
     kind: Kind, tmp_path: Path
 ) -> None:
