@@ -76,6 +76,7 @@ def _run_as_json(run: Run) -> dict[str, Any]:
                 del found["seen"][name]
     if not run.others:
         del found["others"]
+    del found["exits"], found["done"]  # (what the plan says of a program is not recorded)
     if not run.watch.silent:  # of no watch on the wall clock
         del found["watch"]["silent"]
     if run.watch.still_answers is None:
