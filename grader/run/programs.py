@@ -50,7 +50,9 @@ def of_program(run: Run, assignment: Assignment, plan: RunPlan, start: int) -> R
         return own
     done = own.ended_by_itself and own.status == 0
     early = own.ended_by_itself and not done
-    return replace(own, exits=True, done=done, started=own.started or done, ended_by_itself=early)
+    # whether the probe saw the node of a short program is chance
+    started = "Traceback (most" not in own.transcript if early else own.started or done
+    return replace(own, exits=True, done=done, started=started, ended_by_itself=early)
 
 
 def _program(run: Run, assignment: Assignment, plan: RunPlan, start: int) -> Run:
