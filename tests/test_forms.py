@@ -82,3 +82,13 @@ def test_a_path_leads_to_a_field() -> None:
         if path:
             with pytest.raises(KeyError):
                 at_path(values, path)
+
+
+@pytest.mark.parametrize("form", [{"equal": [0, 1, 0.1]}, {"one_of": [[5], [0, 1, 0.1]]}])
+def test_an_array_is_compared_value_by_value(form: dict[str, object]) -> None:
+    wanted = Form.model_validate(form)
+    assert wanted.fits([0, 1, 0.10000000149])  # (a float32)
+    assert wanted.fits((0, 1, 0.1))
+    assert not wanted.fits([0, 1])
+    assert not wanted.fits([0, 1, 0.2])
+    assert str(wanted).endswith("[0, 1, 0.1]")

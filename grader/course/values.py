@@ -18,6 +18,7 @@ from grader.base.part import Part
 from grader.base.yaml_model import broken
 
 FLOAT32 = 1e-6  # the relative error of a value that went through a float32 field
+LONGEST_SHOWN = 50  # values of an array
 KEYS = ("equal", "about", "between", "one_of", "matches", "contains", "from")
 
 
@@ -102,6 +103,8 @@ def shown_value(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, float):
         return f"{value:.6g}"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(shown_value, value[:LONGEST_SHOWN]))}]"[:200]
     return repr(value) if isinstance(value, str) else str(value)[:200]
 
 
@@ -147,6 +150,8 @@ def _is_number(value: Any) -> bool:
 
 
 def _equal(value: Any, wanted: Any) -> bool:
+    if isinstance(value, list | tuple) and isinstance(wanted, list | tuple):
+        return len(value) == len(wanted) and all(map(_equal, value, wanted))
     if isinstance(wanted, bool) or isinstance(value, bool):
         return value is wanted
     if _is_number(value) and _is_number(wanted):
