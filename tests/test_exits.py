@@ -7,17 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from grader.base.unheard import unheard
-from grader.course.load import load_assignment
 from grader.report.model import Report
-from grader.ros.distro import find_distro
-from grader.verdict.checks.all import CHECKS
-from grader.verdict.mark import grade
-from grader.verdict.order import Order
-from tests.marking import LIMITS
-from tests.processes import ROOT
+from tests.test_scenarios import SOLUTION, marked
 
-SOLUTION = ROOT / "grader" / "keys" / "draw_circle" / "solution" / "my_robot_controller"
 ASSIGNMENT = """\
 schema: 2
 id: asks_once
@@ -82,9 +74,9 @@ def main():
 """
 
 
-def marked(folder: Path, client: str) -> Report:
+def judged(folder: Path, client: str) -> Report:
     package = folder / "ana"
-    shutil.copytree(SOLUTION, package)
+    shutil.copytree(SOLUTION / "my_robot_controller", package)
     inner = package / "my_robot_controller"
     (inner / "draw_circle.py").write_text(SERVER, encoding="utf-8")
     (inner / "my_first_node.py").write_text(client, encoding="utf-8")
@@ -92,13 +84,9 @@ def marked(folder: Path, client: str) -> Report:
     second = "'test_node = my_robot_controller.my_first_node:main',"
     setup = (package / "setup.py").read_text("utf-8").replace(entry, f"{entry} {second}")
     (package / "setup.py").write_text(setup, encoding="utf-8")
-    (folder / "assignment.yaml").write_text(ASSIGNMENT, encoding="utf-8")
-    assignment = load_assignment(folder / "assignment.yaml", known_checks=CHECKS)
-    jazzy = find_distro("jazzy")
-    order = Order(
-        path=package, assignment=assignment, distro=jazzy, sandbox="bubblewrap", limits=LIMITS
-    )
-    return grade(order, unheard)
+    file = folder / "assignment.yaml"
+    file.write_text(ASSIGNMENT, encoding="utf-8")
+    return marked(package, file, [])
 
 
 @pytest.mark.prefix
@@ -116,7 +104,7 @@ def marked(folder: Path, client: str) -> Report:
     ],
 )
 def test_a_client_that_asks_once_must_end(old: str, new: str, mistake: str, tmp_path: Path) -> None:
-    report = marked(tmp_path, CLIENT.replace(old, new) if old else CLIENT)
+    report = judged(tmp_path, CLIENT.replace(old, new) if old else CLIENT)
     if not mistake:
         assert {check.status for check in report.checks} == {"passed"}
         return

@@ -165,6 +165,7 @@ class _Scene:
         assert run.seen is not None
         self.assignment, self.plan, self.probe = assignment, plan, probe
         self.observer, self.terminals, self.run, self.seen = observer, terminals, run, run.seen
+        self._lasting = [one for one, begin in zip(terminals, plan.start) if not begin.exits]
         self._on_event = on_event
         self._run_clock = observer.run_clock
         self.deadline = 0.0  # by the run's clock
@@ -179,8 +180,7 @@ class _Scene:
     @property
     def over(self) -> bool:
         """Whether the run cannot go on; it does without the programs that have to end."""
-        lasting = [one for one, plan in zip(self.terminals, self.plan.start) if not plan.exits]
-        ended = bool(lasting) and all(terminal.ended or terminal.flooded for terminal in lasting)
+        ended = bool(self._lasting) and all(one.ended or one.flooded for one in self._lasting)
         stuck = self._unanswered >= UNANSWERED
         return ended or stuck or self.observer.flooded or self._run_clock.now() > self.deadline
 
@@ -193,7 +193,7 @@ class _Scene:
             watch.clock = "virtual"
             watch.settled = self._settle()
             self._await_dying()
-            self.observer.lossy = any(start.exits for start in self.plan.start)
+            self.observer.lossy = len(self._lasting) < len(self.terminals)
             for other, terminal in zip(run.others, self.terminals[1:]):
                 other.started = not terminal.ended
             self._look()

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from grader.course.assignment import Output
-from grader.run.probe_link import Answer, LogRecord, NodeSeen, ProbeLink
+from grader.run.probe_link import LEVELS, Answer, LogRecord, NodeSeen, ProbeLink
 from grader.run.terminal import Line, Terminal, without_codes
 
 SECOND = 1_000_000_000
@@ -22,7 +22,6 @@ BELOW_RCLPY = re.compile(r"(?:rcl|rcutils|rmw)(?:[._][\w.]{0,80})?")  # names of
 FLOOD = 200  # lines per second of the run's time, above which a program does not wait between them
 MOST_SLOWED = 8  # times as many lines as it has had wall time for may be due to a busy machine
 COMPARED = 1_000  # characters of a log line and its record; both are cut later than that
-LEVELS = {"DEBUG": 10, "INFO": 20, "WARN": 30, "ERROR": 40, "FATAL": 50}
 PREFIX = 60  # bytes, about, that a log line on the terminal has in front of its text
 
 Source = Literal["logger", "print", "faked"]
@@ -237,15 +236,16 @@ class Observer:
         for line in self.terminal.read(seconds):
             for part in line.parts():
                 if _is_of_a_node(part):
-                    self._unmatched.append(_Unmatched(part, now, self.now, self.lossy))
+                    self._unmatched.append(self._unmatched_line(part, now))
                 elif part.log is None and part.text.strip():
                     events.append(self._event(part.text, part.wall, "print", None))
         for other in self.others:
             parts = (part for line in other.read() for part in line.parts())
-            self._unmatched += [
-                _Unmatched(part, now, self.now, self.lossy) for part in parts if _is_of_a_node(part)
-            ]
+            self._unmatched += [self._unmatched_line(p, now) for p in parts if _is_of_a_node(p)]
         return events + self._match()
+
+    def _unmatched_line(self, line: Line, came: float) -> _Unmatched:
+        return _Unmatched(line, came, self.now, self.lossy)
 
     def _of_record(self, record: LogRecord) -> Event:
         self.records.append(record)
@@ -258,13 +258,13 @@ class Observer:
     def _match(self) -> list[Event]:
         """Return the lines that look like log records but have had none for the grace time.
 
-        Those that may lack one count as logged.
+        Those that may lack one are logged lines, the others are faked.
         """
         known = {
             (r.stamp, r.name, without_codes(r.text.split("\n")[0])[:COMPARED])
             for r in self.records[-4000:]
         }
-        faked, waiting = [], []
+        found, waiting = [], []
         for one in self._unmatched:
             assert one.line.log is not None
             level, stamp, name, text = one.line.log
@@ -274,13 +274,13 @@ class Observer:
                 waiting.append(one)
             elif one.lacks:
                 self._shown.add(stamp)
-                record = LogRecord(LEVELS.get(level, 20), name, text, "", "", 0, stamp)
+                record = LogRecord(LEVELS.get(level.lower(), 20), name, text, "", "", 0, stamp)
                 event = self._event(text, one.line.wall, "logger", record)
-                faked.append(replace(event, virtual=one.virtual))
+                found.append(replace(event, virtual=one.virtual))
             else:
-                faked.append(replace(self._event(text, one.line.wall, "faked", None), logger=name))
+                found.append(replace(self._event(text, one.line.wall, "faked", None), logger=name))
         self._unmatched = waiting
-        return faked
+        return found
 
     def visible(self, events: Iterable[Event]) -> list[Event]:
         """Return the events that a terminal showed."""

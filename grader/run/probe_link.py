@@ -33,9 +33,13 @@ def in_probe(name: str) -> Module:
     return f"grader.run.in_probe.{name}", text
 
 
+LEVELS = {"debug": 10, "info": 20, "warn": 30, "error": 40, "fatal": 50}
+"""Of log records, as in rcl_interfaces/msg/Log."""
+
+
 @dataclass(frozen=True)
 class LogRecord:
-    """One record of /rosout; `level` is 10 to 50.
+    """One record of /rosout; `level` is one of LEVELS' values.
 
     In nanoseconds since the epoch, `stamp` is when the sender says that it was logged, `read` when
     the probe read it, 0 if that is unknown.

@@ -14,19 +14,6 @@ IMAGES = (
     pytest.param("lab-jazzy-wheels", marks=[pytest.mark.docker, pytest.mark.long]),
 )
 
-# whose part in a container `make test-long` runs: a minute each, of what bubblewrap's shows too
-LONG_IN_A_CONTAINER = (
-    "test_guide_and_check_belong_to_the_lesson_of_the_lab",
-    "test_the_guide_leads_to_full_marks",
-    "test_the_ten_steps_work_literally_and_a_second_lab_keeps_them",
-)
-
-
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    for item in items:
-        if item.name.startswith(LONG_IN_A_CONTAINER) and item.get_closest_marker("docker"):
-            item.add_marker(pytest.mark.long)
-
 
 @pytest.fixture(params=["bubblewrap", *IMAGES])
 def kind(request: pytest.FixtureRequest, ros_jazzy: Ros) -> Iterator[Kind]:

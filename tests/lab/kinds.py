@@ -22,6 +22,20 @@ class Kind:
     env: dict[str, str] = field(default_factory=dict)
 
 
+# A minute each in a container, of what bubblewrap's part shows too: `make test-long` runs that
+long_in_a_container = pytest.mark.parametrize(
+    "kind",
+    [
+        "bubblewrap",
+        *(
+            pytest.param(image, marks=[pytest.mark.docker, pytest.mark.long])
+            for image in ("lab-jazzy", "lab-jazzy-wheels")
+        ),
+    ],
+    indirect=True,
+)
+
+
 def open_kind(name: str) -> Iterator[Kind]:
     """Yield a kind: `bubblewrap`, or Docker with only `lab-jazzy` or `lab-jazzy-wheels`."""
     if name == "bubblewrap":

@@ -16,7 +16,7 @@ from lab.lesson import chosen_lesson
 from lab.workspace import prepare
 from tests import weather
 from tests.lab.helpers import run
-from tests.lab.kinds import Kind
+from tests.lab.kinds import Kind, long_in_a_container
 
 
 def of_course(kind: Kind, course: Path, **more: str) -> Kind:
@@ -35,6 +35,7 @@ def workspace_with(folder: Path, broken: bool) -> Path:
     return source.parent
 
 
+@long_in_a_container
 def test_guide_and_check_belong_to_the_lesson_of_the_lab(kind: Kind, tmp_path: Path) -> None:
     course = weather.write_course(tmp_path, "winds")
     workspace = workspace_with(tmp_path, broken=True)

@@ -10,11 +10,12 @@ import pytest
 from grader.ros.prefix import Ros
 from tests import processes
 from tests.lab import ten_steps
-from tests.lab.kinds import Kind
+from tests.lab.kinds import Kind, long_in_a_container
 from tests.lab.screen import Lab
 from tests.lab.workspaces import open_to_all
 
 
+@long_in_a_container
 @pytest.mark.full
 def test_the_ten_steps_work_literally_and_a_second_lab_keeps_them(
     kind: Kind, tmp_path: Path

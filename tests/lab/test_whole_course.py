@@ -12,7 +12,7 @@ from grader.course.find import lessons_of, own_course
 from grader.course.load import load_assignment
 from grader.verdict.take_in import take_in_for
 from tests import processes
-from tests.lab.kinds import Kind
+from tests.lab.kinds import Kind, long_in_a_container
 from tests.lab.player import Player
 from tests.lab.screen import Lab
 
@@ -28,6 +28,7 @@ def played() -> Iterator[object]:
             yield pytest.param(lesson, lang, marks=marks)
 
 
+@long_in_a_container
 @pytest.mark.parametrize(("lesson", "lang"), list(played()))
 def test_the_guide_leads_to_full_marks(lesson: str, lang: str, kind: Kind, tmp_path: Path) -> None:
     workspace = tmp_path / "ros2_ws"

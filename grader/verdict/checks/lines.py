@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Literal
 
 from grader.base.i18n.message import say_plural
 from grader.course.values import Form
+from grader.run.probe_link import LEVELS
 from grader.verdict.checks.declare import Parameters
 
 if TYPE_CHECKING:
     from grader.run.observer import Event
     from grader.verdict.use import Use
 
-LEVELS = {"debug": 10, "info": 20, "warn": 30, "error": 40, "fatal": 50}
 Level = Literal["", "debug", "info", "warn", "error", "fatal"]
 CALLS = ("info", "warning", "warn", "error")  # of a logger
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from grader.base.i18n.message import say
+from grader.run.probe_link import LEVELS
 from grader.verdict.checks.declare import Parameters, kind
 from grader.verdict.checks.faults import line_of
-from grader.verdict.checks.lines import CALLS, LEVELS, lines, logger_of, numbered, such_lines
+from grader.verdict.checks.lines import CALLS, lines, logger_of, numbered, such_lines
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
