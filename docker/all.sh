@@ -33,8 +33,7 @@ for distro in "$@"; do
           >> "$log/$distro-$base.log" 2>&1 || marked=no
       done
       docker run --rm "$GRADER_IMAGES:lab-$distro$suffix" bash -c \
-        ". /opt/ros/$distro/setup.bash && ros2 pkg prefix rclpy && \
-        . /opt/ros2_teaching_lab/lab/shell/environment.bash && ros2 lab --help && ros2 grade --help" >> "$log/$distro-$base.log" 2>&1 &&
+        'ros2 pkg prefix rclpy && ros2 lab --help && ros2 grade --help' >> "$log/$distro-$base.log" 2>&1 &&
         lab=yes
     fi
     size() { docker image inspect --format '{{.Size}}' "$1" 2> /dev/null | awk '$1 {printf "%.0f MB", $1 / 1e6}'; }

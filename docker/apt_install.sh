@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs packages in one layer, from the mirror $APT_MIRROR if it is set (it is not kept), and
-# removes apt's lists, caches and logs. $MAN_OF: packages of a slim base to restore man pages of.
+# removes apt's lists, packages, caches and logs. $MAN_OF: packages of a slim base to restore man pages of.
 set -eu
 # apt reads only the lower-case names
 export http_proxy="${http_proxy:-${HTTP_PROXY:-}}" https_proxy="${https_proxy:-${HTTPS_PROXY:-}}"
@@ -28,5 +28,5 @@ if [ -n "${MAN_OF:-}" ]; then
   rm -rf "$pages"
   mandb --quiet
 fi
-rm -rf /etc/apt /var/lib/apt/lists/* /var/cache/apt/*.bin /var/log/apt /var/log/dpkg.log
+rm -rf /etc/apt /var/lib/apt/lists/* /var/cache/apt/*.bin /var/cache/apt/archives/*.deb /var/log/apt /var/log/dpkg.log
 mv "$kept" /etc/apt

@@ -45,7 +45,7 @@ debootstrap --variant=minbase --components="$components" "$suite" "$folder/root"
   "/usr/share/debootstrap/scripts/$script" > "$folder/log" 2>&1 ||
   missing "debootstrap failed: $(tail -n 3 "$folder/log")" "Is $mirror the right mirror, and can it be reached?"
 rm -rf "$folder"/root/var/cache/apt/archives/*.deb "$folder"/root/var/lib/apt/lists/* \
-  "$folder"/root/var/log/*.log "$folder"/root/usr/share/{doc,man,info}/*
+  "$folder"/root/var/log/*.log "$folder"/root/usr/share/{doc,man,info,locale}/*
 tar --numeric-owner -C "$folder/root" -c . |
   docker import --change 'CMD ["bash"]' --message "debootstrap $suite" - "$image" > /dev/null
 echo "make_base.sh: made $image"

@@ -1,6 +1,6 @@
 # A base for machines that cannot pull the official ROS images: Python of Debian (or of another
-# base), and /opt/ros/<distro> made from PyPI's ROS wheels by the same code as the local prefix.
-# For jazzy and kilted. Builds with and without BuildKit.
+# base), and /opt/ros/<distro> made from PyPI's ROS wheels by the same code as the local prefix, but for
+# our own programs (`ros2`), which docker/Dockerfile adds. For jazzy and kilted. Builds with and without BuildKit.
 #
 #   docker build -f docker/wheels.Dockerfile --build-arg DISTRO=jazzy -t ros2-teaching-lab:base-jazzy-wheels .
 #
@@ -11,6 +11,7 @@ ARG WHEELS_BASE=debian:trixie-slim
 FROM ${WHEELS_BASE} AS python
 ARG APT_MIRROR=
 COPY docker/apt_install.sh /usr/local/sbin/
+COPY docker/base.dpkg.cfg /etc/dpkg/dpkg.cfg.d/base
 # a compiler and Python's headers: students build interfaces of their own
 RUN apt_install.sh python3 libatomic1 g++ make python3-dev
 
@@ -26,33 +27,24 @@ COPY grader/requirements.txt grader/
 RUN if [ -z "$PIP_INDEX_URL" ]; then unset PIP_INDEX_URL; fi \
  && python3 -m venv .venv \
  && .venv/bin/pip install -q --require-hashes --only-binary :all: -r grader/requirements.txt
+# only what the packages depend on: other code is added by docker/Dockerfile, without these minutes
 COPY grader/__init__.py grader/
-COPY grader/base/__init__.py grader/base/errors.py grader/base/cache.py grader/base/lock.py \
-     grader/base/nearest.py grader/base/shown.py grader/base/
-COPY grader/base/i18n/__init__.py grader/base/i18n/message.py grader/base/i18n/
-COPY grader/ros/__init__.py grader/ros/distro.py grader/ros/prefix.py grader/ros/prefix_build.py \
-     grader/ros/scripts.py grader/ros/distros.toml grader/ros/setup.bash.in \
-     grader/ros/interfaces.py grader/ros/interface_package.py grader/ros/interfaces.cmake.in \
-     grader/ros/ament_lint_auto.cmake grader/ros/turtlesim_executables.py grader/ros/
-COPY grader/ros/interface_texts grader/ros/interface_texts
-COPY grader/ros/turtlesim_programs grader/ros/turtlesim_programs
-COPY grader/run/in_probe/turtlesim.py grader/run/in_probe/
+COPY grader/ros/__init__.py grader/ros/wheels_tree.py grader/ros/scripts.py grader/ros/setup.bash.in \
+     grader/ros/interface_package.py grader/ros/interfaces.cmake.in grader/ros/ament_lint_auto.cmake \
+     grader/ros/distros.toml grader/ros/
+COPY grader/ros/interface_texts/turtlesim grader/ros/interface_texts/turtlesim
 COPY grader/ros/locks grader/ros/locks
-COPY grader/ros/ros2_command grader/ros/ros2_command
 ARG DISTRO=jazzy
 RUN if [ -z "$PIP_INDEX_URL" ]; then unset PIP_INDEX_URL; fi \
- && mkdir -p /opt/ros \
- && GRADER_CACHE=/cache .venv/bin/python -c "from grader.ros.distro import find_distro; \
-from grader.ros.interfaces import with_interfaces; \
-from grader.ros.prefix import find_ros; \
-ros = find_ros(find_distro('$DISTRO'), prove=lambda ros: None); \
-with_interfaces(ros, notify=print).path.rename('/opt/ros/$DISTRO')"
+ && turtlesim="$(sed -n "/^\[$DISTRO\]/,/^\[/s/^turtlesim = \"\(.*\)\"/\1/p" grader/ros/distros.toml)" \
+ && .venv/bin/python -m grader.ros.wheels_tree "$DISTRO" "$(readlink -f "$(command -v python3)")" \
+      "${turtlesim:-turtlesim_msgs}"
 
 FROM python AS wheels
 COPY --from=prefix /opt/ros /opt/ros
 ARG DISTRO=jazzy
 # test that the programs run in this image
-RUN bash -c ". /opt/ros/$DISTRO/setup.bash && colcon build --help && ros2 --help && python3 -c 'import rclpy.node; rclpy.init'" \
+RUN bash -c ". /opt/ros/$DISTRO/setup.bash && colcon build --help && python3 -c 'import rclpy.node; rclpy.init'" \
       > /dev/null
 ENV ROS_DISTRO=${DISTRO} LANG=C.UTF-8
 LABEL ros2-teaching-lab.distro="${DISTRO}" \

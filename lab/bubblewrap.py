@@ -1,7 +1,8 @@
 """The lab without Docker: bubblewrap mounts the ROS prefix, the course and the workspace.
 
 It is a clean environment, not a security boundary: the student's own code runs as the student, with
-this machine's network and shared memory, so that terminals see each other's nodes. The rest of the
+this machine's network and shared memory, so that terminals see each other's nodes. A lab in the browser
+has a network and shared memory of its own: its page has all of its terminals. The rest of the
 home folder is hidden, so that software installed there has no effect.
 """
 
@@ -25,7 +26,8 @@ from grader.sandbox.cgroups import Group, open_group
 from grader.sandbox.limits import Limits
 from grader.sandbox.local import require_program
 from grader.sandbox.processes import kill_with_children
-from lab.config import HIDDEN_HOME, LAB_ROOT, WORKSPACE, LabConfig, accounts
+from lab.config import HIDDEN_HOME, LAB_ROOT, OWN_NETWORK, WORKSPACE, LabConfig, accounts
+from lab.door import Door
 from lab.limits import LabLimits
 from lab.terminal import ignoring_interrupts, restoring_foreground
 
@@ -66,14 +68,21 @@ class BubblewrapLab:
         )
         try:
             words = in_group(group, self._command(config, descriptors, status_file, group.holds))
+            door = Door() if config.is_page else None
+            opened = {} if door is None else door.variables
             # Ctrl+C would kill bwrap and the lab; the command inside gets the default handler back
             # (env --default-signal)
             with ignoring_interrupts(), restoring_foreground():
                 process = subprocess.Popen(
                     words,
-                    pass_fds=[status_file, *descriptors.values()],
-                    env=self._environment(config),
+                    pass_fds=[
+                        *(status_file, *descriptors.values()),
+                        *([] if door is None else [door.descriptor]),
+                    ],
+                    env={**self._environment(config), **opened},
                 )
+                if door is not None:
+                    door.show()
                 status = _wait(process)
             os.lseek(status_file, 0, os.SEEK_SET)
             with open(status_file, closefd=False) as stream:
@@ -97,6 +106,8 @@ class BubblewrapLab:
         words += ["--unshare-pid", "--unshare-uts", "--hostname", config.hostname]
         if not self._root:
             words += ["--unshare-user", "--uid", str(owner.uid), "--gid", str(owner.gid)]
+        if has_own_network(config):
+            words += ["--unshare-net", "--unshare-ipc"]
         words += self._mounts(config)
         for path, descriptor in descriptors.items():
             words += ["--perms", "0444", "--ro-bind-data", str(descriptor), path]
@@ -122,8 +133,12 @@ class BubblewrapLab:
         for python in sorted(pythons):
             yield from ("--ro-bind", str(python), str(python))
         yield from ("--proc", "/proc", "--dev", "/dev")
-        yield from ("--bind", os.path.realpath(SHARED_MEMORY), SHARED_MEMORY)
-        for scratch in SCRATCH:
+        scratches: tuple[str, ...] = SCRATCH
+        if has_own_network(config):
+            scratches = (*SCRATCH, SHARED_MEMORY)
+        else:
+            yield from ("--bind", os.path.realpath(SHARED_MEMORY), SHARED_MEMORY)
+        for scratch in scratches:
             yield from ("--perms", "1777", "--size", str(config.limits.tmp), "--tmpfs", scratch)
         yield from ("--bind", str(config.workspace.home), HOME)
         yield from ("--bind", str(config.workspace.path), WORKSPACE)
@@ -184,6 +199,14 @@ class BubblewrapLab:
             say("bubblewrap could not open the lab (see its message above)"),
             remedy=say("With Docker: make images, then make lab SANDBOX=docker"),
         )
+
+
+def has_own_network(config: LabConfig) -> bool:
+    """Whether the lab has a network and shared memory of its own.
+
+    A page has all terminals of its lab; other terminals have to see each other's nodes.
+    """
+    return config.is_page and config.network == OWN_NETWORK
 
 
 def in_group(group: Group, words: list[str]) -> list[str]:

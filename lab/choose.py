@@ -10,6 +10,7 @@ from grader.base.i18n.message import joined, say
 from grader.base.nearest import did_you_mean
 from grader.ros.distro import Distro
 from grader.ros.images import connect, find_image
+from grader.ros.interfaces import with_turtlesim
 from grader.ros.prefix import has_system_ros, instead_of_docker
 from grader.sandbox.proof import proven_ros
 from lab.bubblewrap import BubblewrapLab
@@ -23,7 +24,8 @@ Enter = Callable[[LabConfig], int]
 def choose(kind: str, distro: Distro, *, interfaces: Sequence[str] = (), notify: Notify) -> Enter:
     """Return the function that opens a lab of this kind; report the choice with `notify`.
 
-    ROS has the packages `interfaces`, and with them what builds a student's own.
+    ROS has the packages `interfaces`, and with them what builds a student's own. turtlesim is there
+    wherever it can be had.
 
     Raises UsageError for an unknown kind, SurroundingsError if the lab is not available.
     """
@@ -63,7 +65,8 @@ def _docker(distro: Distro) -> tuple[Enter, str]:
 
 
 def _bubblewrap(distro: Distro, interfaces: Sequence[str], notify: Notify) -> Enter:
-    return BubblewrapLab(proven_ros(distro, interfaces=interfaces, notify=notify)).enter
+    ros = proven_ros(distro, interfaces=interfaces, notify=notify)
+    return BubblewrapLab(with_turtlesim(ros, notify=notify)).enter
 
 
 def _without_docker(

@@ -9,20 +9,18 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 import grader
-from grader.base.i18n.message import msg
+from grader.base.errors import UsageError
+from grader.base.i18n.message import msg, say
 from grader.base.i18n.translator import Translator, chosen_language, errors_in
 from grader.cli import options
 from grader.cli.invoke import run
 from grader.cli.main import main as run_grader
+from grader.report.notice import notice
 from lab.commands.cli import main as run_lab
-
-if TYPE_CHECKING:
-    from grader.course.assignment import Assignment
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -33,14 +31,20 @@ def main(argv: list[str] | None = None) -> int:
 def run_in_lab(name: str) -> int:
     """Run the grader's command `name` with this process' arguments; return its exit status.
 
-    `fix` uses the distro of this terminal unless --distro is given; `check` is `lab check`.
+    `fix` uses the distro of this terminal unless --distro is given; `check` is `lab check`. `explain`
+    also knows for which ROS the workspace was built, which no output of a terminal shows for certain.
     """
     words = sys.argv[1:]
     if name == "check":
         return run_lab([name, *words])
     if name == "fix" and not any(word.startswith("--distro") for word in words):
         words = ["--distro", os.environ.get("ROS_DISTRO", "jazzy"), *words]
-    return run_grader([name, *words])
+    status = run_grader([name, *words])
+    if name == "explain" and "-" in words and status in (0, 1):
+        from lab.other_ros import say_other_ros  # noqa: PLC0415 - keeps --help fast
+
+        say_other_ros()
+    return status
 
 
 @click.command(
@@ -78,6 +82,11 @@ def run_in_lab(name: str) -> int:
         "that is not finished in this workspace)."
     ),
 )
+@click.option(
+    "--page",
+    is_flag=True,
+    help=msg("Open it in the browser: guide, editor, terminals, turtle and graph in one page."),
+)
 @options.lang
 @click.argument("words", nargs=-1, type=click.UNPROCESSED, metavar="[-- COMMAND...]")
 def command(
@@ -85,6 +94,7 @@ def command(
     workspace: Path | None,
     sandbox: str,
     assignment: str | None,
+    page: bool,
     lang: str | None,
     words: tuple[str, ...],
 ) -> int:
@@ -92,29 +102,34 @@ def command(
     from grader.course.load import load_assignment  # noqa: PLC0415 - keeps --help fast
     from grader.ros.distro import find_distro  # noqa: PLC0415
     from lab.choose import choose  # noqa: PLC0415
-    from lab.config import LabConfig  # noqa: PLC0415
+    from lab.config import PAGE, LabConfig, lab_network  # noqa: PLC0415
     from lab.lesson import chosen_lesson  # noqa: PLC0415
     from lab.limits import lab_limits  # noqa: PLC0415
     from lab.workspace import prepare, workspace_path  # noqa: PLC0415
 
     translate = Translator(lang or chosen_language(os.environ))
     with errors_in(translate.lang):
+        if page and words:
+            raise UsageError(
+                say("--page takes no command"), remedy=say("Leave out one of the two.")
+            )
         found = find_distro(distro)
         limits = lab_limits(os.environ)
         lesson = chosen_lesson(assignment, workspace_path(workspace))
         enter = choose(
             sandbox,
             found,
-            interfaces=_interfaces(load_assignment(lesson.file)),
+            interfaces=load_assignment(lesson.file).interfaces,
             notify=lambda text: _notify(translate(text)),
         )
         config = LabConfig(
             found,
             prepare(workspace),
             lesson,
-            command=words,
+            command=PAGE if page else words,
             lang=translate.lang,
             limits=limits,
+            network=lab_network(os.environ),
         )
         status = enter(config)
     interactive = not words and sys.stdin.isatty()
@@ -123,21 +138,5 @@ def command(
     )  # a shell returns its last command's status, which is not the lab's
 
 
-def _interfaces(assignment: Assignment) -> tuple[str, ...]:
-    """Return the packages of interfaces in the lab: what the lesson needs, and turtlesim's.
-
-    turtlesim is there if the lesson uses it and it can be built.
-
-    A lesson in turtlesim's world whose node uses none of its types goes without a compiler too.
-    """
-    from grader.course.assignment import TURTLESIM  # noqa: PLC0415 - keeps --help fast
-    from grader.ros.interfaces import missing_for_building  # noqa: PLC0415 - as above
-
-    uses = any(plan.world == "turtlesim" for plan in assignment.runs)
-    if uses and not assignment.interfaces and not missing_for_building():
-        return TURTLESIM[:1]
-    return assignment.interfaces
-
-
 def _notify(text: str) -> None:
-    click.echo(f"lab: {text}", err=True)
+    notice(f"lab: {text}", sys.stderr)

@@ -6,7 +6,10 @@ import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from grader.base.errors import UsageError
+from grader.base.i18n.message import say
 from grader.base.i18n.translator import OWN, SOURCE
+from grader.base.shown import shown
 from grader.ros.distro import Distro
 from grader.sandbox.base import HOME, PATH
 from lab.lesson import OpenedLesson
@@ -26,9 +29,19 @@ PASSED = (
 """The only variables of the calling terminal that are passed to the lab."""
 
 
+PAGE = ("window",)
+"""The command of a lab in the browser: all of its terminals are in the page."""
+NETWORK = "LAB_NETWORK"
+OWN_NETWORK, THIS_NETWORK = "own", "host"
+"""A network that no other lab sees, and that of this machine."""
+
+
 @dataclass(frozen=True)
 class LabConfig:
-    """The settings of an opened lab; an empty `command` is an interactive shell."""
+    """The settings of an opened lab; an empty `command` is an interactive shell.
+
+    `network` counts for a page, which has all terminals of a lab: OWN_NETWORK or THIS_NETWORK.
+    """
 
     distro: Distro
     workspace: Workspace
@@ -36,6 +49,12 @@ class LabConfig:
     command: tuple[str, ...] = ()
     lang: str = SOURCE
     limits: LabLimits = field(default_factory=LabLimits)
+    network: str = OWN_NETWORK
+
+    @property
+    def is_page(self) -> bool:
+        """Whether the lab is opened in the browser."""
+        return self.command == PAGE
 
     @property
     def hostname(self) -> str:
@@ -51,8 +70,13 @@ class LabConfig:
         return ["bash", "--norc", "-c", script, "lab", *(self.command or ("bash", "--norc"))]
 
     def environment(self, caller: Mapping[str, str]) -> dict[str, str]:
-        """Return the environment in the lab: this list and the PASSED variables of `caller`."""
-        own = {
+        """Return the environment of a terminal: the lab's and the PASSED variables of `caller`."""
+        return self.own_environment | {name: caller[name] for name in PASSED if caller.get(name)}
+
+    @property
+    def own_environment(self) -> dict[str, str]:
+        """The lab's variables, which every command in it has, however it is started."""
+        return {
             "HOME": HOME,
             "USER": "student",
             "LOGNAME": "student",
@@ -66,7 +90,17 @@ class LabConfig:
             OWN: self.lang,
             **self.lesson.environment,
         }
-        return own | {name: caller[name] for name in PASSED if caller.get(name)}
+
+
+def lab_network(environment: Mapping[str, str]) -> str:
+    """Return the network of a page's lab. UsageError for an unknown one."""
+    found = environment.get(NETWORK) or OWN_NETWORK
+    if found not in (OWN_NETWORK, THIS_NETWORK):
+        raise UsageError(
+            say("{name} must be own or host, not {text}", name=NETWORK, text=shown(found)),
+            remedy=say("For example: {command}", command=f"{NETWORK}=host make lab PAGE=1"),
+        )
+    return found
 
 
 def accounts(owner: Student) -> dict[str, str]:

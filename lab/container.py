@@ -113,14 +113,15 @@ class ContainerLab:
                 name=_name(config),
                 hostname=config.hostname,
                 user=_user(config),
-                working_dir="/",
+                # for `docker exec` and editors that attach; the terminals set theirs themselves
+                working_dir=WORKSPACE,
                 labels={LABEL: _hash(config)},
                 init=True,
                 auto_remove=True,
                 cap_drop=["ALL"],
                 security_opt=["no-new-privileges"],
                 network_mode="bridge",
-                **published(),
+                **published(_environment(config)),
                 **held(config.limits),
                 mounts=list(_mounts(config)),
             )
@@ -232,6 +233,16 @@ def _mounts(config: LabConfig) -> Iterator[Mount]:
     if config.lesson.folder is not None:
         lesson = str(config.lesson.folder)
         yield Mount(config.lesson.path_inside, lesson, type="bind", read_only=True)
+
+
+def _environment(config: LabConfig) -> dict[str, str]:
+    """Return the variables of the container, with the caller's that decide which nodes are seen.
+
+    The image's PATH has ROS and the lab's commands.
+    """
+    found = config.environment(os.environ)
+    names = (config.own_environment.keys() - {"PATH"}) | {n for n in found if n.startswith("ROS_")}
+    return {name: value for name, value in found.items() if name in names and name != "TERM"}
 
 
 def _hash(config: LabConfig) -> str:

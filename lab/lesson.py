@@ -9,17 +9,8 @@ from pathlib import Path
 from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.base.nearest import meant, nearest_path
-from grader.course.find import (
-    COURSE,
-    FILE,
-    LESSON,
-    assignment_file,
-    course_folder,
-    is_file,
-    lessons_of,
-    order_of,
-    own_course,
-)
+from grader.course.find import FILE, LESSON, assignment_file, is_file, lessons_of, order_of
+from grader.course.folder import COURSE, course_folder, own_course
 from lab.guide.progress import read_progress
 
 INSIDE = "/opt/ros2_teaching_lab/course"

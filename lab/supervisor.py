@@ -28,6 +28,7 @@ READY, LAST, OTHERS = b"ready\n", b"last\n", b"others\n"
 def supervise() -> None:
     """Wait for terminals, and return when all of them have closed."""
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    os.chdir("/")  # the container's folder is the workspace, which it must not hold
     terminals: dict[socket.socket, str] = {}
     with socket.socket(socket.AF_UNIX) as server, selectors.DefaultSelector() as selector:
         server.bind(ADDRESS)

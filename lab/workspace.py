@@ -6,6 +6,7 @@ import contextlib
 import errno
 import os
 import pwd
+import shlex
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
@@ -167,9 +168,7 @@ def _check_writable(folder: Path, owner: Student) -> None:
                 uid=owner.uid,
             ),
             remedy=say(
-                "Change its owner (sudo chown -R {uid}:{gid} …), or choose another folder: make lab "
-                "WORKSPACE=path",
-                uid=owner.uid,
-                gid=owner.gid,
+                "Change its owner: {command}. Or choose another folder: make lab WORKSPACE=path",
+                command=f"sudo chown -R {owner.uid}:{owner.gid} {shlex.quote(str(folder))}",
             ),
         )

@@ -11,9 +11,12 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 from grader.base.i18n.translator import Translator
-from grader.course import find as lessons
+from grader.cli.called import CALLED_BY
+from grader.course.find import LESSON
+from grader.course.folder import COURSE
 from grader.report.model import CheckResult
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
@@ -33,6 +36,9 @@ WAITING = (
     "tests/test_bubblewrap.py",
 )
 
+# (a machine may be busy: no example fails because of the time that it took)
+settings.register_profile("no deadline", deadline=None)
+settings.load_profile("no deadline")
 # A shell ignores SIGINT in background jobs, and all processes that the tests start would inherit it
 signal.signal(signal.SIGINT, signal.default_int_handler)
 # texts are compared in English, whatever the language of the environment
@@ -41,8 +47,11 @@ os.environ["LC_ALL"] = "C.UTF-8"
 if "GRADER_STATE" not in os.environ:
     os.environ["GRADER_STATE"] = tempfile.mkdtemp(prefix="grader-state-")
     atexit.register(shutil.rmtree, os.environ["GRADER_STATE"], ignore_errors=True)
-# the tests use the default course and lesson
-for _name in (lessons.COURSE, lessons.LESSON):
+# where the engine is, for tests that need one; the others see none, whether or not one is ready yet
+ENGINE = os.environ.get("DOCKER_HOST")
+NO_ENGINE = "unix:///nonexistent/docker.sock"
+# the tests use the default course and lesson, and call the grader by its name, as no `make test` does
+for _name in (COURSE, LESSON, CALLED_BY):
     os.environ.pop(_name, None)
 
 
@@ -92,6 +101,20 @@ def make_sandbox(ros_jazzy: Ros) -> Callable[[Limits], Sandbox]:
 def sandbox(make_sandbox: Callable[[Limits], Sandbox]) -> Iterator[Sandbox]:
     with make_sandbox(Limits()) as opened:
         yield opened
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Let a test see the Docker engine only if it is marked `docker`.
+
+    The images of `make test-all` become ready at some moment of the other tests.
+    """
+    if item.get_closest_marker("docker") is None:
+        os.environ["DOCKER_HOST"] = NO_ENGINE
+    elif ENGINE is None:
+        os.environ.pop("DOCKER_HOST", None)
+    else:
+        os.environ["DOCKER_HOST"] = ENGINE
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

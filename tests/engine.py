@@ -50,12 +50,11 @@ def say(text: str) -> None:
     print(text, file=sys.stderr, flush=True)
 
 
-def network() -> Network:
+def network(base: images.Base) -> Network:
     """Return the network settings of builds, with the CA bundle that pip uses, if any."""
     bundle = os.environ.get("PIP_CERT") or os.environ.get("REQUESTS_CA_BUNDLE")
-    return Network(
-        extra_ca=Path(bundle) if bundle else None, wheels_base=LOCAL_BASE, ros_base=STANDIN
-    )
+    under = LOCAL_BASE if base == "wheels" else STANDIN
+    return Network(extra_ca=Path(bundle) if bundle else None, base_image=under)
 
 
 def _state() -> Path:
@@ -121,16 +120,23 @@ def make_images(client: DockerClient, *, every: bool) -> None:
     base = ROOT / "docker" / "make_base.sh"
     subprocess.run([base, SUITE, LOCAL_BASE], check=True, stdout=sys.stderr)
     jazzy, kilted = find_distro("jazzy"), find_distro("kilted")
-    build_image(client, jazzy, stage="grade", base="wheels", network=network(), notify=_steps)
+    build_image(
+        client, jazzy, stage="grade", base="wheels", network=network("wheels"), notify=_steps
+    )
     if every:
-        build_image(client, jazzy, stage="lab", base="wheels", network=network(), notify=_steps)
-        build_image(client, kilted, stage="grade", base="wheels", network=network(), notify=_steps)
+        build_image(
+            client, jazzy, stage="lab", base="wheels", network=network("wheels"), notify=_steps
+        )
+        build_image(
+            client, kilted, stage="grade", base="wheels", network=network("wheels"), notify=_steps
+        )
     say(f"building {STANDIN}")
     with (ROOT / "tests" / "docker" / "standin.Dockerfile").open("rb") as dockerfile:
-        under = images.image_name(jazzy, "base", "wheels")
-        client.images.build(fileobj=dockerfile, tag=STANDIN, buildargs={"BASE": under}, rm=True)
-    build_image(client, jazzy, stage="grade", base="ros", network=network(), notify=_steps)
-    build_image(client, jazzy, stage="lab", base="ros", network=network(), notify=_steps)
+        under = {"BASE": images.image_name(jazzy, "base", "wheels")}
+        under |= {"GRADE": images.image_name(jazzy, "grade", "wheels")}
+        client.images.build(fileobj=dockerfile, tag=STANDIN, buildargs=under, rm=True)
+    build_image(client, jazzy, stage="grade", base="ros", network=network("ros"), notify=_steps)
+    build_image(client, jazzy, stage="lab", base="ros", network=network("ros"), notify=_steps)
 
 
 def _steps(text: str) -> None:

@@ -3,7 +3,7 @@
 A cell is `held` if the verdict is what the corpus expects and nothing is left over: no process, and
 no container. The checks that the machine's limits may decide are not compared with the corpus, but
 their outcomes must be the same in all sandboxes: `differs` names the first that is not. It exits
-with 1 unless every cell is `held`.
+with 1 unless every cell is `held`. The time of each verdict goes to stderr.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -50,8 +51,13 @@ def main(argv: Sequence[str]) -> int:
         cells, seen = [], []
         for column in asked.columns:
             said = ""
-            for _ in range(asked.runs):
+            for number in range(asked.runs):
+                start = time.monotonic()
                 report, one = _cell(package, column)
+                took = f"{time.monotonic() - start:.1f} s, {one or 'held'}"
+                print(
+                    f"{package.name}, {column}, {number + 1}: {took}", file=sys.stderr, flush=True
+                )
                 said = said or one
                 seen.append(report)
             cells.append(said or _difference(seen) or "held")
@@ -106,7 +112,8 @@ def _difference(reports: Sequence[Report | None]) -> str:
     known = [outcomes(report) for report in reports if report is not None]
     for row in zip(*known):
         if len({json.dumps(one) for one in row}) > 1:
-            return f"differs: {row[0][0]} ({', '.join(sorted({str(one[1]) for one in row}))})"
+            found = {" ".join((one[1], *one[3])) for one in row}
+            return f"differs: {row[0][0]} ({', '.join(sorted(found))})"
     return ""
 
 

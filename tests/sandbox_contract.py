@@ -11,7 +11,10 @@ from pathlib import Path
 
 import pytest
 
+from grader.base.cache import cache_root
+from grader.base.state import state_folder
 from grader.run.terminal import Terminal
+from grader.run.unforeseen import KEY_FILE
 from grader.sandbox.base import Pipe, Role, Sandbox
 from grader.sandbox.limits import MEGABYTE, Limits
 from tests import processes
@@ -37,7 +40,11 @@ def test_only_the_workspace_and_scratch_folders_are_writable(sandbox: Sandbox) -
 
 def test_files_of_the_host_are_not_visible(sandbox: Sandbox, tmp_path: Path) -> None:
     (tmp_path / "secret").write_text("x")
-    for path in (tmp_path / "secret", Path("/etc/shadow"), Path.home() / ".ssh", processes.ROOT):
+    keys = tmp_path / "state"  # of an installation
+    keys.mkdir()
+    (keys / KEY_FILE).write_bytes(b"key")
+    own = (tmp_path / "secret", Path("/etc/shadow"), Path.home() / ".ssh", processes.ROOT)
+    for path in (*own, keys / KEY_FILE, state_folder(), cache_root()):
         status, _ = shell(sandbox, f'test -r "{path}"')
         assert status == 1, path
 
@@ -54,16 +61,25 @@ def test_the_network_is_loopback_only(sandbox: Sandbox) -> None:
 
 
 IN_SIGHT = """
-env; cat /proc/self/mountinfo /proc/self/cgroup /etc/passwd /etc/group; hostname; id
-ls -a / /etc /run /opt /opt/ros /tmp /dev /dev/shm /home /home/student
+env; cat /proc/self/cgroup /etc/passwd /etc/group; hostname; id
+cat /proc/self/mountinfo /proc/self/mounts /proc/self/mountstats
+cat /proc/[0-9]*/mountinfo /proc/[0-9]*/cmdline /proc/[0-9]*/comm | tr '\\0' '\\n'
+ls -a / /etc /run /mnt /media /opt /opt/ros /tmp /dev /dev/shm /home /home/student
 """
+OURS = re.compile(r"grader|marking|autograd|teaching")
 
 
 def test_nothing_in_sight_tells_that_this_is_the_grader(sandbox: Sandbox) -> None:
     """A node that behaves only here would look for it."""
     _, output = shell(sandbox, IN_SIGHT)
     assert "student" in output
-    told = [line for line in output.splitlines() if re.search(r"grader|marking|autograd", line)]
+    assert " /opt/ros/" in output or "overlay / " in output, "the mounts are among it"
+    places = (str(processes.ROOT), str(cache_root()))
+    told = [
+        line
+        for line in output.splitlines()
+        if OURS.search(line) or any(place in line for place in places)
+    ]
     assert told == []
 
 

@@ -546,7 +546,7 @@ FORMS = (
         {
             "factor.set": "parameter.refused",
             "fifteen": "topic.wrong_value",
-            "says": "log.missing",
+            "says": "log.wrong_level",
             "turn.excessive": "action.accepted",
             "turn.feedback": "action.wrong_feedback",
             "turn.result": "action.wrong_status",

@@ -104,7 +104,9 @@ def test_the_package_of_the_first_course_does_not_get_full_marks(
 ) -> None:
     solution = write(RIGHT[0], tmp_path)
     done = processes.run(
-        processes.grader("grade", solution, "--assignment", course, "--out", tmp_path / "o")
+        processes.grader(
+            "grade", solution, "--all", "--assignment", course, "--out", tmp_path / "o"
+        )
     )
     assert done.returncode == 1
     assert "turtle_counter" in done.stdout

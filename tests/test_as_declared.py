@@ -7,19 +7,23 @@ from pathlib import Path
 
 import pytest
 
+from grader.base.i18n.translator import Translator
 from grader.course.assignment import CheckUse
 from grader.report.model import CheckResult
 from grader.run.run import Run
 from grader.run.workspace import Build, Installed
 from grader.verdict.checks.as_declared import wrapper_digest
 from grader.verdict.checks.installed import executable, mapping
+from grader.verdict.evaluate import evaluate_checks
 from grader.verdict.evidence import Evidence
 from grader.verdict.outcome import Failed, Passed
+from grader.verdict.static import static_results
 from tests.static_bench import BUILT, Bench
 
 NAME = "my_robot_controller"
 SCRIPT = f"install/{NAME}/lib/{NAME}/test_node"
 METADATA = f"build/{NAME}/{NAME}.egg-info/entry_points.txt"
+UP_TO_MAPPING = ("package.found", "entry_point.mapping", "entry_point.executable")
 ENTRY = f"[console_scripts]\ntest_node = {NAME}.my_first_node:main\n"
 WRAPPER = """\
 #!/opt/ros/jazzy/bin/python3
@@ -44,6 +48,8 @@ def ask(bench: Bench, made: Build) -> Passed | None:
     static = bench.evidence()
     evidence = Evidence(static.assignment, static.submission, build=lambda: made, run=no_run)
     outcome = mapping.evaluate(evidence, CheckUse(id=mapping.id, points=1))
+    if isinstance(outcome, Failed):
+        raise outcome
     assert isinstance(outcome, Passed)
     evidence.results[mapping.id] = passed(mapping.id)
     return executable.function(evidence)
@@ -85,10 +91,48 @@ def test_evidence_without_scripts_passes(bench: Bench) -> None:
     ],
     ids=["import", "module", "more", "metadata", "second metadata", "source"],
 )
-def test_anything_else_fails(bench: Bench, made: Build) -> None:
+def test_the_mapping_fails_if_the_build_installed_anything_else(bench: Bench, made: Build) -> None:
+    static = bench.evidence()
+    evidence = Evidence(static.assignment, static.submission, build=lambda: made, run=no_run)
+    with pytest.raises(Failed) as caught:
+        mapping.function(evidence)
+    assert caught.value.mistake.id == "entry_point.other_installed"
+
+
+def test_a_contradiction_of_the_mapping_is_told_once(bench: Bench) -> None:
+    static = bench.evidence()
+    made = build(altered=(f"{NAME}/my_first_node.py",))
+    evidence = Evidence(static.assignment, static.submission, build=lambda: made, run=no_run)
+    found = {one.id: one for one in evaluate_checks(evidence, Translator("en"), only=UP_TO_MAPPING)}
+    assert found[mapping.id].status == "failed"
+    assert (found[executable.id].status, found[executable.id].blocked_by) == ("skipped", mapping.id)
+
+
+def test_the_script_of_another_name_than_the_assignments_hides_no_contradiction(
+    bench: Bench,
+) -> None:
+    """The entry point that is run leads to the right function, the declared one does not."""
+    entries = (
+        f"[console_scripts]\ntest_node = {NAME}.other:main\nhello = {NAME}.my_first_node:main\n"
+    )
+    files = {path: Installed("f", 0o755, len(WRAPPER)) for path in (SCRIPT, OTHER_SCRIPT)}
+    made = build(files=files, entry_files={METADATA: entries}, entry_points=entries)
     with pytest.raises(Failed) as caught:
         ask(bench, made)
     assert caught.value.mistake.id == "entry_point.other_installed"
+
+
+def test_a_script_without_an_entry_point_of_its_own_must_be_the_declared_one(bench: Bench) -> None:
+    """setup.py can remove the metadata that its script contradicts."""
+    forged = {SCRIPT: WRAPPER + "print('more')\n"}
+    with pytest.raises(Failed):
+        ask(bench, build(entry_files={}, scripts=forged))
+
+
+def test_without_a_build_the_source_alone_decides_the_mapping(bench: Bench) -> None:
+    static = bench.evidence()
+    found = static_results(static.submission, static.assignment, mapping.id)
+    assert found[mapping.id].status == "passed"
 
 
 def test_a_script_for_another_distribution_fails(bench: Bench) -> None:
@@ -101,6 +145,30 @@ def test_the_digest_does_not_depend_on_the_names() -> None:
     assert wrapper_digest(WRAPPER, "test_node", f"{NAME}.my_first_node:main") == wrapper_digest(
         other.replace("__run__", "__main__"), "x", "a.b:run"
     )
+
+
+EASY = """\
+#!/opt/ros/jazzy/bin/python3
+# EASY-INSTALL-ENTRY-SCRIPT: 'DIST','console_scripts','NAME'
+import re
+import sys
+
+# for compatibility with easy_install; see #2198
+__requires__ = 'DIST'
+
+if __name__ == '__main__':
+    sys.exit(load_entry_point('DIST', 'console_scripts', 'NAME')())
+"""
+
+
+def test_an_executable_can_have_the_name_of_its_package() -> None:
+    """A right package whose executable and distribution are both called heart lost points."""
+
+    def digest(distribution: str, name: str) -> str:
+        script = EASY.replace("DIST", distribution).replace("NAME", name)
+        return wrapper_digest(script, name, f"{name}.node:main")
+
+    assert digest("heart", "heart") == digest("my-robot-controller", "test_node")
 
 
 OTHER_SCRIPT = f"install/{NAME}/lib/{NAME}/hello"

@@ -9,7 +9,8 @@ import pytest
 from grader.base.errors import AssignmentError, UsageError
 from grader.base.i18n.translator import Translator
 from grader.course.assignment import Assignment
-from grader.course.find import COURSE, chosen, lessons_of
+from grader.course.find import chosen, lessons_of
+from grader.course.folder import COURSE
 from grader.course.load import load_assignment
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.order import load_visible
@@ -147,7 +148,7 @@ def test_a_start_gives_words_and_a_file_of_parameters(tmp_path: Path) -> None:
         "a b",
         "--ros-args",
         "--params-file",
-        "src/doubling/config/l.yaml",
+        "install/doubling/share/doubling/config/l.yaml",
         "-p",
         "use_sim_time:=true",
     ]

@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from grader.ros.prefix import Ros
+from grader.sandbox import bubblewrap
 from grader.sandbox.base import Sandbox
 from grader.sandbox.bubblewrap import Bubblewrap
 from grader.sandbox.limits import Limits
@@ -42,6 +43,20 @@ def test_closing_ends_every_process_and_removes_the_control_group(ros_jazzy: Ros
     process.stdout.close()
     assert processes.alive(mark) == []
     assert not any(group.exists() for group in groups)
+
+
+def test_where_the_kernel_has_no_layers_for_users_the_prefix_is_there_all_the_same(
+    ros_jazzy: Ros, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    without = bubblewrap.HOLD.replace("mount -t overlay", "mount -t no_such_file_system")
+    monkeypatch.setattr(bubblewrap, "HOLD", without)
+    with Bubblewrap(ros_jazzy, Limits()) as opened:
+        place = "/opt/ros/jazzy"
+        done = opened.run(
+            ["sh", "-c", f"test -f {place}/setup.bash && touch {place}/x"], seconds=20
+        )
+        assert b"Read-only file system" in done.output
+        assert b"/mnt" not in opened.run(["cat", "/proc/self/mounts"], seconds=20).output
 
 
 KILLED = """

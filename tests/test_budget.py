@@ -150,7 +150,8 @@ def test_a_fault_of_ours_in_the_build_is_met_once(bench: Bench) -> None:
     evidence = Evidence(ASSIGNMENT, taken_in(bench.root), build=build, run=broken)
     found = {r.id: r.status for r in evaluate_checks(evidence, Translator("en"))}
     assert tries == 1
-    assert found["build.colcon"] == "error"
+    (met,) = [check for check, status in found.items() if status == "error"]
+    assert met in ("entry_point.mapping", "build.colcon")  # (whichever asks for the build first)
     assert found["run.starts"] == "inconclusive"
     assert found["package.manifest"] == "passed"
 

@@ -148,7 +148,7 @@ def test_a_node_that_exceeds_a_limit_beside_a_silent_probe_is_blamed(
     silent = "import time; print('{}', flush=True); time.sleep(100)"
     limits = Limits().override({"run_seconds": 0.5, "start_seconds": 0.5, "stop_seconds": 0.2})
     with make_sandbox(limits) as opened:
-        opened.run(["sh", "-c", f'mkdir install; echo "$0" > {SETUP}', overlay], seconds=10)
+        opened.overlay = f"{overlay}; "  # (in place of `ros2 run`)
         probe = opened.probe
         monkeypatch.setattr(opened, "probe", lambda argv: probe(["python3", "-c", silent]))
         link = ProbeLink(opened)
@@ -163,9 +163,6 @@ def test_a_node_that_exceeds_a_limit_beside_a_silent_probe_is_blamed(
                 observe(opened, ASSIGNMENT, link, unheard, until=until)
         assert opened.run_clock.now() - begin < 12
         link.close()
-
-
-SETUP = "install/local_setup.bash"
 
 
 @pytest.mark.full

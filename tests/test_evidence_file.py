@@ -60,6 +60,17 @@ def test_the_verdict_follows_from_the_evidence_alone(
     assert text.startswith("the same verdict")
 
 
+@pytest.mark.parametrize("switch", ["--all", "--verbose"])
+def test_the_whole_report_can_be_printed_again(
+    switch: str, tmp_path: Path, state: dict[str, str]
+) -> None:
+    place = graded("spin_missing", tmp_path, state)
+    status, text = said("replay", place, switch, env=state)
+    assert status == 0, text
+    assert "Score" in text and "run.spins" in text and "the same verdict" in text
+    assert ("Details" in text) is (switch == "--verbose")
+
+
 def test_the_evidence_has_the_hash_of_each_file_and_of_the_report(
     tmp_path: Path, state: dict[str, str]
 ) -> None:
@@ -91,6 +102,38 @@ def test_without_a_key_nothing_is_signed_and_the_report_is_still_compared(
     status, text = said("verify", place, env=state)
     assert status == 1
     assert f"{report['checks'][3]['id']}: passed, 5 of 5 -> passed, 0 of 5" in text
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        (b'"transcript":"', b'"transcript":"[INFO] [1.0] [my_first_node]: Hello time: 0'),
+        (b'"status":0', b'"status":1'),
+        (b'"lang":"en"', b'"lang":"ko"'),
+    ],
+)
+def test_without_a_key_changed_evidence_is_noticed(
+    tmp_path: Path, state: dict[str, str], before: bytes, after: bytes
+) -> None:
+    """Also where neither the report nor the checks' results are changed."""
+    place = graded("solution", tmp_path, state)
+    content = (place / EVIDENCE).read_bytes()
+    assert before in content
+    assert "evidence    as it was written" in said("verify", place, env=state)[1]
+    (place / EVIDENCE).write_bytes(content.replace(before, after, 1))
+    status, text = said("verify", place, env=state)
+    assert (status, "evidence    changed since it was written" in text) == (1, True), text
+
+
+def test_the_evidence_of_an_earlier_grader_has_no_hash_and_that_is_said(
+    tmp_path: Path, state: dict[str, str]
+) -> None:
+    place = graded("solution", tmp_path, state)
+    found = json.loads((place / EVIDENCE).read_bytes())
+    del found["digest"]
+    (place / EVIDENCE).write_bytes(canonical_json(found))
+    status, text = said("verify", place, env=state)
+    assert (status, "an earlier grader wrote no hash of it" in text) == (0, True), text
 
 
 def test_a_signature_holds_and_a_changed_file_does_not(

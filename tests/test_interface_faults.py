@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -17,7 +18,7 @@ from grader.package.source.interface_faults import LONGEST_TEXT, Texts
 from grader.report.model import CheckResult, Report
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros
-from grader.run.observations import Observations
+from grader.run.observations import Message, Observations
 from grader.run.probe_link import in_probe
 from grader.run.run import Run
 from grader.run.student_interfaces import texts_of
@@ -145,28 +146,69 @@ def test_each_fault_fails_the_check_of_the_fields_with_a_reason_and_a_change(
     assert "{" not in found.rationale + found.fix + found.expected + found.actual
 
 
-def observed(path: Path, unusable: dict[str, str]) -> dict[str, CheckResult]:
+def observed(
+    path: Path, unusable: dict[str, str], messages: list[Message] | None = None
+) -> dict[str, CheckResult]:
     """Return the results of the lesson's checks after a run with types that could not be used."""
-    seen = Observations(0.5, unusable=unusable, instants=[0.5 * n for n in range(1, 60)])
+    instants = [0.5 * n for n in range(1, 60)]
+    seen = Observations(0.5, unusable=unusable, instants=instants, messages=messages or [])
     run = Run(command="ros2 run", name="drives", seen=seen, started=True)
     run.watch.settled = True
     submission = take_in_for(lesson(), path)
     evidence = Evidence(
         lesson(), submission, build=lambda: BUILT, run=lambda: run, run_of=lambda _: run
     )
-    only = ("message.fields", "distance.listens", "distance.publishes", "distance.during")
+    uses = ("listens", "publishes", "before", "during")
+    only = ("message.fields", *(f"distance.{use}" for use in uses))
     return {r.id: r for r in evaluate_checks(evidence, Translator("en"), only=only)}
 
 
-def test_a_check_that_needs_the_type_fails_with_the_cause_and_others_go_on(tmp_path: Path) -> None:
+def test_a_check_that_needs_the_type_is_skipped_because_of_it_and_others_go_on(
+    tmp_path: Path,
+) -> None:
     path = handed_in(tmp_path, message=b"float64 pass\n")
     results = observed(path, {TYPE: "SyntaxError: invalid syntax"})
-    assert results["distance.publishes"].status == "failed"
-    assert [m.id for m in results["distance.publishes"].mistakes] == ["interface.field_reserved"]
-    assert results["distance.publishes"].where == results["message.fields"].where
-    assert results["distance.publishes"].consequence_of == "message.fields"
-    assert results["distance.during"].status == "failed"
+    assert [m.id for m in results["message.fields"].mistakes] == ["interface.field_reserved"]
+    for name in ("distance.publishes", "distance.during"):
+        assert (results[name].status, results[name].blocked_by) == ("skipped", "message.fields")
     assert "interface." not in str(results["distance.listens"].mistakes)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "status"),
+    [("float64 speed", "float64 pass", "skipped"), ("float64 speed", "int32 speed", "failed")],
+)
+def test_a_build_that_an_interface_stops_is_told_by_the_check_of_it(
+    old: str, new: str, status: str, tmp_path: Path
+) -> None:
+    path = handed_in(tmp_path)
+    file = path / MESSAGE
+    file.write_text(file.read_text("utf-8").replace(old, new), "utf-8")
+    log = "Failed   <<< my_robot_interfaces [2.1s, exited with code 2]\n"
+    evidence = Evidence(
+        lesson(),
+        take_in_for(lesson(), path),
+        build=lambda: replace(BUILT, status=1, log=log, files={}),
+        run=lambda: Run("ros2 run"),
+    )
+    only = ("message.fields", "build.colcon")
+    results = {r.id: r for r in evaluate_checks(evidence, Translator("en"), only=only)}
+    assert results["message.fields"].status == "failed"
+    assert results["build.colcon"].status == status
+    assert status == "failed" or results["build.colcon"].blocked_by == "message.fields"
+
+
+def test_values_of_a_field_with_another_type_follow_from_the_check_of_the_fields(
+    tmp_path: Path,
+) -> None:
+    path = handed_in(tmp_path)
+    file = path / MESSAGE
+    file.write_text(file.read_text("utf-8").replace("float64 speed", "int32 speed"), "utf-8")
+    values = {"turtle": "turtle1", "distance": 0.0, "speed": 1}
+    results = observed(path, {}, [Message("/distance", 1.5, values)])
+    assert [m.id for m in results["message.fields"].mistakes] == ["interface.field_type"]
+    assert results["distance.before"].status == "skipped"
+    assert results["distance.before"].blocked_by == "message.fields"
 
 
 def test_a_type_that_cannot_be_used_for_an_unknown_reason_is_told_with_its_file(
@@ -180,11 +222,12 @@ def test_a_type_that_cannot_be_used_for_an_unknown_reason_is_told_with_its_file(
     assert found.where.file == MESSAGE
 
 
-def test_a_package_that_is_not_there_fails_the_checks_that_need_it(tmp_path: Path) -> None:
+def test_a_package_that_is_not_there_prevents_the_checks_that_need_it(tmp_path: Path) -> None:
     path = handed_in(tmp_path)
     shutil.rmtree(path / "my_robot_interfaces")
     results = observed(path, {TYPE: "ModuleNotFoundError: No module named 'my_robot_interfaces'"})
-    assert [m.id for m in results["distance.publishes"].mistakes] == ["interface.missing"]
+    assert [m.id for m in results["message.fields"].mistakes] == ["interface.missing"]
+    assert results["distance.publishes"].blocked_by == "message.fields"
 
 
 def test_the_probe_gets_the_right_interfaces_of_a_package_and_no_other(tmp_path: Path) -> None:

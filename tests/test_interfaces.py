@@ -77,6 +77,25 @@ def test_a_machine_without_a_compiler_is_told_what_to_install(
     assert [p.name for p in folder.parent.iterdir()] == [folder.name]
 
 
+def test_a_lab_that_does_not_need_turtlesim_opens_without_it(
+    ros_jazzy: Ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def no_network(*_: object) -> None:
+        raise SurroundingsError("pip reaches no index")
+
+    monkeypatch.setenv("GRADER_CACHE", str(tmp_path))
+    folder = tmp_path / "prefixes" / ros_jazzy.path.name
+    folder.mkdir(parents=True)
+    monkeypatch.setattr(interfaces, "install", no_network)
+    monkeypatch.setattr(interfaces, "missing_for_building", list)
+    monkeypatch.setattr(interfaces, "_require_compiler", lambda _: None)
+    ros, said = replace(ros_jazzy, path=folder), list[str]()
+    assert interfaces.with_turtlesim(ros, notify=said.append) == ros
+    assert said[-1] == "turtlesim is not in this lab: pip reaches no index"
+    system = replace(ros, kind="system", path=tmp_path)
+    assert interfaces.with_turtlesim(system, notify=unheard) == system
+
+
 def test_a_system_installation_is_not_changed(ros_jazzy: Ros, tmp_path: Path) -> None:
     system = replace(ros_jazzy, kind="system", path=tmp_path)
     with pytest.raises(SurroundingsError) as told:

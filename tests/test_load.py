@@ -1,7 +1,8 @@
 """A verdict does not depend on the load of the machine.
 
-The long part marks forty packages three times alone and three times beside thirty busy processes,
-and prints a table. `make test-long PYTEST_ARGS="-n 0 tests/test_load.py -k draw_circle"` takes a part.
+The long part marks forty packages three times alone, one after the other, and three times beside thirty
+busy processes, four verdicts at a time: each has a seventeenth of a core. It prints a table.
+`make test-long PYTEST_ARGS="-n 0 tests/test_load.py -k draw_circle"` takes a part.
 """
 
 from __future__ import annotations
@@ -10,8 +11,10 @@ import statistics
 import subprocess
 import time
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from multiprocessing import get_context
 from pathlib import Path
 
 import pytest
@@ -28,6 +31,7 @@ from tests.marking import summary
 pytestmark = pytest.mark.alone
 TIMES = 3
 BUSY = 30
+AT_ONCE = 4  # verdicts beside the busy processes: they wait for each other too
 MOST_UNDECIDED = 0.05  # of the verdicts beside busy processes
 CASES = {case.name: case for case in cases()}
 IN_CI = {"hello_time-first_callback_raises": (80, ["run.output"]), "hello_time-solution": (100, [])}
@@ -110,34 +114,42 @@ class Row:
         )
 
 
+def timed(name: str, folder: Path) -> tuple[str, Report, float]:
+    """Mark the package written to `folder`; return its name, the report and how long it took (s)."""
+    begin = time.monotonic()
+    report = marked(CASES[name], folder)
+    return name, report, time.monotonic() - begin
+
+
 @pytest.fixture(scope="module")
-def rows(request: pytest.FixtureRequest) -> Iterator[list[Row]]:
-    """The rows of the table, which is printed at the end."""
-    found: list[Row] = []
-    yield found
-    if not found:
-        return
+def rows(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> dict[str, Row]:
+    """The verdicts of the packages whose tests run, by the packages' names; their table is printed."""
+    names = [
+        str(item.callspec.params["name"])
+        for item in request.session.items
+        if isinstance(item, pytest.Function) and {"rows", "name"} <= set(item.fixturenames)
+    ]
+    folders = {n: written(CASES[n], tmp_path_factory.mktemp("package")) for n in names}
+    found = {name: Row(name) for name in names}
     reporter = request.config.pluginmanager.getplugin("terminalreporter")
     print_line = reporter.write_line if reporter is not None else print
+    for name, folder in folders.items():
+        for _ in range(TIMES):
+            _, report, seconds = timed(name, folder)
+            found[name].alone.append(report)
+            found[name].seconds.append(seconds)
     print_line(f"\n{'package':60} {'alone':>14} {'':8} {'beside others':>16} {'':8} undecided")
-    for row in found:
-        print_line(str(row))
-    marked_beside = sum(len(row.beside) for row in found)
-    undecided = sum(row.undecided for row in found)
-    print_line(f"undecided beside others: {undecided} of {marked_beside}")
-    assert undecided <= max(1.0, MOST_UNDECIDED * marked_beside)
-
-
-def mark_all(case: Case, folder: Path, *, times: int, count: int) -> Row:
-    """Mark a package alone and beside busy processes."""
-    row = Row(case.name)
-    for made, others in ((row.alone, 0), (row.beside, count)):
-        with busy(others):
-            for _ in range(times):
-                begin = time.monotonic()
-                made.append(marked(case, folder))
-                row.seconds.append(time.monotonic() - begin)
-    return row
+    with busy(BUSY), ProcessPoolExecutor(AT_ONCE, get_context("spawn")) as pool:
+        orders = [(name, folder) for name, folder in folders.items() for _ in range(TIMES)]
+        for name, report, seconds in pool.map(timed, *zip(*orders, strict=True)):
+            row = found[name]
+            row.beside.append(report)
+            row.seconds.append(seconds)
+            if len(row.beside) == TIMES:
+                print_line(str(row))
+    return found
 
 
 def assert_equal(row: Row) -> None:
@@ -153,13 +165,20 @@ def assert_equal(row: Row) -> None:
 
 
 @pytest.mark.long
+@pytest.mark.timeout(0)
 @pytest.mark.parametrize("name", CASES)
 def test_a_verdict_beside_thirty_busy_processes_is_the_same(
-    name: str, tmp_path: Path, rows: list[Row]
+    name: str, rows: dict[str, Row]
 ) -> None:
-    row = mark_all(CASES[name], written(CASES[name], tmp_path), times=TIMES, count=BUSY)
-    rows.append(row)
-    assert_equal(row)
+    assert_equal(rows[name])
+
+
+@pytest.mark.long
+@pytest.mark.timeout(0)
+def test_few_verdicts_beside_thirty_busy_processes_are_undecided(rows: dict[str, Row]) -> None:
+    marked_beside = sum(len(row.beside) for row in rows.values())
+    undecided = sum(row.undecided for row in rows.values())
+    assert undecided <= max(1.0, MOST_UNDECIDED * marked_beside), f"of {marked_beside}"
 
 
 def test_there_are_forty_packages() -> None:

@@ -109,7 +109,14 @@ VARIABLES = {
         **{"KEYS": "--keys", "OUT": "--out", "ROSTER": "--roster", "WORKERS": "--workers"},
         **{"WORKSHEET": "--worksheet", "CANVAS": "--canvas", "GRADE_COLUMN": "--grade-column"},
         **{"FEEDBACK_COLUMN": "--feedback-column", "CANVAS_COLUMN": "--canvas-column"},
-        **{"ACCEPT": "--accept", "SCHEDULER": "--scheduler", "SUBMISSIONS": "--"},
+        **{
+            "COURSE": "--course",
+            "BRIGHTSPACE": "--brightspace",
+            "BRIGHTSPACE_COLUMN": "--brightspace-column",
+            "ACCEPT": "--accept",
+            "SCHEDULER": "--scheduler",
+            "SUBMISSIONS": "--",
+        },
     },
     "check": {**OPTIONS, "HINTS": "--hints", "PACKAGE": "--"},
     "fix": {**OPTIONS, "PACKAGE": "--"},
@@ -120,7 +127,12 @@ VARIABLES = {
         "ASSIGNMENT": "--",
     },
     "images": {
-        **{"DISTRO": "--distro", "BASE": "--base", "EXTRA_CA": "--extra-ca"},
+        **{
+            "DISTRO": "--distro",
+            "BASE": "--base",
+            "BASE_IMAGE": "--base-image",
+            "EXTRA_CA": "--extra-ca",
+        },
         **{"APT_MIRROR": "--apt-mirror", "PIP_INDEX_URL": "--pip-index"},
     },
 }
@@ -151,8 +163,22 @@ def test_every_variable_is_an_option_and_passed_as_data(
     assert not (tmp_path / "HACKED").exists()
 
 
+@pytest.mark.parametrize(("status", "said"), [(1, ""), (2, "Error 2"), (3, "Error 3")])
+def test_a_verdict_is_no_error_of_make(status: int, said: str) -> None:
+    """make adds "*** Error 1" to a command that failed; a package that failed is none."""
+    for goal in ("grade", "check", "fix", "grade-all"):
+        words = ["BOOTSTRAP=:", f"GRADER=sh -c 'exit {status}'", "STUDENT=x", "SUBMISSIONS=x"]
+        ended, _, output = make(goal, *words)
+        assert ended == (1 if status == 1 else 2)
+        assert (said in output, "***" in output) == (True, bool(said))
+
+
 def test_switches_are_set_by_a_variable(given: Given) -> None:
+    assert given("check", "ALL=1")[0] == ["check", "--all"]
+    assert given("grade", "ALL=1", "STUDENT=x")[0][-3:] == ["--all", "--", "x"]
     assert given("check", "EXPLAIN=1")[0] == ["check", "--explain"]
+    switched = given("grade-all", "SUBMISSIONS=x", "XLSX=1", "PSEUDONYMS=1")[0]
+    assert switched == ["grade-all", "--xlsx", "--pseudonyms", "--", "x"]
     assert given("grade-all", "SUBMISSIONS=x", "REGRADE=1")[0] == [
         "grade-all",
         "--regrade",

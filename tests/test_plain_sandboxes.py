@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import secrets
 import sys
 from collections.abc import Callable
@@ -14,6 +15,7 @@ from grader.base.cache import cache_root
 from grader.base.errors import SurroundingsError, UsageError
 from grader.ros.distro import find_distro
 from grader.ros.prefix import Ros, prefix_path
+from grader.sandbox import plain
 from grader.sandbox.base import Sandbox
 from grader.sandbox.choose import open_sandbox
 from grader.sandbox.limits import Limits
@@ -21,6 +23,23 @@ from grader.sandbox.plain import NoSandbox
 from tests import processes
 from tests import sandbox_contract as contract
 from tests.test_cli import solution
+
+
+def test_two_graders_of_a_machine_never_share_a_domain_whatever_their_tmp(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(plain, "DOMAINS", [plain.DOMAINS[-1] + 1])  # (nobody else asks for it)
+    first, lock = plain.lock_domain()
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))  # as in another lab
+    try:
+        with pytest.raises(SurroundingsError, match="every ROS domain"):
+            plain.lock_domain()
+    finally:
+        os.close(lock)
+    again, lock = plain.lock_domain()
+    os.close(lock)
+    assert again == first
+
 
 ACCOUNT = """
 import json, sys

@@ -25,6 +25,7 @@ from tests.test_scenarios import marked
 
 LESSON = ROOT / "lab" / "course" / "draw_circle" / "assignment.yaml"
 SOLUTION = ROOT / "grader" / "keys" / "draw_circle" / "solution"
+DRAWN = {"radius": 1.0, "change": 6.0}  # m, and s of ROS time
 FASTER = "SPEED / radius + (0.3 if self.get_clock().now().nanoseconds > 3e9 else 0.0)"
 real = [pytest.mark.prefix, pytest.mark.full]
 
@@ -39,7 +40,7 @@ def faster(tmp_path_factory: pytest.TempPathFactory) -> Report:
     assert text.count("SPEED / radius") == 1
     node.write_text(text.replace("SPEED / radius", FASTER))
     kept: list[Judged] = []
-    return marked(package, LESSON, kept)
+    return marked(package, LESSON, kept, drawn=DRAWN)
 
 
 def plot_of(report: Report, field: str) -> TopicPlot:
@@ -60,7 +61,7 @@ class TestOfARun:
         turns = plot_of(faster, "angular.z")
         assert [at for at, _ in turns.points] == [n / 2 for n in range(1, 21)]
         for at, value in turns.points:
-            # at 6 s the lesson sets the radius to 1 m; the timer of that instant may be first
+            # at 6 s the radius is set to 1 m; the timer of that instant may be first
             wanted = {1.0} if at <= 3 else {1.3} if at < 6 else {2.3} if at > 6 else {1.3, 2.3}
             assert min(abs(value - one) for one in wanted) < 1e-6, at
         assert all(value == 2.0 for _, value in plot_of(faster, "linear.x").points)

@@ -143,8 +143,9 @@ def test_a_distros_row_has_its_documentation_and_its_fast_dds_variable() -> None
 
 
 def test_a_distro_without_wheels_is_refused_with_a_fix() -> None:
-    with pytest.raises(SurroundingsError, match="no ROS wheels for humble"):
+    with pytest.raises(SurroundingsError, match="no ROS wheels for humble") as caught:
         prefix_path(find_distro("humble"))
+    assert "make images DISTRO=humble" in str(caught.value.remedy)
 
 
 def test_a_misspelt_distro_gets_a_suggestion() -> None:

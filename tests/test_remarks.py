@@ -43,25 +43,11 @@ def kinds(text: str, path: str = "my_package/my_node.py") -> set[tuple[str, str]
 
 def test_a_usual_node_has_no_remark() -> None:
     assert remarks_on([file(NODE)]) == []
-    assert remarks_on([file(NODE.replace("args=args", "args=sys.argv"))]) == []
-    assert remarks_on([file(NODE.replace("    main()", "    main(sys.argv)"))]) == []
-    for value in ("sys.argv if args is None else args", "args or sys.argv"):
-        assert remarks_on([file(NODE.replace("args=args", f"args={value}"))]) == []
-    asks = NODE.replace("args=args", "args=args if sys.argv else None")
-    assert [remark.what for remark in remarks_on([file(asks)])] == ["sys.argv"]
 
 
 @pytest.mark.parametrize(
     ("code", "remark"),
     [
-        ("if '--ros-args' in sys.argv: pass", ("asks", "sys.argv")),
-        ("x = os.environ.get('HOME')", ("asks", "os.environ")),
-        ("x = self.get_parameter('use_sim_time')", ("asks", "use_sim_time")),
-        ("self.create_subscription(Clock, '/clock', print, 10)", ("asks", "/clock")),
-        ("x = self.count_publishers('/topic')", ("asks", "self.count_publishers")),
-        ("x = time.perf_counter_ns()", ("asks", "time.perf_counter_ns")),
-        ("x = Clock(clock_type=ClockType.STEADY_TIME)", ("asks", "ClockType.STEADY_TIME")),
-        ("x = pathlib.Path('marked').is_file()", ("asks", "pathlib.Path().is_file")),
         ("x = getattr(os, 'envi' + 'ron')", ("hides", "getattr")),
         ("os._exit(0)", ("ends", "os._exit")),
         ("rclpy.shutdown()", ("ends", "rclpy.shutdown")),
@@ -72,7 +58,7 @@ def test_a_usual_node_has_no_remark() -> None:
         ("self.create_publisher(Log, '/rosout', 10)", ("rosout", "/rosout")),
     ],
 )
-def test_what_asks_ends_or_hides_is_found_with_its_line(code: str, remark: tuple[str, str]) -> None:
+def test_what_ends_or_hides_is_found_with_its_line(code: str, remark: tuple[str, str]) -> None:
     text = NODE.replace("        pass\n", f"        {code}\n")
     (found,) = remarks_on([file(text)])
     assert (found.kind, found.what) == remark
@@ -83,16 +69,11 @@ def test_an_attribute_that_is_named_in_the_source_hides_nothing() -> None:
     assert kinds(NODE.replace("        pass\n", "        getattr(self, 'n', 0)\n")) == set()
 
 
-def test_a_file_of_the_system_is_named_as_it_is_written() -> None:
-    text = NODE.replace("        pass\n", "        x = open('/proc/self/cmdline').read()\n")
-    assert kinds(text) == {("asks", "/proc/self/cmdline"), ("asks", "open")}
-
-
 def test_setup_tests_and_launch_files_are_not_the_node() -> None:
-    text = "import os\nprint(os.environ)\n"
+    text = "exec('x = 1')\n"
     for path in ("setup.py", "test/test_node.py", "launch/start.launch.py"):
         assert kinds(text, path) == set()
-    assert kinds(text) == {("asks", "os.environ")}
+    assert kinds(text) == {("hides", "exec")}
 
 
 def test_what_cannot_be_read_is_a_remark() -> None:
@@ -104,5 +85,5 @@ def test_what_cannot_be_read_is_a_remark() -> None:
 
 
 def test_few_of_one_kind_are_enough() -> None:
-    found = remarks_on([file(NODE + "print(os.getuid())\n" * 100)])
+    found = remarks_on([file(NODE + "exec('x')\n" * 100)])
     assert len(found) == MOST_REMARKS

@@ -221,6 +221,41 @@ def test_records_of_a_node_with_two_publishers_on_rosout_prove_nothing(bench: Be
     assert "/my_first_node has a second publisher on /rosout" in caught.value.actual
 
 
+@pytest.mark.parametrize("ahead", [60.0, -31.0, -7200.0])
+def test_records_with_a_time_that_no_logger_gives_prove_nothing(bench: Bench, ahead: float) -> None:
+    """It is of the future, or of before the run. One can be due to a clock that was set."""
+    one, two = stamped(counted(), ahead, most=1), stamped(counted(), ahead, most=2)
+    assert ask(logger, bench, one)
+    with pytest.raises(Failed) as caught:
+        ask(logger, bench, two)
+    assert caught.value.mistake.id == "run.faked_log"
+    assert "2 records" in caught.value.actual
+
+
+def test_records_that_are_read_late_are_still_the_loggers(bench: Bench) -> None:
+    assert ask(logger, bench, stamped(counted(), -20.0, most=10))
+
+
+def test_a_clock_that_is_set_back_forges_no_record(bench: Bench) -> None:
+    back = stamped(counted(), -0.1, most=10)
+    back.began += 60_000_000_000
+    assert ask(logger, bench, back)
+
+
+def stamped(run: Run, ahead: float, *, most: int) -> Run:
+    """Return a run whose first records were read so many seconds before their stamp.
+
+    All are read 30 s after the run began.
+    """
+    run.began = 1_799_999_970_000_000_000
+    for n, event in enumerate(run.watch.events[:most]):
+        read = 1_800_000_000_000_000_000
+        stamp = read + round(ahead * 1e9)
+        record = LogRecord(20, "my_first_node", event.text, "", "", 10, stamp, read)
+        run.watch.events[n] = replace(event, record=record)
+    return run
+
+
 def test_lines_that_were_erased_are_not_taken_for_a_silent_node(bench: Bench) -> None:
     silent = Run("ros2 run", Watch(clock="virtual"), started=True, erased=5)
     with pytest.raises(Failed) as caught:

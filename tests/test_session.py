@@ -9,7 +9,6 @@ from typing import cast
 import pytest
 
 from grader.base.unheard import unheard
-from grader.package.source.remarks import Remark
 from grader.run import session
 from grader.run.observer import Event, Watch
 from grader.run.probe_link import NodeSeen
@@ -20,8 +19,6 @@ from grader.sandbox.base import Outcome, Sandbox
 from grader.sandbox.limits import Limits
 from grader.sandbox.scheduling import RunClock
 from tests.marking import ASSIGNMENT
-
-ASKS = Remark("asks", "node.py", 3, "sys.argv")
 
 
 class NoSandbox:
@@ -104,26 +101,26 @@ def test_only_two_plain_runs_without_a_count_blame_the_node(
     runs: Callable[..., Session], plain: tuple[bool, ...], confirmed: bool
 ) -> None:
     opened = runs(right_run(), plain=plain)
-    opened._remarks = [ASKS]
+    opened._could_tell = True
     assert opened.run(unheard).confirmed is confirmed
 
 
 @pytest.mark.parametrize(
-    ("confirm", "remarks", "draw", "made"),
+    ("confirm", "could_tell", "draw", "made"),
     [
-        ("sample", [], 0.5, False),
-        ("sample", [], 0.01, True),
-        ("sample", [ASKS], 0.5, True),
-        ("never", [ASKS], 0.01, False),
-        ("always", [], 0.5, True),
+        ("sample", False, 0.5, False),
+        ("sample", False, 0.01, True),
+        ("sample", True, 0.5, True),
+        ("never", True, 0.01, False),
+        ("always", False, 0.5, True),
     ],
 )
 def test_who_is_run_plainly(
-    runs: Callable[..., Session], confirm: str, remarks: list[Remark], draw: float, made: bool
+    runs: Callable[..., Session], confirm: str, could_tell: bool, draw: float, made: bool
 ) -> None:
     opened = runs(right_run(), plain=(True,))
     opened.assignment = ASSIGNMENT.model_copy(update={"confirm": confirm})
-    opened._remarks = remarks
+    opened._could_tell = could_tell
     opened._unforeseen = Unforeseen(more_ticks=1, stay_seconds=0, draw=draw)
     assert opened.run(unheard).confirmed is (True if made else None)
 
@@ -189,5 +186,5 @@ def test_a_node_that_already_failed_is_not_run_plainly(runs: Callable[..., Sessi
     wrong.watch.events[:] = [replace(event, n=0) for event in wrong.watch.events]
     for first in (ended, wrong):
         opened = runs(first)
-        opened._remarks = [ASKS]
+        opened._could_tell = True
         assert opened.run(unheard).confirmed is None

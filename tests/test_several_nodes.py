@@ -125,7 +125,7 @@ BROKEN = (
     broken(
         "never spins",
         (LISTENER, MAIN, "    node = Listener()\n    input()\n"),
-        fails=("run.spins", "node.waits_first", LISTENER),
+        fails=("run.spins", "node.spin_missing", LISTENER),
         says="the node does not answer",
         lost=OF_LISTENER | {"run.stays"},
     ),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from pathlib import Path
 
@@ -13,6 +14,8 @@ from grader.verdict.fix import fix_files
 from tests.marking import ASSIGNMENT
 
 from .static_bench import ENTRY, FILES, NAME, NODE, Bench, line, mistake
+
+RECORDINGS = Path(__file__).parent / "recordings"
 
 
 @pytest.fixture
@@ -58,6 +61,22 @@ def test_the_entry_point_may_be_in_a_string_or_in_setup_cfg(bench: Bench) -> Non
     passed = bench.maps()
     assert passed is not None
     assert "setup.cfg, line 8" in passed.actual
+
+
+GENERATED = json.loads((RECORDINGS / "ros2cli-jazzy-create-new.json").read_text())["cases"][0]
+
+
+@pytest.mark.parametrize("since", ["text", "text of 0.32.6 and later, derived"])
+def test_the_setup_py_of_each_ros2cli_is_right_with_an_entry(bench: Bench, since: str) -> None:
+    created = GENERATED[since]["my_robot/setup.py"].replace("my_robot", NAME)
+    bench.write("setup.py", created)
+    assert mistake(bench.misses()) == "setup.no_entry"
+    bench.change(
+        "setup.py", "'console_scripts': [\n", f"'console_scripts': [\n            {ENTRY}\n"
+    )
+    passed = bench.maps()
+    assert passed is not None
+    assert "my_first_node" in passed.actual
 
 
 @pytest.mark.parametrize(
@@ -157,6 +176,12 @@ POINTS = """\
     ("new", "at", "words"),
     [
         (f"    tests_require=['pytest', {ENTRY}],\n)\n", 14, "it is in tests_require"),
+        (
+            f"    extras_require={{\n        'test': [\n            'pytest',\n            {ENTRY}\n"
+            "        ],\n    },\n    entry_points={\n        'console_scripts': [\n        ],\n    },\n)\n",
+            17,
+            "it is in extras_require",
+        ),
         (f"    install_requires=[{ENTRY}],\n)\n", 14, "it is in install_requires"),
         (f"    keywords=[\n        {ENTRY}\n    ],\n)\n", 15, "it is in keywords"),
         (f"    console_scripts=[{ENTRY}],\n)\n", 14, "outside of entry_points"),

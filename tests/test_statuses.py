@@ -34,12 +34,13 @@ class FakeSandbox:
 
     limits = Limits()
     ros_path = "/opt/ros/jazzy"
+    workspace = "/ws"
 
     def __init__(self, *, lay_out: int = 0, colcon: int = 0, listing: int = 0) -> None:
-        self._statuses = {"tar ": lay_out, BUILD: colcon, "find ": listing}
+        self._statuses = {"tar -xf": lay_out, BUILD: colcon, "find ": listing}
 
     def run(self, argv: Sequence[str], **_: object) -> Outcome:
-        status = next(status for word, status in self._statuses.items() if word in argv[-1])
+        status = next(status for word, status in self._statuses.items() if word in argv[2])
         return Outcome(status, LISTED, 0.1)
 
 

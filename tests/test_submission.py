@@ -343,8 +343,25 @@ def test_packages_side_by_side_are_named_together(tmp_path: Path) -> None:
     make(tmp_path / "src" / PACKAGE)
     make(tmp_path / "src" / "other", "other")
     found = take_in(tmp_path, package=PACKAGE, node_file=NODE, others=["other"])
+    assert found.hints == ()  # (one folder must hold both)
+    (tmp_path / "ws").mkdir()
+    (tmp_path / "src").rename(tmp_path / "ws" / "src")
+    found = take_in(tmp_path, package=PACKAGE, node_file=NODE, others=["other"])
     (hint,) = found.hints
-    assert f"hand in only src/{PACKAGE}, src/other, without" in hint
+    assert f"ws/src/{PACKAGE}, ws/src/other in them were marked" in hint
+    for name in ("build", "install", "log"):
+        (tmp_path / "ws" / name).mkdir()
+        (tmp_path / "ws" / name / "COLCON_IGNORE").touch()
+    found = take_in(tmp_path, package=PACKAGE, node_file=NODE, others=["other"])
+    (hint,) = found.hints
+    assert hint.startswith("A whole workspace") and "other in it were marked" in hint
+
+
+def test_a_folder_of_the_main_packages_name_may_hold_several_packages(tmp_path: Path) -> None:
+    make(tmp_path / PACKAGE / PACKAGE)
+    make(tmp_path / PACKAGE / "other", "other")
+    found = take_in(tmp_path / PACKAGE, package=PACKAGE, node_file=NODE, others=["other"])
+    assert found.hints == ()
 
 
 @pytest.mark.parametrize("folder", [".backup", ".old/deeper"])

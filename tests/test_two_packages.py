@@ -9,12 +9,14 @@ import pytest
 from grader.base.errors import AssignmentError
 from grader.base.unheard import unheard
 from grader.course.load import load_assignment
-from grader.report.model import Report
+from grader.package.submission import take_in
+from grader.report.model import CheckResult, Report
 from grader.ros.distro import find_distro
 from grader.sandbox.limits import Limits
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.mark import grade
 from grader.verdict.order import Order
+from grader.verdict.static import evaluate_static
 
 ASSIGNMENT = """\
 schema: 2
@@ -187,6 +189,60 @@ def test_a_mistake_in_the_second_package_is_found(
         assert "get_logger" in text
 
 
+OF_FILES = """\
+  - {id: readme, check: files.exists, points: 1, with: {path: README.md}}
+  - {id: relay.readme, check: files.exists, of: relay, points: 1, with: {path: README.md}}
+  - {id: relay.limit, check: files.matches, of: relay, points: 1, with: {path: README.md, text: {contains: limit}}}
+  - {id: relay.manifest, check: package.manifest, of: relay, points: 1}
+  - {id: relay.marker, check: package.marker, of: relay, points: 1}
+  - {id: relay.setup_cfg, check: package.setup_cfg, of: relay, points: 1}
+  - {id: relay.depends, check: package.depends, of: relay, points: 1}
+"""
+RELAYS = [f"relay.{name}" for name in ("readme", "limit", "manifest", "marker", "setup_cfg")]
+
+
+def from_files(folder: Path) -> dict[str, CheckResult]:
+    """Return what the files alone show in `folder`/ws, with checks of both packages' files."""
+    file = folder / "assignment.yaml"
+    file.write_text(ASSIGNMENT + OF_FILES, encoding="utf-8")
+    assignment = load_assignment(file, known_checks=CHECKS)
+    taken = take_in(
+        folder / "ws", package="sensing", node_file="source.py", others=assignment.others
+    )
+    return {result.id: result for result in evaluate_static(taken, assignment)}
+
+
+def test_a_check_of_files_that_names_a_node_is_about_its_package(tmp_path: Path) -> None:
+    src = tmp_path / "ws/src"
+    write_one(src, "sensing", "source", SOURCE)
+    write_one(src, "relaying", "relay", RELAY)
+    (src / "sensing/README.md").write_text("no word of it", encoding="utf-8")
+    found = from_files(tmp_path)
+    assert {one: found[one].status for one in ("readme", *RELAYS, "relay.depends")} == {
+        "readme": "passed",
+        "relay.readme": "failed",
+        "relay.limit": "skipped",
+        **dict.fromkeys(("relay.manifest", "relay.marker", "relay.setup_cfg"), "passed"),
+        "relay.depends": "passed",
+    }
+    (src / "sensing/README.md").unlink()
+    (src / "relaying/README.md").write_text("The limit is 3.", encoding="utf-8")
+    (src / "relaying/setup.cfg").unlink()
+    found = from_files(tmp_path)
+    failed = {name: one.where for name, one in found.items() if one.status == "failed"}
+    assert set(failed) == {"readme", "relay.setup_cfg"}
+    place = failed["relay.setup_cfg"]
+    assert place is None or place.file == "relaying/setup.cfg"
+
+
+def test_the_checks_of_a_package_that_is_not_there_are_skipped(tmp_path: Path) -> None:
+    write_one(tmp_path / "ws/src", "sensing", "source", SOURCE)
+    found = from_files(tmp_path)
+    assert found["relay.there"].status == "failed"
+    for name in RELAYS:
+        assert (found[name].status, found[name].blocked_by) == ("skipped", "relay.there"), name
+
+
 @pytest.mark.prefix
 @pytest.mark.full
 @pytest.mark.parametrize(
@@ -219,7 +275,7 @@ def test_a_second_program_that_never_spins_is_told(tmp_path: Path) -> None:
         tmp_path, relay=RELAY.replace("rclpy.spin(Relay())", "n = Relay()\n    input()")
     )
     told = next(found for found in report.checks if found.status == "failed")
-    assert (told.id, told.mistakes[0].id) == ("run.spins", "node.waits_first")
+    assert (told.id, told.mistakes[0].id) == ("run.spins", "node.spin_missing")
     assert told.actual.startswith("relay: the node does not answer")
     assert told.where is not None and told.where.file == "relaying/relaying/relay.py"
 

@@ -380,7 +380,7 @@ def test_the_guide_uses_the_courses_own_lesson(course: Path, tmp_path: Path) -> 
         workspace / "src", Replace(NODE, TIMER, ""), Replace(SETUP, weather.ENTRY, "")
     )
     _, output, _ = guide("--workspace", workspace, **env(course))
-    assert "Next: The node in station.py has no timer yet." in output.splitlines()
+    assert "Found: the node in station.py has no timer yet" in output.splitlines()
     _, listed, _ = guide("list", "--workspace", workspace, **env(course))
     assert [line[:3] for line in listed.splitlines()[:4]] == ["[x]", "[x]", "[>]", "[ ]"]
     _, korean, _ = guide("--lang", "ko", "--workspace", workspace, **env(course))
@@ -393,7 +393,7 @@ def test_the_guide_says_when_everything_is_done(course: Path, tmp_path: Path) ->
     (tmp_path / "ws/src").mkdir(parents=True)
     weather.write_package(tmp_path / "ws/src")
     status, output, _ = guide("--workspace", tmp_path / "ws", **env(course))
-    assert (status, output.splitlines()[-1]) == (0, "Next: check")
+    assert (status, output.splitlines()[-2:]) == (0, ["Next: check", "More: lab hint"])
     _, listed, _ = guide("list", "--workspace", tmp_path / "ws", **env(course))
     assert [line[:3] for line in listed.splitlines()[:4]] == ["[x]"] * 4
 

@@ -50,6 +50,11 @@ class Folder:
     ) -> None:
         os.close(self._fd)
 
+    @property
+    def descriptor(self) -> int:
+        """The descriptor of the open folder, in which names are resolved."""
+        return self._fd
+
     def lock(self) -> bool:
         """Wait for the lock, and hold it until the folder is closed.
 

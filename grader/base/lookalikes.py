@@ -8,8 +8,3 @@ GREEK = dict(zip("οανρι", "oavpi"))
 GREEK_CAPITALS = dict(zip("ΑΒΕΖΗΙΚΜΝΟΡΤΥΧ", "ABEZHIKMNOPTYX"))
 LATIN: dict[str, str] = {**CYRILLIC, **CYRILLIC_CAPITALS, **GREEK, **GREEK_CAPITALS}
 """The Latin letter by the letter that looks like it."""
-
-
-def as_latin(text: str) -> str:
-    """Return a text with Latin letters in the place of those that look like them."""
-    return "".join(LATIN.get(sign, sign) for sign in text)

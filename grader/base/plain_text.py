@@ -44,9 +44,13 @@ def _escaped(character: str) -> str:
     return character.encode("unicode_escape").decode("ascii")
 
 
-def one_line(text: str, *, most: int = 300) -> str:
-    """Return `text` on one line (newlines escaped), cut in the middle to `most` characters."""
-    return visible(shorten(text, most=most)).replace("\n", "\\n")
+def one_line(text: str, *, most: int = 300, translate: Translate = str) -> str:
+    """Return `text` on one line (newlines escaped), cut in the middle to `most` characters.
+
+    `translate` translates it, and the words that take the place of what is left out.
+    """
+    short = shorten(translate(text), most=most, translate=translate)
+    return visible(short).replace("\n", "\\n")
 
 
 def first_lines(
@@ -140,6 +144,8 @@ def shorten(text: str, *, most: int, translate: Translate = str) -> str:
     half = most // 2
     count = f"{len(text) - 2 * half:,}"
     left_out = translate(say("[... {count} characters left out ...]", count=count))
+    if len(text) <= most + len(left_out):  # (the note would take more room than what it replaces)
+        return text
     return f"{text[:half]}{left_out}{text[-half:]}"
 
 

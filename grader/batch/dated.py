@@ -4,18 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from datetime import tzinfo
+from datetime import timezone, tzinfo
 from pathlib import Path
 
 from grader.base.errors import UsageError
+from grader.base.i18n.message import say
 from grader.base.shown import shown
 from grader.batch.match import Match, is_participant, match_more, rules_for_people
-from grader.batch.model import ClassFolder, Student
+from grader.batch.model import ClassFolder, HandedIn, Student
 from grader.batch.roster import Roster, read_roster
 from grader.batch.systems.system import System
 from grader.batch.times import timed
 from grader.course.policy import Policy
 
+NO_ZONE = say(
+    "the times in the files' names are not used: they are local times, and the policy has no time_zone"
+)
 MOST_LISTS = 50  # beside a download
 MOST_BYTES = 5_000_000
 
@@ -33,10 +37,16 @@ def with_times(folder: ClassFolder, lists: Sequence[Roster], policy: Policy) -> 
         beside = list(_beside(folder))
         if len(beside) == 1:
             known = [beside[0][1]]
-            notes.append(f"the times of submission are from {shown(str(beside[0][0]))}")
+            file = shown(str(beside[0][0]))
+            notes.append(say("the times of submission are from {file}", file=file))
         elif beside:
             names = ", ".join(shown(path.name) for path, _ in beside)
-            notes.append(f"times of submission: several lists fit, name one (--worksheet): {names}")
+            notes.append(
+                say(
+                    "times of submission: several lists fit, name one (--worksheet): {names}",
+                    names=names,
+                )
+            )
     for one in known:
         folder = _with_times_of(folder, one, policy.zone)
     if known and policy.deadline is not None and not any(_shows_due_date(one) for one in known):
@@ -45,6 +55,26 @@ def with_times(folder: ClassFolder, lists: Sequence[Roster], policy: Policy) -> 
             handed_in=tuple(replace(one, late_seconds=None) for one in folder.handed_in),
         )
     return replace(folder, notes=(*folder.notes, *notes))
+
+
+def in_zone(folder: ClassFolder, policy: Policy) -> ClassFolder:
+    """Return the class with all times in UTC: a system's local times are in the class' zone.
+
+    Without a time zone they are not used, which a note says.
+    """
+    naive = [one for one in folder.handed_in if one.submitted and one.submitted.tzinfo is None]
+    if not naive:
+        return folder
+    zone = policy.zone
+
+    def zoned(one: HandedIn) -> HandedIn:
+        if one.submitted is None or one.submitted.tzinfo is not None:
+            return one
+        at = one.submitted.replace(tzinfo=zone).astimezone(timezone.utc) if zone else None
+        return replace(one, submitted=at)
+
+    notes = folder.notes if zone else (*folder.notes, NO_ZONE)
+    return replace(folder, handed_in=tuple(map(zoned, folder.handed_in)), notes=notes)
 
 
 def _with_times_of(folder: ClassFolder, one: Roster, zone: tzinfo | None) -> ClassFolder:

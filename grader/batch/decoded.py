@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from grader.base.errors import UsageError
+from grader.base.i18n.message import say
 
 BOM = b"\xef\xbb\xbf"
 MARKS = ((BOM, "utf-8"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
@@ -85,5 +86,9 @@ def _is_common_hangul(character: str) -> bool:
 
 
 def _assumed(text: str, name: str, encoding: str) -> Decoded:
-    note = f"{name} is not UTF-8 and was read as {encoding}: check the names"
+    note = say(
+        "{name} is not UTF-8 and was read as {encoding}: check the names",
+        name=name,
+        encoding=encoding,
+    )
     return Decoded(text, marked=True, note=note)

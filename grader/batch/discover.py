@@ -9,9 +9,11 @@ from datetime import tzinfo
 from pathlib import Path
 
 from grader.base.errors import UsageError
+from grader.base.i18n.message import say
 from grader.base.shown import shown
-from grader.batch.join import join
-from grader.batch.loose_files import with_loose_files
+from grader.batch.join import Pinned, join, with_own_keys
+from grader.batch.join_file import LEFT_OUT, GivenJoin
+from grader.batch.loose_files import loose_file, with_loose_files
 from grader.batch.model import ClassFolder, HandedIn
 from grader.batch.roster import Roster, read_roster
 from grader.batch.systems import plain
@@ -33,7 +35,7 @@ from grader.batch.unpack_members import NOT_UNPACKED
 from grader.package.intake.given import resolved
 
 DEEPEST = 2  # nested folders around the class folder that contain nothing else
-NO_BITS = (
+NO_BITS = say(
     "no submission has an executable node: the exec bits count as unknown (they were lost on the "
     "way here)"
 )
@@ -55,12 +57,13 @@ def discover(
     roster: Path | Roster | None = None,
     unpack: Path,
     zone: tzinfo | None = None,
+    given: GivenJoin | None = None,
 ) -> ClassFolder:
     """Return all submissions of a class; `path` is a folder, or an archive of one.
 
     `unpack` is the grader's folder for unpacked and gathered files, `zone` that of the times in the
-    roster that have none. Raises UsageError if the path
-    is not a class, the system is unknown or the roster cannot be used.
+    roster that have none. `given` names the students of some files. Raises UsageError if the path
+    is not a class, the system is unknown, or the roster or `given` cannot be used.
     """
     check_system(system)
     request = Request(resolved(path), system, unpack.resolve())
@@ -74,7 +77,13 @@ def discover(
     layout, system_found, handed_in, files = _read(request, unpacked, notes)
     handed_in = _with_remarks(handed_in, unpacked, notes)
     handed_in = _with_modes(system_found, handed_in, unpacked, notes)
-    joined = join(system_found, _numbered(handed_in), students)
+    pinned: list[Pinned] = []
+    left_out: list[str] = []
+    if given is not None and not (students is None and given.is_remembered):
+        handed_in, pinned, files, left_out = _pinned(given, students, handed_in, layout.path, files)
+        if left_out:
+            notes.add_names(LEFT_OUT, left_out)
+    joined = join(system_found, _numbered(handed_in), students, pinned)
     if students is not None:
         joined = with_loose_files(system_found, joined, layout.path, files, students)
     used = {one.path.name for one in joined.handed_in}
@@ -93,6 +102,32 @@ def discover(
         on_roster=joined.on_roster,
         notes=(*notes.lines(), *joined.notes),
         unclear=joined.unclear,
+        on_list=joined.on_list,
+        left_out=tuple(left_out),
+    )
+
+
+def _pinned(
+    given: GivenJoin,
+    roster: Roster | None,
+    handed_in: Sequence[HandedIn],
+    path: Path,
+    files: Sequence[FolderItem],
+) -> tuple[list[HandedIn], list[Pinned], list[FolderItem], list[str]]:
+    """Return the submissions to be matched, those with given students, other files, and left out."""
+    if roster is None:
+        raise UsageError(
+            f"{given.name} names students, but there is no list of the class",
+            remedy="Give it with --roster FILE (make: ROSTER=FILE).",
+        )
+    loose = {path / item.name: loose_file(path, item) for item in files}
+    rest, pinned, out = given.pinned([*handed_in, *loose.values()], with_own_keys(roster))
+    left = {one.path for one in rest}
+    return (
+        [one for one in rest if one.path not in loose],
+        pinned,
+        [item for item in files if path / item.name in left],
+        out,
     )
 
 
@@ -133,14 +168,16 @@ def _read(
     files = [item for item in read.rest if not item.may_be_submission]
     for one in plain.read_items(layout.path, read.rest):
         handed_in.append(_beside(one, taken, download.title))
-    how = "as requested" if request.system != "auto" else "by its names"
-    notes.add(f"read as {download.title} ({system.name}), {how}")
+    note = say("read as {title} ({name}), as requested", title=download.title, name=system.name)
+    if request.system == "auto":
+        note = say("read as {title} ({name}), by its names", title=download.title, name=system.name)
+    notes.add(note)
     return layout, system, handed_in, files
 
 
 def _beside(one: HandedIn, taken: set[str], words: str) -> HandedIn:
     """Return a submission that was added to a system's own files, under a key of its own."""
-    note = f"not named as in {words}: its own name was used"
+    note = say("not named as in {download}: its own name was used", download=words)
     key = one.student.key
     while key in taken:
         key = f"{key} (by hand)"
@@ -180,7 +217,7 @@ def _class_layout(layout: Layout, request: Request, unpacked: Unpacked, notes: N
         by_hand = request.system == "auto" and is_class(deeper)
         if by_hand or is_named_as_in(request.system, deeper):
             place = os.path.relpath(deeper.path, layout.path)
-            notes.add(f"the class is in the folder {shown(printable(place))}")
+            notes.add(say("the class is in the folder {folder}", folder=shown(printable(place))))
             return replace(deeper, left_out=left_out)
     return layout
 

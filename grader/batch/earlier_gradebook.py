@@ -15,10 +15,11 @@ from functools import cached_property
 from pathlib import Path
 
 from grader.base.errors import UsageError
+from grader.base.i18n.message import say
 from grader.base.plain_text import one_line
 from grader.batch import cells
 from grader.batch.decoded import decoded
-from grader.batch.lowered import Lowered, as_number, lowered
+from grader.batch.lowered import GradeChange, Lowered, as_number, changed, lowered
 from grader.batch.match import possible_names, written_names
 from grader.batch.model import ClassResult, Elsewhere, Student
 from grader.package.intake.reading import MEGABYTE, Unread, read_bytes
@@ -49,7 +50,10 @@ class EarlierGradebook:
             key = self._key(student, shared)
             if key:
                 points = self.rows[key]["final"]
-                found[student.key] = Elsewhere(f"{NAME} has {points} points", as_number(points))
+                found[student.key] = Elsewhere(
+                    say("the existing gradebook has {points} points", points=points),
+                    as_number(points),
+                )
         return found
 
     def _key(self, student: Student, shared: Collection[str]) -> str:
@@ -83,6 +87,16 @@ class EarlierGradebook:
             for name in set(possible_names(Student(key, row.get("name", "")))):
                 found.setdefault(name, set()).add(key)
         return found
+
+    def changed(self, result: ClassResult) -> list[GradeChange]:
+        """Return the grades that differ from those in the gradebook, in the order of the class."""
+        keys = {cells.text(entry.student.key): entry for entry in result.entries}
+        found = (
+            changed(entry, self.rows[key]["final"], NAME)
+            for key, entry in keys.items()
+            if key in self.rows
+        )
+        return [one for one in found if one is not None]
 
     def lowered(self, result: ClassResult) -> list[Lowered]:
         """Return the grades that would go down or be removed.

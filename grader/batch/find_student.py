@@ -16,6 +16,35 @@ from grader.batch.model import Student
 MOST_NAMED = 5
 
 
+class StudentIndex:
+    """Finds many students of one list, each as `find_student` does."""
+
+    def __init__(self, students: Sequence[Student]) -> None:
+        self._students = students
+        self._rows: dict[str, set[int]] = {}
+        for row, student in enumerate(students):
+            words = _folded((student.key, student.email, student.username, student.id_number))
+            for word in {*words, *possible_names(student)}:
+                self._rows.setdefault(word, set()).add(row)
+
+    def find(self, word: str) -> int:
+        """Return the place of the student whom `word` identifies; raise UsageError as above."""
+        rows = self._fit(word)
+        if len(rows) == 1:
+            return rows.pop()
+        return self._students.index(find_student(word, self._students))
+
+    def word_for(self, row: int) -> str:
+        """Return the word that identifies a student: what a spreadsheet does not change comes first."""
+        one = self._students[row]
+        words = (one.email, one.username, one.id_number, one.key)
+        return next((word for word in words if word and self._fit(word) == {row}), one.key)
+
+    def _fit(self, word: str) -> set[int]:
+        words = {*_folded((word,)), *written_names(Student("", word))}
+        return {row for one in words for row in self._rows.get(one, ())}
+
+
 def find_student(word: str, students: Sequence[Student]) -> Student:
     """Return the one student whom `word` identifies.
 

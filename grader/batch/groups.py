@@ -13,6 +13,7 @@ import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from grader.base.i18n.message import say
 from grader.base.nearest import without_accents
 from grader.batch.model import Student
 from grader.batch.roster import RosterLine
@@ -105,7 +106,10 @@ def _mark_ambiguous(
     cells: Mapping[str, list[int]],
 ) -> None:
     for name in names:
-        why = f"the group '{name}' may have handed in: more than one group or submission fits"
+        why = say(
+            "the group '{group}' may have handed in: more than one group or submission fits",
+            group=name,
+        )
         found.unsure |= dict.fromkeys(cells[name], why)
         found.ambiguous |= {student.key: why for student in students}
 
@@ -121,7 +125,9 @@ def _without_double_members(found: Groups, lines: Sequence[RosterLine]) -> None:
         own = [key for key in keys if found.names[key] == lines[row].group]
         if len(keys) > 1 and not own:
             named = ", ".join(f"'{found.names[key]}'" for key in keys)
-            found.unsure[row] = f"is a member of more than one group that handed in: {named}"
+            found.unsure[row] = say(
+                "is a member of more than one group that handed in: {groups}", groups=named
+            )
         if len(keys) > 1:
             for key in set(keys) - set(own):
                 found.rows[key].remove(row)

@@ -6,8 +6,10 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from grader.base.i18n.message import joined, say, say_plural
 from grader.base.nearest import without_accents
 from grader.base.plain_text import one_line
+from grader.batch.find_student import StudentIndex
 from grader.batch.groups import Groups, find_groups, group_column
 from grader.batch.match import Match, fallback_rules, is_same_name, match_more, sure_rules
 from grader.batch.model import Elsewhere, HandedIn, OnRoster, Student
@@ -16,9 +18,10 @@ from grader.batch.systems.system import System
 from grader.batch.times import timed
 from grader.batch.unclear import Unclear, unclear_groups
 
-STRANGER = "not on the roster"
-BY_NAME = "found on the roster by name only"
-ALONE_TOO = "also handed in alone: both are attempts"
+STRANGER = say("not on the roster")
+BY_NAME = say("found on the roster by name only")
+ALONE_TOO = say("also handed in alone: both are attempts")
+GIVEN = say("joined as the join file says")
 
 
 @dataclass(frozen=True)
@@ -27,6 +30,7 @@ class Joined:
 
     `elsewhere` are the missing students, by key, who are known to have handed in elsewhere.
     `unclear` says which submissions were not joined because several students or submissions fit.
+    `on_list` has the word that identifies each student on the roster, by key.
     """
 
     handed_in: tuple[HandedIn, ...]
@@ -35,13 +39,28 @@ class Joined:
     on_roster: OnRoster | None = None
     notes: tuple[str, ...] = ()
     unclear: tuple[str, ...] = ()
+    on_list: Mapping[str, str] = field(default_factory=dict)
 
 
-def join(system: System, handed_in: Iterable[HandedIn], roster: Roster | None) -> Joined:
+@dataclass(frozen=True)
+class Pinned:
+    """A submission whose students the instructor named: their rows of the roster."""
+
+    handed_in: HandedIn
+    rows: tuple[int, ...]
+
+
+def join(
+    system: System,
+    handed_in: Iterable[HandedIn],
+    roster: Roster | None,
+    pinned: Sequence[Pinned] = (),
+) -> Joined:
     """Match each submission with its student's line of the roster; without a roster, sort by name.
 
     A group's submission becomes one of each member. Students keep the keys of their submissions;
-    members of groups get the roster's.
+    members of groups get the roster's. `pinned` submissions are not matched, and are not among
+    `handed_in`.
     """
     by_key: dict[str, list[HandedIn]] = {}
     for one in handed_in:
@@ -49,7 +68,7 @@ def join(system: System, handed_in: Iterable[HandedIn], roster: Roster | None) -
     if roster is None:
         return Joined(tuple(_by_student_name(by_key.values())))
     students = [group[0].student for group in by_key.values()]
-    roster, notes = _with_groups(system, students, _with_own_keys(roster))
+    roster, notes = _with_groups(system, students, with_own_keys(roster))
     match = Match()
     match_more(match, sure_rules(system, students, roster), students, roster)
     # a group `Team Lee` may have the number of a participant Ann Lee
@@ -63,7 +82,7 @@ def join(system: System, handed_in: Iterable[HandedIn], roster: Roster | None) -
     groups = find_groups([one for one in students if one.key not in match.rows], roster.lines)
     rest = [one for one in students if one.key not in groups.rows | dict.fromkeys(groups.ambiguous)]
     match_more(match, fallback_rules(system, roster), rest, roster)
-    return _joined(by_key, match, groups, roster, notes)
+    return _joined(by_key, match, groups, roster, notes, pinned)
 
 
 def _with_groups(
@@ -85,7 +104,9 @@ def _with_groups(
         return roster, []
     lines = tuple(replace(line, group=line.unknown[column]) for line in roster.lines)
     named = one_line(column, most=40)
-    return replace(roster, lines=lines), [f"the roster's column '{named}' was used as the group"]
+    return replace(roster, lines=lines), [
+        say("the roster's column '{column}' was used as the group", column=named)
+    ]
 
 
 def _joined(
@@ -94,6 +115,7 @@ def _joined(
     groups: Groups,
     roster: Roster,
     notes: list[str],
+    pinned: Sequence[Pinned],
 ) -> Joined:
     found: dict[int, list[HandedIn]] = {}
     strangers = []
@@ -109,6 +131,7 @@ def _joined(
             own = found.get(row, [])
             student = own[0].student if own else _with_free_key(roster.students[row], taken)
             found[row] = [*_of_group(by_key[key], student, groups.names[key], alone=own), *own]
+    _add_pinned(found, pinned, roster, taken)
     for row, own in found.items():
         found[row] = timed(own, {own[0].student.key: roster.lines[row].times})
     unclear = _unclear(by_key, match, groups, roster, found)
@@ -124,6 +147,9 @@ def _joined(
         for row, line in enumerate(roster.lines)
         if row not in found
     ]
+    index = StudentIndex(roster.students)
+    keys = {row: own[0].student.key for row, own in found.items()}
+    keys |= {row: student.key for row, student in missing}
     elsewhere: dict[str, Elsewhere] = {}
     for row, student in missing:
         why = next((one.reason for one in unclear if row in one.rows), "")
@@ -134,10 +160,32 @@ def _joined(
         handed_in=(*(o for row in sorted(found) for o in found[row]), *_by_student_name(strangers)),
         missing=tuple(student for _, student in missing),
         elsewhere=elsewhere,
-        on_roster=_roster_counts(by_key, strangers, roster),
+        on_roster=_roster_counts(len(by_key) + len(pinned), strangers, roster),
         notes=(*roster.notes, *notes, *_group_notes(groups)),
         unclear=tuple(one.reason for one in unclear),
+        on_list={key: index.word_for(row) for row, key in keys.items()},
     )
+
+
+def _add_pinned(
+    found: dict[int, list[HandedIn]], pinned: Sequence[Pinned], roster: Roster, taken: set[str]
+) -> None:
+    """Add the submissions whose students the instructor named; `taken` are keys of others."""
+    for one in pinned:
+        note = GIVEN
+        if len(one.rows) > 1:
+            note = joined(GIVEN, say("of a group of {count}", count=len(one.rows)), by=": ")
+        for row in one.rows:
+            own, line = found.get(row, []), roster.students[row]
+            if own:
+                student = own[0].student
+            elif len(one.rows) > 1 or one.handed_in.student.key in taken:
+                student = _with_free_key(line, taken)
+            else:
+                student = _fuller(one.handed_in.student, line)
+                taken.add(student.key)
+            notes = (*one.handed_in.notes, note)
+            found[row] = [*own, replace(one.handed_in, student=student, notes=notes)]
 
 
 def _unclear(
@@ -165,11 +213,11 @@ def _unclear(
 
 
 def _roster_counts(
-    by_key: Mapping[str, list[HandedIn]], strangers: Sequence[list[HandedIn]], roster: Roster
+    submissions: int, strangers: Sequence[list[HandedIn]], roster: Roster
 ) -> OnRoster:
     return OnRoster(
         roster=roster.name,
-        submissions=len(by_key),
+        submissions=submissions,
         strangers=tuple(g[0].student.name for g in strangers if not g[0].unclear),
         lines=len(roster.lines),
     )
@@ -178,7 +226,7 @@ def _roster_counts(
 def _of_group(
     attempts: Sequence[HandedIn], student: Student, name: str, *, alone: Sequence[HandedIn]
 ) -> Iterator[HandedIn]:
-    note = f"handed in by the group '{one_line(name, most=80)}'"
+    note = say("handed in by the group '{group}'", group=one_line(name, most=80))
     for one in attempts:
         more = (ALONE_TOO,) if alone else ()
         yield replace(one, student=student, notes=(*one.notes, note, *more))
@@ -187,11 +235,13 @@ def _of_group(
 def _group_notes(groups: Groups) -> Iterator[str]:
     members = sum(len(rows) for rows in groups.rows.values())
     if members:
-        count = len(groups.rows)
-        what = (
-            "1 submission is from a group" if count == 1 else f"{count} submissions are from groups"
+        yield say_plural(
+            "1 submission is from a group: each of the {members} members gets the group's verdict",
+            "{count} submissions are from groups: each of the {members} members gets the group's "
+            "verdict",
+            len(groups.rows),
+            members=members,
         )
-        yield f"{what}: each of the {members} members gets the group's verdict"
 
 
 def _by_student_name(groups: Iterable[list[HandedIn]]) -> Iterator[HandedIn]:
@@ -214,7 +264,7 @@ def _fuller(own: Student, line: Student) -> Student:
     )
 
 
-def _with_own_keys(roster: Roster) -> Roster:
+def with_own_keys(roster: Roster) -> Roster:
     """Return the roster with different keys for students of one name who have nothing else."""
     counts = Counter(line.student.key for line in roster.lines)
     lines = (

@@ -8,8 +8,8 @@ from __future__ import annotations
 import contextlib
 import sqlite3
 import zlib
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import astuple, dataclass
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import asdict, dataclass
 from datetime import datetime, timezone
 from pathlib import Path
 from types import TracebackType
@@ -18,8 +18,11 @@ from grader.base.errors import SurroundingsError
 from grader.base.signing import PublicKey, SigningKey, own_key
 from grader.batch import ledger_chain
 from grader.batch.ledger_file import LedgerFile
+from grader.batch.ledger_forget import forget, rows_of
 from grader.batch.ledger_overrides import recorded_overrides
-from grader.batch.model import Override, Student
+from grader.batch.ledger_rows import put, remove
+from grader.batch.ledger_schema import schema_faults
+from grader.batch.model import Override, Remark, Student
 from grader.report.model import Report
 
 MOST_KEPT = 250  # reports in memory: up to 0.1 MB each
@@ -115,11 +118,8 @@ class Ledger:
     def record_fault(self, student: str, key: str, message: str) -> None:
         """Record that the grader failed; an earlier verdict still counts."""
         with self._file.write() as connection:
-            connection.execute("DELETE FROM fault WHERE student = ? AND key = ?", (student, key))
-            connection.execute(
-                "INSERT INTO fault (student, key, message, at) VALUES (?, ?, ?, ?)",
-                (student, key, message, _now()),
-            )
+            row = {"student": student, "key": key, "message": message, "at": _now()}
+            put(connection, "fault", row, self._signing, unique=("student", "key"))
 
     def fault(self, student: str, key: str) -> str:
         """Return why the last try failed, "" if it did not."""
@@ -167,7 +167,7 @@ class Ledger:
             return b""
         try:
             return zlib.decompress(rows[0][0])
-        except zlib.error as error:
+        except (zlib.error, TypeError) as error:
             raise SurroundingsError(
                 f"the ledger {self.path} holds evidence that cannot be read (verdict {verdict})"
             ) from error
@@ -184,9 +184,11 @@ class Ledger:
         raise KeyError(report.submission.name)
 
     def check_chain(self, key: PublicKey | None) -> ledger_chain.ChainCheck:
-        """Check the chain of all verdicts and corrections, and with a key their signatures."""
+        """Check the chain of all rows, and with a key its signatures; and the tables themselves."""
         with self._file.write() as connection:  # so that nothing is added meanwhile
-            return ledger_chain.check_chain(connection, key)
+            found = ledger_chain.check_chain(connection, key)
+            found.faults += schema_faults(connection)
+            return found
 
     def _read(self, verdict: int) -> Report:
         rows = self._file.rows("SELECT report FROM verdict WHERE id = ?", (verdict,))
@@ -194,11 +196,17 @@ class Ledger:
             raise KeyError(verdict)
         try:
             return Report.model_validate_json(zlib.decompress(rows[0][0]))
-        except (zlib.error, ValueError) as error:
+        except (zlib.error, TypeError, ValueError) as error:
             raise SurroundingsError(
                 f"the ledger {self.path} holds a report that cannot be read (verdict {verdict})",
                 remedy="Mark that student again: --regrade NAME.",
             ) from error
+
+    def counts(self) -> dict[str, int]:
+        """Return the number of rows of each table that the chain covers."""
+        tables = ledger_chain.TABLES
+        query = " UNION ALL ".join(f"SELECT '{t}', count(*) FROM {t}" for t in tables)  # noqa: S608
+        return {str(name): int(count) for name, count in self._file.rows(query)}
 
     def verdict_ids(self) -> list[int]:
         """Return the ids of all verdicts, in the order in which they were recorded."""
@@ -211,10 +219,10 @@ class Ledger:
     def request_regrades(self, verdicts: Iterable[VerdictRow]) -> None:
         """Request that these verdicts be reached again; a request is kept until it is done."""
         with self._file.write() as connection:
-            connection.executemany(
-                "INSERT OR IGNORE INTO regrade (student, key, before, asked) VALUES (?, ?, ?, ?)",
-                [(row.student, row.key, row.id, _now()) for row in verdicts],
-            )
+            for one in verdicts:
+                row = {"student": one.student, "key": one.key, "before": one.id, "asked": _now()}
+                unique, keeps = ("student", "key"), ("before", "asked")
+                put(connection, "regrade", row, self._signing, unique=unique, keeps=keeps)
 
     def pending_regrades(self) -> dict[tuple[str, str], Regrade]:
         """Return the regrades that are not done yet."""
@@ -224,21 +232,20 @@ class Ledger:
     def record_handed_in(self, assignment: str, rows: Iterable[HandedInRow]) -> None:
         """Record submissions; a known one keeps the time when it was first seen."""
         with self._file.write() as connection:
-            connection.executemany(
-                "INSERT INTO handed_in (student, assignment, submission, submitted, late, path, "
-                "first_seen, late_seconds, extension) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?) "
-                "ON CONFLICT DO UPDATE SET submitted = excluded.submitted, late = excluded.late, "
-                "path = excluded.path, late_seconds = excluded.late_seconds, "
-                "extension = excluded.extension",
-                [
-                    (
-                        *(row.student, assignment, row.submission, _text(row.submitted)),
-                        *(row.late, row.path, _text(row.first_seen)),
-                        *(row.late_seconds, _text(row.extension)),
-                    )
-                    for row in rows
-                ],
-            )
+            for one in rows:
+                row = {
+                    "student": one.student,
+                    "assignment": assignment,
+                    "submission": one.submission,
+                    "submitted": _text(one.submitted),
+                    "late": one.late,
+                    "path": one.path,
+                    "first_seen": _text(one.first_seen),
+                    "late_seconds": one.late_seconds,
+                    "extension": _text(one.extension),
+                }
+                unique, keeps = ("student", "assignment", "submission"), ("first_seen",)
+                put(connection, "handed_in", row, self._signing, unique=unique, keeps=keeps)
 
     def handed_in(self, assignment: str) -> list[HandedInRow]:
         """Return all submissions so far, in the order in which they were first seen."""
@@ -258,19 +265,16 @@ class Ledger:
 
     def enrol(self, assignment: str, students: Iterable[Student]) -> None:
         """Record the students of the class."""
-        rows = [(assignment, *astuple(student)) for student in students]
         with self._file.write() as connection:
-            connection.executemany(
-                "INSERT OR REPLACE INTO student (assignment, key, name, email, username, "
-                "id_number, section) VALUES (?, ?, ?, ?, ?, ?, ?)",
-                rows,
-            )
+            for student in students:
+                row = {"assignment": assignment, **asdict(student)}
+                put(connection, "student", row, self._signing, unique=("assignment", "key"))
 
     def students(self, assignment: str) -> list[Student]:
         """Return all students recorded so far."""
         rows = self._file.rows(
             "SELECT key, name, email, username, id_number, section FROM student "
-            "WHERE assignment = ? ORDER BY rowid",
+            "WHERE assignment = ? ORDER BY id",
             (assignment,),
         )
         return [Student(*row) for row in rows]
@@ -286,15 +290,17 @@ class Ledger:
     def _put_override(self, assignment: str, override: Override, points: float | None) -> None:
         at = _text(override.at) or _now()
         with self._file.write() as connection:
-            cursor = connection.execute(
-                "INSERT INTO override (student, assignment, check_id, points, because, by, at, "
-                "verdict) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
-                (
-                    *(override.student, assignment, override.check, points),
-                    *(override.because, override.by, at, override.verdict),
-                ),
-            )
-            ledger_chain.append(connection, "override", int(cursor.lastrowid or 0), self._signing)
+            row = {
+                "student": override.student,
+                "assignment": assignment,
+                "check_id": override.check,
+                "points": points,
+                "because": override.because,
+                "by": override.by,
+                "at": at,
+                "verdict": override.verdict,
+            }
+            put(connection, "override", row, self._signing)
 
     def overrides(self, assignment: str) -> list[Override]:
         """Return the corrections that were not removed, in the order in which they were made.
@@ -307,6 +313,51 @@ class Ledger:
         """Return the students with a correction that was made or removed since then."""
         rows = self._file.rows("SELECT student, at FROM override")
         return {student for student, when in rows if datetime.fromisoformat(when) > at}
+
+    def remark(self, assignment: str, remark: Remark) -> None:
+        """Record what an instructor wrote to a student: it replaces what was written before."""
+        with self._file.write() as connection:
+            row = {
+                "student": remark.student,
+                "assignment": assignment,
+                "submission": remark.submission,
+                "text": remark.text,
+                "by": remark.by,
+                "at": _text(remark.at) or _now(),
+            }
+            put(connection, "remark", row, self._signing, unique=("student", "assignment"))
+
+    def drop_remark(self, assignment: str, student: str) -> None:
+        """Remove what an instructor wrote to a student, and its text."""
+        with self._file.write() as connection:
+            remove(
+                connection,
+                "remark",
+                {"student": student, "assignment": assignment},
+                self._signing,
+            )
+
+    def remarks(self, assignment: str) -> dict[str, Remark]:
+        """Return what an instructor wrote, by the student's key."""
+        rows = self._file.rows(
+            "SELECT student, text, by, at, submission FROM remark WHERE assignment = ?",
+            (assignment,),
+        )
+        return {row[0]: Remark(row[0], row[1], row[2], _instant(row[3]), row[4]) for row in rows}
+
+    def rows_of(self, student: str) -> dict[str, int]:
+        """Return how many rows of a student each table has."""
+        return rows_of(self._file, student)
+
+    def forget(self, students: Collection[str]) -> None:
+        """Remove all rows of these students from the tables and from the file."""
+        self._kept.clear()
+        forget(self._file, students, self._signing)
+
+    def assignments(self) -> list[str]:
+        """Return the ids of the assignments of which there are students."""
+        rows = self._file.rows("SELECT DISTINCT assignment FROM student")
+        return [str(row[0]) for row in rows]
 
     def fingerprints(self) -> dict[str, str]:
         """Return the recorded fingerprints, by the submission's hash."""
@@ -328,9 +379,8 @@ class Ledger:
     def note(self, name: str, value: str) -> None:
         """Store a value under a name."""
         with self._file.write() as connection:
-            connection.execute(
-                "INSERT OR REPLACE INTO setting (name, value) VALUES (?, ?)", (name, value)
-            )
+            row = {"name": name, "value": value}
+            put(connection, "setting", row, self._signing, unique=("name",))
 
 
 def _insert(
@@ -344,24 +394,24 @@ def _insert(
     (rounds,) = connection.execute(
         "SELECT count(*) FROM verdict WHERE student = ? AND key = ?", (student, key)
     ).fetchone()
-    regrades = connection.execute(
-        "DELETE FROM regrade WHERE student = ? AND key = ?", (student, key)
-    ).rowcount
+    regrades = remove(connection, "regrade", {"student": student, "key": key}, signing)
     if rounds and not regrades:
         raise AlreadyMarkedError(f"{student}: {key}")
-    content = zlib.compress(report.model_dump_json(by_alias=True).encode(), 6)
-    cursor = connection.execute(
-        "INSERT INTO verdict (student, key, round, assignment, submission, distro, score, "
-        "max_score, report, evidence, marked) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-        (
-            *(student, key, rounds + 1, report.assignment.id, report.submission.sha256),
-            *(report.environment.distro, report.score, report.max_score, content),
-            *(zlib.compress(evidence, 6) if evidence else None, _now()),
-        ),
-    )
-    verdict = int(cursor.lastrowid or 0)
-    ledger_chain.append(connection, "verdict", verdict, signing)
-    connection.execute("DELETE FROM fault WHERE student = ? AND key = ?", (student, key))
+    row = {
+        "student": student,
+        "key": key,
+        "round": rounds + 1,
+        "assignment": report.assignment.id,
+        "submission": report.submission.sha256,
+        "distro": report.environment.distro,
+        "score": report.score,
+        "max_score": report.max_score,
+        "report": zlib.compress(report.model_dump_json(by_alias=True).encode(), 6),
+        "evidence": zlib.compress(evidence, 6) if evidence else None,
+        "marked": _now(),
+    }
+    verdict = put(connection, "verdict", row, signing)
+    remove(connection, "fault", {"student": student, "key": key}, signing)
     return verdict
 
 

@@ -15,10 +15,19 @@ from typing import Any
 
 from grader.base.errors import SurroundingsError, UsageError
 from grader.base.lock import HeldError, take_lock
-from grader.batch.ledger_schema import bring_up_to_date
+from grader.batch.ledger_schema import PlantedError, bring_up_to_date, must_have_no_programs
 
 BUSY_SECONDS = 20.0
 OWNER_ONLY = 0o600
+
+
+def _text(found: bytes) -> str:
+    """Return a text of a row: whoever changed a ledger need not have written UTF-8."""
+    return found.decode(errors="surrogateescape")
+
+
+class PlantedInError(SurroundingsError):
+    """A ledger has a trigger or a view."""
 
 
 class LedgerFile:
@@ -83,8 +92,10 @@ class LedgerFile:
     def _open(self) -> sqlite3.Connection:
         os.close(os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, OWNER_ONLY))
         connection = sqlite3.connect(self.path, timeout=BUSY_SECONDS, isolation_level=None)
+        connection.text_factory = _text
         try:
             with self._readable_errors():
+                must_have_no_programs(connection)
                 connection.execute("PRAGMA journal_mode = WAL").fetchone()
                 connection.execute("PRAGMA synchronous = FULL")
                 connection.execute("PRAGMA foreign_keys = ON")
@@ -106,6 +117,11 @@ class LedgerFile:
             yield
         except sqlite3.IntegrityError:
             raise
+        except PlantedError as error:
+            raise PlantedInError(
+                f"the ledger {self.path} is not as a grader made it: {error}",
+                remedy="Nothing was changed. Find out who did this; go on with a copy from before.",
+            ) from error
         except sqlite3.DatabaseError as error:
             raise SurroundingsError(
                 f"the ledger {self.path} cannot be used: {error}",
@@ -124,6 +140,12 @@ class LedgerFile:
                 self._connection.execute("ROLLBACK")
                 raise
             self._connection.execute("COMMIT")
+
+    def compact(self) -> None:
+        """Write the file anew without what was removed: no page of it is left, nor in the log."""
+        with self._readable_errors():
+            self._connection.execute("VACUUM")
+            self._connection.execute("PRAGMA wal_checkpoint(TRUNCATE)").fetchall()
 
     def rows(self, sql: str, values: Iterable[object] = ()) -> list[Any]:
         """Return the rows of a query."""

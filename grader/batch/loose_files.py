@@ -25,7 +25,7 @@ def with_loose_files(
     """Return the class with the files whose names are those of students without a submission."""
     missing = {_without_key(student) for student in joined.missing}
     taken = {one.student.key for one in joined.handed_in}
-    loose = [one for item in files if (one := _as_submission(path, item)).student.key not in taken]
+    loose = [one for item in files if (one := loose_file(path, item)).student.key not in taken]
     if not missing or not loose:
         return joined
     lines = tuple(line for line in roster.lines if _without_key(line.student) in missing)
@@ -39,10 +39,12 @@ def with_loose_files(
         missing=tuple(one for one in joined.missing if _without_key(one) not in who),
         elsewhere={**joined.elsewhere, **unclear},
         unclear=(*joined.unclear, *beside.unclear),
+        on_list={**joined.on_list, **beside.on_list},
     )
 
 
-def _as_submission(path: Path, item: FolderItem) -> HandedIn:
+def loose_file(path: Path, item: FolderItem) -> HandedIn:
+    """Return a file that cannot be marked as a submission of the student that it is named after."""
     key = printable(Path(item.name).stem)
     name = shown(printable(item.name))
     problem = item.problem or say("{name} is neither a folder nor an archive", name=name)

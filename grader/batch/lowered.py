@@ -59,6 +59,29 @@ def lowered(entry: GradebookEntry, before: str, where: str) -> Lowered | None:
     )
 
 
+@dataclass(frozen=True)
+class GradeChange:
+    """A student's grade in one place, and the one of now ("": none)."""
+
+    key: str
+    name: str
+    where: str
+    before: str
+    after: str
+
+
+def changed(entry: GradebookEntry, before: str, where: str) -> GradeChange | None:
+    """Return how an entry would change a grade, None if there is none, or the same."""
+    if before.strip() in NONE:
+        return None
+    number = as_number(before)
+    if number is not None and entry.final is not None and abs(number - entry.final) <= ROUNDED:
+        return None
+    name = one_line(entry.student.name or entry.student.key, most=60)
+    after = cells.number(entry.final)
+    return GradeChange(entry.student.key, name, where, one_line(before, most=20), after)
+
+
 def is_without_verdict(entry: GradebookEntry) -> bool:
     """Whether a student has neither a submission here nor a corrected total."""
     corrected = any(override.check == "" for override in entry.overrides)

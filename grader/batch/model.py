@@ -59,6 +59,8 @@ class HandedIn:
     problem: str = ""
     modes_kept: bool = True
     unclear: str = ""
+    files: tuple[str, ...] = ()
+    """The names of its files as they were downloaded, if the system wants them back."""
 
     @property
     def has_times(self) -> bool:
@@ -80,6 +82,17 @@ class Elsewhere:
 
 
 @dataclass(frozen=True)
+class Grant:
+    """What an instructor granted a student: a later due date (UTC), and slip days.
+
+    A slip day is a day late without a penalty.
+    """
+
+    until: datetime | None = None
+    slip_days: int = 0
+
+
+@dataclass(frozen=True)
 class OnRoster:
     """How well a class fits its roster: `strangers` are the names that are not on it."""
 
@@ -95,6 +108,8 @@ class ClassFolder:
 
     `elsewhere` are the missing students, by key, who are known to have handed in elsewhere.
     `unclear` says for each group of submissions and students why they were not joined.
+    `on_list` has the word that identifies each student on the roster, by key; `left_out` are the
+    files that the instructor leaves out, and `grants` what students were granted, by key.
     """
 
     system: System
@@ -105,6 +120,9 @@ class ClassFolder:
     on_roster: OnRoster | None = None
     notes: tuple[str, ...] = ()
     unclear: tuple[str, ...] = ()
+    on_list: Mapping[str, str] = field(default_factory=dict)
+    left_out: tuple[str, ...] = ()
+    grants: Mapping[str, Grant] = field(default_factory=dict)
 
 
 UNKNOWN = -1  # the verdict of a correction in the ledger of an earlier grader, if it is not certain
@@ -137,6 +155,17 @@ class LapsedOverride:
 
     override: Override
     attempt: int = 0
+
+
+@dataclass(frozen=True)
+class Remark:
+    """What an instructor wrote to a student about the submission with this hash ("": about none)."""
+
+    student: str
+    text: str
+    by: str = ""
+    at: datetime | None = None
+    submission: str = ""
 
 
 class LazyReport:
@@ -188,19 +217,29 @@ class GradebookEntry:
     submitted: datetime | None = None
     late_seconds: float | None = 0
     due: datetime | None = None
+    is_extended: bool = False
+    """Whether `due` is later than that of the assignment."""
+    slip_days: int = 0
+    slip_days_used: int = 0
     problem: str = ""
     notes: tuple[str, ...] = ()
     overrides: tuple[Override, ...] = ()
     lapsed: tuple[LapsedOverride, ...] = ()
     """Corrections for the instructor to repeat or to remove: they count no longer."""
+    remark: Remark | None = None
+    """What the instructor wrote to the student about the submission that counts."""
     unmarked_later: tuple[str, ...] = ()
     """Why later attempts than the one that counts could not be marked."""
     same_as: tuple[str, ...] = ()
     """Keys of students with the same content, not all of them: see `ClassResult.identical`."""
     verdict: int | None = None
     """The id of the report's verdict in the ledger."""
+    files: tuple[str, ...] = ()
+    """The names of the submission's files as they were downloaded; see `HandedIn.files`."""
     lang: str = "en"
     """The language of the student's texts: the report's, if there is one."""
+    detail: Detail | None = None
+    """What the student gets to know of a failed check, if not the same as the class."""
 
     @property
     def by_hand(self) -> tuple[str, ...]:
@@ -220,14 +259,18 @@ class GradebookEntry:
         return self.status in ("elsewhere", "unclear") and not corrected
 
     def for_student(self, detail: Detail, *, show_hidden: bool = False) -> GradebookEntry:
-        """Return the entry with a report that a student may read (see `with_feedback`)."""
+        """Return the entry with a report that a student may read (see `with_feedback`).
+
+        `detail` is that of the class.
+        """
         held = vars(self)["_report"]
+        level = detail if self.detail is None else self.detail
         if held is None:
             return self
 
         def seen() -> Report:
             report: Report = held() if callable(held) else held
-            return with_feedback(report, detail, show_hidden=show_hidden)
+            return with_feedback(report, level, show_hidden=show_hidden)
 
         return replace(self, report=seen)
 
@@ -251,6 +294,8 @@ class ClassResult:
     """Why submissions were not joined with students: one reason for each group of them."""
     detail: Detail = Detail.LINE
     """What students get to know of a failed check."""
+    lang: str = "en"
+    """The language of the class' pages."""
 
     def entry(self, key: str) -> GradebookEntry:
         """Return one student's entry; KeyError if there is no such student."""

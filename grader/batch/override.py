@@ -9,12 +9,12 @@ from datetime import datetime, timezone
 from pathlib import Path
 
 from grader.base.errors import UsageError
-from grader.base.nearest import nearest
 from grader.base.plain_text import one_line, points
 from grader.batch.correction import counting_verdict, holds
+from grader.batch.corrections_file import Correction
 from grader.batch.find_student import find_student
 from grader.batch.ledger import Ledger
-from grader.batch.model import Override, Student
+from grader.batch.model import Override, Remark, Student
 from grader.course.assignment import Assignment
 
 LEDGER = "ledger.sqlite"
@@ -42,34 +42,45 @@ def find_ledger(ledger: Path | None, out: Path | None, here: Path) -> Path:
     raise UsageError(f"there are several ledgers: {names}", remedy="Name one with --ledger.")
 
 
-def put(
-    ledger: Ledger,
-    assignment: Assignment,
-    word: str,
-    check: str,
-    points_given: float,
-    because: str,
-    *,
-    force: bool,
-    notify: Callable[[str], None],
+def record(ledger: Ledger, assignment: Assignment, rows: Sequence[Correction]) -> int:
+    """Record what is not recorded yet, and return of how many rows that was anything."""
+    verdicts = {
+        one.student.key: counting_verdict(ledger, assignment.id, one.student.key) for one in rows
+    }
+    known = ledger.overrides(assignment.id)
+    remarks, now, count = ledger.remarks(assignment.id), datetime.now(timezone.utc), 0
+    for one in rows:
+        key, is_new = one.student.key, False
+        submission = ledger.submission_of(verdicts[key])
+        if one.points is not None:
+            made = Override(key, one.check, one.points, one.because, _user(), now, verdicts[key])
+            if not any(_is_same(made, other) for other in known):
+                ledger.override(assignment.id, made)
+                is_new = True
+        if one.comment:
+            remark = Remark(key, one.comment, _user(), now, submission)
+            before = remarks.get(key)
+            if before is None or (before.text, before.submission) != (one.comment, submission):
+                ledger.remark(assignment.id, remark)
+                is_new = True
+        count += is_new
+    return count
+
+
+def _is_same(one: Override, other: Override) -> bool:
+    def what(override: Override) -> tuple[object, ...]:
+        return override.student, override.check, override.points, override.because, override.verdict
+
+    return what(one) == what(other)
+
+
+def drop_comment(
+    ledger: Ledger, assignment: Assignment, word: str, *, notify: Callable[[str], None]
 ) -> None:
-    """Record a correction; `check` "" corrects the total."""
+    """Take back what an instructor wrote to a student."""
     student = find_student(word, _students(ledger, assignment.id))
-    most = _most(assignment, check)
-    if not 0 <= points_given <= most and not force:
-        raise UsageError(
-            f"{check or 'the total'} is worth 0 to {points(most)} points, not "
-            f"{points(points_given)}",
-            remedy="Use --force to record it anyway.",
-        )
-    if not because.strip():
-        raise UsageError("a reason is needed: --because TEXT", remedy="The student reads it.")
-    verdict = counting_verdict(ledger, assignment.id, student.key)
-    now = datetime.now(timezone.utc)
-    made = Override(student.key, check, points_given, because.strip(), _user(), now, verdict)
-    ledger.override(assignment.id, made)
-    what = check or "the total"
-    notify(f"{student.name or student.key}: {what} now has {points(points_given)} points")
+    ledger.drop_remark(assignment.id, student.key)
+    notify(f"{student.name or student.key}: no comment any more")
 
 
 def remove(
@@ -94,15 +105,21 @@ def remove(
 
 
 def listed(ledger: Ledger, assignment: Assignment) -> list[str]:
-    """Return a line for every correction that was not removed."""
+    """Return a line for every correction and comment that was not removed."""
     names = {student.key: student.name for student in _students(ledger, assignment.id)}
-    return [
+    comments = [
+        f"{names.get(one.student) or one.student}: comment: {one_line(one.text)}"
+        f" ({one.by}, {one.at:%Y-%m-%d %H:%M} UTC)"
+        for one in ledger.remarks(assignment.id).values()
+    ]
+    corrections = [
         f"{names.get(o.student) or o.student}: {o.check or 'the total'} "
         f"{points(o.points)} points, because: {one_line(o.because)}"
         f" ({o.by}, {o.at:%Y-%m-%d %H:%M} UTC)"
         f"{'' if _holds(ledger, assignment, o) else LAPSED}"
         for o in ledger.overrides(assignment.id)
     ]
+    return [*corrections, *comments]
 
 
 def _holds(ledger: Ledger, assignment: Assignment, override: Override) -> bool:
@@ -123,14 +140,3 @@ def _user() -> str:
 
 def _students(ledger: Ledger, assignment: str) -> Sequence[Student]:
     return ledger.students(assignment)
-
-
-def _most(assignment: Assignment, check: str) -> float:
-    if not check:
-        return assignment.max_score
-    worth = {use.id: use.points for use in assignment.checks}
-    if check not in worth:
-        close = nearest(check, worth)
-        hint = f"Did you mean '{close}'?" if close else f"Checks: {', '.join(worth)}."
-        raise UsageError(f"{assignment.id} has no check '{check}'", remedy=hint)
-    return worth[check]

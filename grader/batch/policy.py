@@ -16,12 +16,13 @@ from grader.batch.model import (
     Elsewhere,
     EntryStatus,
     GradebookEntry,
+    Grant,
     LapsedOverride,
     Override,
     Student,
 )
 from grader.batch.points import marks, rounded
-from grader.batch.words import instant
+from grader.batch.words import local_instant
 from grader.course.policy import Policy, amount
 from grader.report.model import Report
 
@@ -101,11 +102,13 @@ def penalty(
     *,
     stated: float | None = None,
     extension: datetime | None = None,
+    slip_days: int = 0,
 ) -> float:
     """Return the points that lateness takes from a score; each begun day (hour) counts as a whole.
 
     At most the score and the policy's `most`; the whole score from the policy's `until` on (or an
-    extension that ends later). Nothing if it is not known how late the submission is.
+    extension that ends later). Nothing if it is not known how late the submission is, and for the
+    `slip_days` that are used.
     """
     late = lateness(submitted, policy, stated=stated, extension=extension)
     due = due_date(policy, extension)
@@ -114,11 +117,35 @@ def penalty(
     at = submitted if submitted is not None or due is None else due + timedelta(seconds=late)
     if policy.end is not None and at is not None and at >= max(policy.end, due or policy.end):
         return score
+    late = max(0.0, late - slip_days * DAY)
     rules = policy.late
     each, unit = (rules.per_day, DAY) if rules.per_day else (rules.per_hour, HOUR)
     taken = (amount(each, max_score) or 0) * math.ceil(late / unit)
     most = amount(rules.most, max_score)
     return rounded(max(0, min(taken, max_score if most is None else most, score)))
+
+
+def extended(grant: Grant, extension: datetime | None = None) -> datetime | None:
+    """Return the later due date of a student, of the system's and the instructor's; None: neither."""
+    return max((at for at in (extension, grant.until) if at is not None), default=None)
+
+
+def slip_days_used(late: float | None, grant: Grant) -> int:
+    """Return how many slip days a submission uses that is so many seconds late."""
+    return min(grant.slip_days, math.ceil((late or 0) / DAY))
+
+
+def _stated(attempt: Attempt, policy: Policy, grant: Grant) -> float | None:
+    """Return by how many seconds a submission is late in the system's words, after the grant.
+
+    The system does not know the grant: the exact time counts if it is known.
+    """
+    stated, due = attempt.late_seconds, due_date(policy, attempt.extension)
+    if not stated or grant.until is None or due is None:
+        return stated
+    if attempt.submitted is not None:
+        return None
+    return max(0.0, stated - max(0.0, (grant.until - due).total_seconds()))
 
 
 def standing(
@@ -129,6 +156,7 @@ def standing(
     max_score: float,
     *,
     elsewhere: Elsewhere | None = None,
+    grant: Grant = Grant(),  # noqa: B008 - it is immutable
 ) -> GradebookEntry:
     """Return what a student gets; `attempts` are in the order of submission.
 
@@ -138,10 +166,11 @@ def standing(
     """
     if not attempts:
         entry = _without_attempt(student, policy, max_score, elsewhere)
+        entry = _with_grant(entry, policy, grant, None)
         own = tuple(override for override in overrides if override.verdict == 0)
         others = [LapsedOverride(override) for override in overrides if override.verdict != 0]
         return _with_lapsed(_corrected(replace(entry, overrides=own)), others)
-    rated = [_rate(student, attempt, policy, max_score) for attempt in attempts]
+    rated = [_rate(student, attempt, policy, max_score, grant) for attempt in attempts]
     chosen = _chosen(rated, policy)
     entry = replace(rated[chosen], attempts=len(rated))
     others = [LapsedOverride(override) for override in overrides]
@@ -152,7 +181,11 @@ def standing(
     ]
     later = rated[chosen + 1 :] if policy.attempts == "best" else ()
     unmarked = tuple(
-        f"attempt {one.attempt}, later than the one that counts: {one.problem}"
+        say(
+            "attempt {number}, later than the one that counts: {problem}",
+            number=one.attempt,
+            problem=one.problem,
+        )
         for one in later
         if one.status == "ungradable"
     )
@@ -181,16 +214,42 @@ def _without_attempt(
     return GradebookEntry(student, "missing", final=nothing, max_score=max_score)
 
 
-def _rate(student: Student, attempt: Attempt, policy: Policy, max_score: float) -> GradebookEntry:
+def _with_grant(
+    entry: GradebookEntry, policy: Policy, grant: Grant, extension: datetime | None
+) -> GradebookEntry:
+    """Return the entry with the student's due date and slip days, and what the instructor reads."""
+    until = extended(grant, extension)
+    due = due_date(policy, until)
+    later = until is not None and until == due and until != policy.deadline
+    notes = [*entry.notes]
+    if later:
+        at = local_instant(until, policy.zone)
+        notes.append(say("the due date was extended until {time}", time=at))
+    used = slip_days_used(entry.late_seconds, grant)
+    if grant.slip_days:
+        most = grant.slip_days
+        notes.append(say("{used} of {most} slip days used", used=used, most=most))
+    return replace(
+        entry,
+        due=due,
+        is_extended=later,
+        slip_days=grant.slip_days,
+        slip_days_used=used,
+        notes=tuple(notes),
+    )
+
+
+def _rate(
+    student: Student, attempt: Attempt, policy: Policy, max_score: float, grant: Grant
+) -> GradebookEntry:
     """Return what a student gets for this attempt."""
-    stated, extension = attempt.late_seconds, attempt.extension
+    stated = _stated(attempt, policy, grant)
+    extension = extended(grant, attempt.extension)
     late = lateness(attempt.submitted, policy, stated=stated, extension=extension)
     due = due_date(policy, extension)
     notes = list(attempt.notes)
     if attempt.fault and attempt.report is None:
-        notes.insert(0, f"the grader failed on it: {attempt.fault}")
-    if extension is not None:
-        notes.append(f"the due date was extended until {instant(extension)}")
+        notes.insert(0, say("the grader failed on it: {fault}", fault=attempt.fault))
     if late is None and (due is not None or attempt.late):
         notes.append(joined(UNKNOWN_TIME, CALLED_LATE if attempt.late else "", by="; "))
     entry = GradebookEntry(
@@ -201,15 +260,21 @@ def _rate(student: Student, attempt: Attempt, policy: Policy, max_score: float) 
         attempt=attempt.number,
         submitted=attempt.submitted,
         late_seconds=late,
-        due=due,
         problem=attempt.problem,
         notes=tuple(notes),
         overrides=attempt.overrides,
     )
-    return _corrected(_with_points(entry, attempt, policy))
+    entry = _with_grant(entry, policy, grant, attempt.extension)
+    return _corrected(_with_points(entry, attempt, policy, stated, extension))
 
 
-def _with_points(entry: GradebookEntry, attempt: Attempt, policy: Policy) -> GradebookEntry:
+def _with_points(
+    entry: GradebookEntry,
+    attempt: Attempt,
+    policy: Policy,
+    stated: float | None,
+    extension: datetime | None,
+) -> GradebookEntry:
     """Return the entry with the points of its report, without a correction of the total."""
     if attempt.fault and attempt.report is None:
         return replace(entry, status="error", problem=OUR_FAULT)
@@ -226,8 +291,9 @@ def _with_points(entry: GradebookEntry, attempt: Attempt, policy: Policy) -> Gra
         entry.max_score,
         attempt.submitted,
         policy,
-        stated=attempt.late_seconds,
-        extension=attempt.extension,
+        stated=stated,
+        extension=extension,
+        slip_days=entry.slip_days_used,
     )
     final = rounded(score - taken)
     return replace(entry, status="graded", score=score, penalty=taken, final=final)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from datetime import datetime, timezone
 from functools import partial
 
+from grader.base.i18n.message import say
 from grader.base.shown import utf8_name
 from grader.batch.correction import holds
 from grader.batch.earlier_submissions import EarlierSubmissions
@@ -18,16 +19,19 @@ from grader.batch.model import (
     ClassResult,
     Elsewhere,
     GradebookEntry,
+    Grant,
     Override,
+    Remark,
     Student,
 )
 from grader.batch.policy import Attempt, standing
 from grader.batch.similar import groups
 from grader.course.assignment import Assignment
+from grader.course.policy import Policy
 from grader.report.model import Report
 
 MOST_SAME = 10  # students with the same content that are named for one student
-GONE = "handed in earlier, and no longer in the class folder"
+GONE = say("handed in earlier, and no longer in the class folder")
 
 
 @dataclass(frozen=True)
@@ -53,10 +57,15 @@ def class_result(
 ) -> ClassResult:
     """Return the result of a class from what the ledger has now.
 
-    The ledger must stay open while the result's reports are read. `lang` is the language of a
-    student without a report.
+    The ledger must stay open while the result's reports are read. `lang` is the language of the
+    class' pages, and of a student without a report.
     """
-    verdicts = ledger.verdicts()
+    verdicts, remarks = ledger.verdicts(), ledger.remarks(assignment.id)
+    now = started or _now()
+
+    def grants(key: str) -> Grant:
+        return folder.grants.get(key, Grant())
+
     overrides = defaultdict(list)
     for override in ledger.overrides(assignment.id):
         overrides[override.student].append(override)
@@ -73,10 +82,14 @@ def class_result(
         # what is no longer in the folder came first, if the times are the same
         found = [_of_row(ledger, row, assignment.id) for row in earlier.get(key, ())]
         found += [_of_item(ledger, item, verdicts, rows) for item in own[key]]
-        entry, counts = _entry(ledger, student, found, overrides[key], assignment, lang)
+        entry, counts = _entry(
+            ledger, student, found, overrides[key], assignment, lang, grant=grants(key)
+        )
         entry = _without_owner(entry, own[key][0].handed_in.unclear)
         if counts is not None:
             submissions[key] = counts.submission
+        entry = _with_remark(entry, counts, remarks.get(key))
+        entry = replace(entry, files=_files(own[key], counts))
         verdict = counts.verdict if counts is not None else None
         entries.append(replace(entry, report=None, verdict=verdict))
     recorded = EarlierSubmissions(ledger, assignment.id, students, earlier)
@@ -85,10 +98,25 @@ def class_result(
         found = [_of_row(ledger, row, assignment.id) for row in earlier.get(known.key, ())]
         elsewhere = folder.elsewhere.get(student.key)
         entry, counts = _entry(
-            ledger, known, found, overrides[known.key], assignment, lang, elsewhere
+            ledger,
+            known,
+            found,
+            overrides[known.key],
+            assignment,
+            lang,
+            elsewhere=elsewhere,
+            grant=grants(student.key),
         )
+        entry = _with_remark(entry, counts, remarks.get(known.key))
         verdict = counts.verdict if counts is not None else None
         entries.append(replace(entry, report=None, verdict=verdict))
+    # until the own due date, what helps with the next attempt is as before the due date
+    entries = [
+        replace(one, detail=assignment.feedback.handed_back(one.due, now))
+        if one.is_extended
+        else one
+        for one in entries
+    ]
     identical = _identical(ledger, submissions, _paths(items))
     return ClassResult(
         title=assignment.title,
@@ -102,8 +130,27 @@ def class_result(
         notes=folder.notes,
         identical=identical,
         unclear=folder.unclear,
-        detail=assignment.feedback.handed_back(assignment.policy.deadline, started or _now()),
+        detail=assignment.feedback.handed_back(assignment.policy.deadline, now),
+        lang=lang,
     )
+
+
+def _files(items: Sequence[IntakeItem], counts: DatedAttempt | None) -> tuple[str, ...]:
+    """Return the downloaded names of the attempt that counts; of the last one without a report."""
+    fit = [item for item in items if counts is None or item.submission == counts.submission]
+    return fit[-1].handed_in.files if fit else ()
+
+
+def _with_remark(
+    entry: GradebookEntry, counts: DatedAttempt | None, remark: Remark | None
+) -> GradebookEntry:
+    """Return the entry with what the instructor wrote, if that is about what counts now."""
+    if remark is None:
+        return entry
+    if remark.submission == (counts.submission if counts is not None else ""):
+        return replace(entry, remark=remark)
+    note = say("your comment on another submission is not shown: {text}", text=remark.text)
+    return replace(entry, notes=(*entry.notes, note))
 
 
 def _without_owner(entry: GradebookEntry, why: str) -> GradebookEntry:
@@ -114,6 +161,11 @@ def _without_owner(entry: GradebookEntry, why: str) -> GradebookEntry:
     if not why or any(override.check == "" for override in entry.overrides):
         return entry
     return replace(entry, status="unclear", final=None, penalty=0, notes=(*entry.notes, why))
+
+
+def _local(at: datetime | None, policy: Policy) -> datetime | None:
+    """Return an instant in the time zone of the class, if it has one."""
+    return at if at is None or policy.zone is None else at.astimezone(policy.zone)
 
 
 def _now() -> datetime:
@@ -127,6 +179,8 @@ def _entry(
     overrides: Sequence[Override],
     assignment: Assignment,
     lang: str,
+    *,
+    grant: Grant,
     elsewhere: Elsewhere | None = None,
 ) -> tuple[GradebookEntry, DatedAttempt | None]:
     """Return a student's entry, and the attempt that counts (None without a report)."""
@@ -134,7 +188,8 @@ def _entry(
     attempts = [replace(f.attempt, number=n) for n, f in enumerate(dated, start=1)]
     attempts, rest = _with_overrides(ledger, dated, attempts, overrides)
     policy, most = assignment.policy, assignment.max_score
-    entry = standing(student, attempts, rest, policy, most, elsewhere=elsewhere)
+    entry = standing(student, attempts, rest, policy, most, elsewhere=elsewhere, grant=grant)
+    entry = replace(entry, submitted=_local(entry.submitted, policy), due=_local(entry.due, policy))
     if entry.report is None:
         return replace(entry, lang=lang), None
     return replace(entry, lang=entry.report.lang), dated[entry.attempt - 1]
@@ -169,7 +224,9 @@ def _of_item(
     notes = list(given.notes)
     fault = ledger.fault(item.student, item.key) if item.key else item.fault
     if fault and row is not None:
-        notes.append(f"marking it again failed, the earlier verdict still counts: {fault}")
+        notes.append(
+            say("marking it again failed, the earlier verdict still counts: {fault}", fault=fault)
+        )
     recorded = rows.get((item.student, item.submission))
     # an earlier run may have had the list with the times
     timed = given if recorded is None or given.has_times else recorded

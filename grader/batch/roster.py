@@ -9,10 +9,10 @@ from datetime import tzinfo
 from pathlib import Path
 
 from grader.base.errors import UsageError
-from grader.base.nearest import meant, nearest, nearest_path
+from grader.base.i18n.message import say, some_of
+from grader.base.nearest import nearest
 from grader.base.plain_text import one_line
-from grader.base.shown import shown
-from grader.batch.decoded import AS_CSV, decoded
+from grader.batch.instructor_csv import read_csv
 from grader.batch.model import Student
 from grader.batch.roster_columns import KNOWN, RosterColumns, columns_of, form_of
 from grader.batch.roster_guess import EMAIL
@@ -20,11 +20,8 @@ from grader.batch.sheet import Sheet
 from grader.batch.systems.gradescope.metadata import instant
 from grader.batch.systems.system import RosterForm, System
 from grader.batch.times import Times
-from grader.package.intake.reading import MEGABYTE, Unread, read_bytes
 
-LARGEST = 20 * MEGABYTE
 LONGEST = 300  # characters of a cell
-ZIP = b"PK\x03\x04"  # a spreadsheet of Excel or LibreOffice
 NO_STUDENT = ("points possible", "manual posting", "student, test", "test student")
 
 
@@ -81,18 +78,8 @@ def read_roster(path: Path) -> Roster:
     Raises UsageError, with file and line, if it cannot be read, if no column identifies a student,
     or if a student is in it twice.
     """
-    name = shown(str(path))
-    found = decoded(_content(path, name), f"the roster {name}")
-    text = found.text
-    first, _, rest = text.partition("\n")
-    skipped = 0
-    if first.strip().lower().startswith("sep="):  # written by Excel
-        text, skipped = rest, 1
-    sheet = Sheet(text.encode(), name=f"the roster {name}")
-
-    def place(row: int) -> str:
-        return f"{name}:{skipped + _line(text, sheet.rows[row][0].start)}"
-
+    file = read_csv(path, "the roster")
+    sheet, name, place = file.sheet, file.name, file.place
     columns = columns_of(sheet)
     if not columns.identifies_students or _has_no_header(sheet):
         raise UsageError(f"{place(0)}: {_no_columns(sheet)}", remedy=_remedy())
@@ -102,7 +89,7 @@ def read_roster(path: Path) -> Roster:
         raise UsageError(f"{place(0)}: there are no students below the header")
     left_out = sorted(set(range(1, len(sheet.rows))) - {line.row for line in roster.lines})
     numbers = [place(row).rpartition(":")[2] for row in left_out]
-    notes = (found.note, *roster.notes, *_left_out(name, numbers))
+    notes = (file.note, *roster.notes, *_left_out(name, numbers))
     return replace(roster, notes=tuple(note for note in notes if note))
 
 
@@ -131,24 +118,6 @@ def _evidence(sheet: Sheet, row: int, columns: RosterColumns) -> str:
     form = columns.form
     cells = {field: _cell(sheet, row, columns, field) for field in form.fields}
     return form.evidence(cells)
-
-
-def _content(path: Path, name: str) -> bytes:
-    try:
-        resolved = path.resolve(strict=True)
-    except (OSError, ValueError, RuntimeError):
-        raise UsageError(f"there is no roster {name}{meant(nearest_path(path))}") from None
-    content = read_bytes(resolved, LARGEST)
-    if isinstance(content, Unread):
-        raise UsageError(f"the roster {name} cannot be read: {content.reason}")
-    if content.startswith(ZIP):
-        raise UsageError(f"the roster {name} is a spreadsheet, not a CSV file", remedy=AS_CSV)
-    return content
-
-
-def _line(text: str, position: int) -> int:
-    before = text[:position].replace("\r\n", "\n")
-    return before.count("\n") + before.count("\r") + 1
 
 
 def _cell(sheet: Sheet, row: int, columns: RosterColumns, name: str) -> str:
@@ -257,5 +226,5 @@ def _identifiers(student: Student) -> Iterator[tuple[str, str]]:
 def _left_out(name: str, lines: list[str]) -> list[str]:
     if not lines:
         return []
-    more = f" and {len(lines) - 10} more" if len(lines) > 10 else ""
-    return [f"the roster {name} has lines without a student: {', '.join(lines[:10])}{more}"]
+    some = some_of(lines, 10)
+    return [say("the roster {name} has lines without a student: {lines}", name=name, lines=some)]

@@ -87,11 +87,7 @@ def columns_of(sheet: Sheet, *, exported: tuple[System, int] | None = None) -> R
     `exported` is the system that exported the sheet, and the column of its identifiers, if known.
     """
     header = [folded_header(name) for name in sheet.header]
-    fields = {field: _named(header, names) for field, names in NAMES.items()}
-    if folded_header("성") in header:  # `이름` beside it is the given name
-        given = _named(header, ("이름",))
-        fields["first name"] += given
-        fields["name"] = tuple(index for index in fields["name"] if index not in given)
+    fields = fields_by_name(header)
     system, key = _exported_by(sheet, header) if exported is None else exported
     if key is not None:
         fields = {
@@ -105,11 +101,21 @@ def columns_of(sheet: Sheet, *, exported: tuple[System, int] | None = None) -> R
     if "key" in guesses:  # by its content: `Participant 123`
         system = SYSTEMS[PARTICIPANT_SYSTEM]
     form = form_of(system)
-    own = {field: _named(header, tuple(names)) for field, names in form.fields.items()}
+    own = {field: named_columns(header, tuple(names)) for field, names in form.fields.items()}
     fields |= {field: columns or fields.get(field, ()) for field, columns in own.items()}
     described = (f"'{sheet.header[index]}' as {field}" for field, index in guesses.items())
     rest = tuple(index for index in unknown if index not in guesses.values())
     return RosterColumns(system, fields, tuple(described), rest)
+
+
+def fields_by_name(header: list[str]) -> dict[str, tuple[int, ...]]:
+    """Return the columns of each field by their names alone; `header`: see `folded_header`."""
+    fields = {field: named_columns(header, names) for field, names in NAMES.items()}
+    if folded_header("성") in header:  # `이름` beside it is the given name
+        given = named_columns(header, ("이름",))
+        fields["first name"] += given
+        fields["name"] = tuple(index for index in fields["name"] if index not in given)
+    return fields
 
 
 def form_of(system: System | None) -> RosterForm:
@@ -117,7 +123,8 @@ def form_of(system: System | None) -> RosterForm:
     return system.roster if system is not None and system.roster is not None else PLAIN_FORM
 
 
-def _named(header: list[str], names: tuple[str, ...]) -> tuple[int, ...]:
+def named_columns(header: list[str], names: tuple[str, ...]) -> tuple[int, ...]:
+    """Return the columns with one of these names, in the order of the names."""
     folded = [folded_header(name) for name in names]
     return tuple(i for name in folded for i, head in enumerate(header) if head == name)
 

@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from grader.base.errors import UsageError
-from grader.batch.model import ClassResult, Elsewhere, OnRoster, Student
+from grader.batch.lowered import GradeChange, Lowered, changed, lowered
+from grader.batch.model import ClassResult, Elsewhere, GradebookEntry, OnRoster, Student
 from grader.batch.systems.known import sheet_forms
 from grader.batch.systems.system import OpenSheet, System
 from grader.course.assignment import Assignment
 
 if TYPE_CHECKING:
-    from grader.batch.lowered import Lowered
     from grader.batch.roster import Roster
 
 MOST_INPUT = 50_000_000  # bytes of one file
@@ -59,7 +59,18 @@ class OpenSheets:
 
     def lowered(self, result: ClassResult) -> list[Lowered]:
         """Return the grades in the files that would go down."""
-        return [one for sheet in self.by_output.values() for one in sheet.lowered(result)]
+        found = (lowered(*cell) for cell in self._existing(result))
+        return [one for one in found if one is not None]
+
+    def changed(self, result: ClassResult) -> list[GradeChange]:
+        """Return the grades in the files that would be others."""
+        found = (changed(*cell) for cell in self._existing(result))
+        return [one for one in found if one is not None]
+
+    def _existing(self, result: ClassResult) -> Iterator[tuple[GradebookEntry, str, str]]:
+        for sheet in self.by_output.values():
+            for entry, grade in sheet.existing(result):
+                yield entry, grade, sheet.roster.name
 
     def covered(self, students: Sequence[Student], system: System) -> Iterator[OnRoster]:
         """Yield for each file how many of the students have a row in it."""

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
+from grader.base.i18n.message import say, say_plural, some_of
 from grader.base.plain_text import one_line
 from grader.batch.match import possible_names, written_names
 from grader.batch.model import Student
 
-NUMBERS = ("no", "one", "two", "three", "four", "five")
 MOST_NAMED = 5
 
 
@@ -49,13 +49,23 @@ def _reason(handed_in: list[Student], students: list[Student]) -> str:
     name = one_line(handed_in[0].name, most=60)
     names = {own for one in handed_in for own in written_names(one)}
     same = all(names & set(possible_names(one)) for one in students)
-    how = "of this name" if same else "that fit"
-    who = _listed(_identity(one) for one in students)
-    folders = _listed(f"'{one_line(one.key, most=60)}'" for one in handed_in)
-    return (
-        f"{name}: {_counted(len(students), 'student')} {how} ({who}), "
-        f"{_counted(len(handed_in), 'submission')} ({folders}). It is not known whose it is: "
-        "nothing was joined, and no grade is given"
+    parts = {
+        "name": name,
+        "students": say_plural("{count} student", "{count} students", len(students)),
+        "who": _listed(_identity(one) for one in students),
+        "submissions": say_plural("{count} submission", "{count} submissions", len(handed_in)),
+        "folders": _listed(f"'{one_line(one.key, most=60)}'" for one in handed_in),
+    }
+    if same:
+        return say(
+            "{name}: {students} of this name ({who}), {submissions} ({folders}). It is not known "
+            "whose it is: nothing was joined, and no grade is given",
+            **parts,
+        )
+    return say(
+        "{name}: {students} that fit ({who}), {submissions} ({folders}). It is not known whose it "
+        "is: nothing was joined, and no grade is given",
+        **parts,
     )
 
 
@@ -63,12 +73,5 @@ def _identity(student: Student) -> str:
     return student.id_number or student.email or student.username or student.key
 
 
-def _counted(count: int, noun: str) -> str:
-    number = NUMBERS[count] if count < len(NUMBERS) else str(count)
-    return f"{number} {noun}" if count == 1 else f"{number} {noun}s"
-
-
 def _listed(names: Iterable[str]) -> str:
-    all_names = [one_line(name, most=60) for name in names]
-    more = [f"and {len(all_names) - MOST_NAMED} more"] if len(all_names) > MOST_NAMED else []
-    return ", ".join([*all_names[:MOST_NAMED], *more])
+    return some_of([one_line(name, most=60) for name in names], MOST_NAMED)

@@ -8,10 +8,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from grader.base.errors import GraderError
+from grader.base.shown import shown
 from grader.base.signing import PublicKey
 from grader.batch.find_evidence import FoundEvidence
 from grader.batch.ledger import Ledger
-from grader.verdict.evidence_file import EvidenceFile, changed_files, differences
+from grader.batch.ledger_file import PlantedInError
+from grader.verdict.evidence_file import EvidenceFile, changed_files, differences, is_as_written
 from grader.verdict.take_in import take_in_for
 
 
@@ -47,6 +49,7 @@ def verify_report(found: FoundEvidence, key: PublicKey | None, submission: Path 
             findings.say("", change)
     else:
         findings.say("report", "as it was written")
+    _verify_digest(findings, found.content)
     marked = evidence.taken_in()
     if marked.sha256 != evidence.recording.submission:
         findings.say(
@@ -62,6 +65,16 @@ def verify_report(found: FoundEvidence, key: PublicKey | None, submission: Path 
         names = ", ".join(changed_files(marked, given)[:10]) or "other copies beside the package"
         findings.say("submission", f"not the one that was marked: {names}", wrong=True)
     return findings
+
+
+def _verify_digest(findings: Findings, content: bytes) -> None:
+    agrees = is_as_written(content)
+    if agrees is None:
+        findings.say("evidence", "not compared: an earlier grader wrote no hash of it")
+    elif agrees:
+        findings.say("evidence", "as it was written")
+    else:
+        findings.say("evidence", "changed since it was written", wrong=True)
 
 
 def _verify_signature(findings: Findings, found: FoundEvidence, key: PublicKey | None) -> None:
@@ -90,14 +103,25 @@ def verify_ledger(
     number of verdicts that were compared, and of all.
     """
     findings = Findings()
-    with Ledger(path, makes=False) as ledger:
+    try:
+        ledger = Ledger(path, makes=False)
+    except PlantedInError as error:
+        findings.say("ledger", error.message, wrong=True)
+        return findings
+    with ledger:
         chain = ledger.check_chain(key)
-        verdicts = ledger.verdict_ids()
+        verdicts, counts = ledger.verdict_ids(), ledger.counts()
         count = chain.head.count
-        corrections = max(0, count - len(verdicts))
-        text = f"{_counted(len(verdicts), 'verdict')}, {_counted(corrections, 'correction')}"
-        findings.say("ledger", f"{path}: {text}")
-        findings.say("head", chain.head.hash)
+        rest = sum(counts.values()) - counts["verdict"] - counts["override"]
+        numbers = [
+            _counted(counts["verdict"], "verdict"),
+            _counted(counts["override"], "correction"),
+            _counted(rest, "other row"),
+        ]
+        if chain.removed:
+            numbers.append(f"{chain.removed} removed")
+        findings.say("ledger", f"{path}: {', '.join(numbers)}")
+        findings.say("head", shown(chain.head.hash))
         for fault in chain.faults:
             findings.say("chain", fault, wrong=True)
         if not chain.faults:

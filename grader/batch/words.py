@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from datetime import datetime, timezone
+from datetime import datetime, timezone, tzinfo
 
 from grader.base.i18n.message import Message, joined, msg, say
 from grader.base.plain_text import one_line, points
@@ -37,6 +37,31 @@ def instant(value: datetime | None) -> str:
     return f"{zoned.astimezone(timezone.utc):%Y-%m-%d %H:%M} UTC"
 
 
+def local_instant(value: datetime | None, zone: tzinfo | None = None) -> str:
+    """Return an instant to the minute in a zone (None: its own), with the offset from UTC."""
+    if value is None:
+        return ""
+    zoned = value if zone is None or value.tzinfo is None else value.astimezone(zone)
+    if not zoned.utcoffset():
+        return instant(zoned)
+    return f"{zoned:%Y-%m-%d %H:%M} ({offset_words(zoned)})"
+
+
+def offset_words(value: datetime) -> str:
+    """Return the offset of an instant's own zone: UTC, UTC+09:00; without a zone it is UTC."""
+    offset = value.utcoffset()
+    if not offset:
+        return "UTC"
+    minutes = int(offset.total_seconds()) // 60
+    sign, (hours, rest) = "-" if minutes < 0 else "+", divmod(abs(minutes), 60)
+    return f"UTC{sign}{hours:02}:{rest:02}"
+
+
+def has_grade(system: str, cell: str) -> Message:
+    """Return that a system has a grade for the assignment already."""
+    return say("{system} has the grade {grade}", system=system, grade=one_line(cell, most=20))
+
+
 def duration(seconds: float) -> str:
     """Return a duration in its two largest units: 4.2 s, 12 min, 2 h 10 min, 3 d 4 h."""
     if seconds < MINUTE:
@@ -56,10 +81,23 @@ def _counted(words: str, count: int) -> Message:
 def lapsed_words(lapsed: LapsedOverride) -> str:
     """Return a correction that no longer applies, as one line for the instructor."""
     made = lapsed.override
-    attempt = f"attempt {lapsed.attempt}" if lapsed.attempt else "an earlier verdict"
+    what, given, why = made.check or say("the total"), points(made.points), one_line(made.because)
+    text = say(
+        "{what} of an earlier verdict was corrected to {points}, because: {why}",
+        what=what,
+        points=given,
+        why=why,
+    )
+    if lapsed.attempt:
+        text = say(
+            "{what} of attempt {number} was corrected to {points}, because: {why}",
+            what=what,
+            number=lapsed.attempt,
+            points=given,
+            why=why,
+        )
     signed = ", ".join(part for part in (made.by, instant(made.at)) if part)
-    what = f"{made.check or 'the total'} of {attempt} was corrected to {points(made.points)}"
-    return f"{what}, because: {one_line(made.because)}{f' ({signed})' if signed else ''}"
+    return joined(text, f"({signed})" if signed else "")
 
 
 def plural(count: int, one: str, many: str = "") -> str:

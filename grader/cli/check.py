@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,12 +14,13 @@ import click
 from grader.base.i18n.message import msg, say
 from grader.base.i18n.translator import Translator, errors_in
 from grader.cli import options
+from grader.report.notice import notice
 
 if TYPE_CHECKING:
     from grader.report.model import Report
+    from grader.report.one_screen import State
 
 HINTS = 3  # (`grader.report.detail` imports pydantic, which --help does not need)
-NEXT_HINT = "grader check --hints {n}"
 
 
 @click.command(
@@ -43,7 +46,7 @@ NEXT_HINT = "grader check --hints {n}"
     help=msg("How many hints to show about the first failure: 0 to 3."),
 )
 @click.option("--explain", is_flag=True, help=msg("Show everything about each failure at once."))
-@click.option("--hint-command", envvar="GRADER_HINT_COMMAND", default=NEXT_HINT, hidden=True)
+@options.whole
 @options.verbose
 def check(
     path: Path | None,
@@ -54,24 +57,26 @@ def check(
     lang: str | None,
     hints: int,
     explain: bool,
-    hint_command: str,
+    whole: bool,
     verbose: bool,
 ) -> int:
     """Mark a student's own package, without the hidden checks."""
-    asked = Hints(hints, explain, hint_command)
-    return check_own(path, assignment, distro, sandbox, limits, lang, verbose=verbose, hints=asked)
+    asked = Hints(hints, explain)
+    return check_own(
+        path, assignment, distro, sandbox, limits, lang, whole=whole, verbose=verbose, hints=asked
+    )
 
 
 @dataclass(frozen=True)
 class Hints:
     """How much a student asks to know: hints about the first failure, or everything (`explain`).
 
-    `command` is what shows the next hint; `{n}` in it is the number of hints to ask for.
+    `command` is the lab's command for the next hint, "" outside of the lab.
     """
 
     number: int = 0
     explain: bool = False
-    command: str = NEXT_HINT
+    command: str = ""
 
 
 def check_own(
@@ -82,14 +87,17 @@ def check_own(
     limits: tuple[str, ...],
     lang: str | None,
     *,
+    whole: bool = False,
     verbose: bool = False,
     hints: Hints | None = None,
-    heard: Callable[[Report], None] | None = None,
+    heard: Callable[[Report], State | None] | None = None,
 ) -> int:
     """Mark a student's own package and return the exit status.
 
-    `heard` gets each report, with everything in it.
+    `whole` shows more than a screen. `heard` gets each report, with everything in it, and may return
+    what a student has to do first.
     """
+    from grader.cli.called import commands_for  # noqa: PLC0415 - keeps --help fast
     from grader.cli.mark_orders import Asked, mark_orders  # noqa: PLC0415 - keeps --help fast
     from grader.verdict.order import default_path, make_orders  # noqa: PLC0415
 
@@ -97,11 +105,16 @@ def check_own(
         place = path or default_path()
         orders = make_orders(place, assignment, distro, sandbox, limits, own_code=True, lang=lang)
         if path is None:
-            click.echo(
-                Translator(orders[0].lang)(say("checking {path}", path=str(place))), err=True
-            )
+            translate = Translator(orders[0].lang)
+            notice(translate(say("checking {path}", path=str(place))), sys.stderr)
         given = hints or Hints()
-        asked = Asked(given.number, given.explain, given.command)
+        commands = commands_for("check", in_lab=bool(given.command), environment=os.environ)
         return mark_orders(
-            orders, None, verbose=verbose, show_hidden=False, asked=asked, heard=heard
+            orders,
+            None,
+            commands,
+            whole=whole or given.explain,
+            verbose=verbose,
+            asked=Asked(given.number, given.explain),
+            heard=heard,
         )

@@ -30,8 +30,6 @@ def convert(form: str, report: Path, show_hidden: bool, feedback: str) -> int:
     """Print a report.json in the format of another system (FORM), in the report's language.
 
     `json` is report.json as a student may read it.
-
-    `github` prints the line for $GITHUB_OUTPUT: grader convert github REPORT >> "$GITHUB_OUTPUT".
     """
     made = _forms(show_hidden=show_hidden)[form](_read(report, feedback))
     content = made.encode() if isinstance(made, str) else made

@@ -38,14 +38,17 @@ def explain(
 ) -> int:
     """Explain a mistake of the catalogue, or the output of a terminal."""
     from grader.explain import explanation  # noqa: PLC0415 - keeps --help fast
-    from grader.ros.distro import find_distro, sourced  # noqa: PLC0415
+    from grader.explain.machine import Machine  # noqa: PLC0415
+    from grader.ros.distro import find_distro  # noqa: PLC0415
 
     lang = lang or chosen_language(os.environ)
     with errors_in(lang):
+        machine = Machine()
         reader = explanation.Reader(
             lang,
-            find_distro(distro) if distro else sourced(os.environ),
+            find_distro(distro) if distro else machine.distro,
             _lesson(assignment),
+            machine,
         )
     if mistake is None:
         explanation.print_list(file=sys.stdout, reader=reader)

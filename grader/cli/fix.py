@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import click
@@ -10,6 +11,7 @@ from grader.base.errors import UsageError
 from grader.base.i18n.message import msg, say
 from grader.base.i18n.translator import errors_in
 from grader.cli import options
+from grader.report.notice import notice
 
 
 @click.command(
@@ -68,4 +70,4 @@ def fix(
                 remedy=say("Your instructor has chosen that. Ask for help in class."),
             )
         request = FixRequest(order=orders[0], only=only, writes=not dry_run, runs=not no_run)
-        return fix_package(request, notify=lambda text: click.echo(text, err=True))
+        return fix_package(request, notify=lambda text: notice(text, sys.stderr))

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from itertools import count
 from pathlib import Path
 from typing import TextIO
 
@@ -17,7 +18,6 @@ from grader.base.i18n.message import joined, say
 from grader.base.i18n.translator import Translator
 from grader.base.nearest import nearest
 from grader.base.shown import shown
-from grader.base.unheard import unheard
 from grader.course.assignment import Assignment
 from grader.mistakes.fixes.case import Finding, finding_of
 from grader.package.edit.disk import apply
@@ -25,6 +25,7 @@ from grader.package.edit.files import Files
 from grader.package.intake.archive_kind import is_named_archive
 from grader.package.intake.given import package_above
 from grader.package.submission import Submission
+from grader.report.live import LiveProgress
 from grader.report.model import CheckResult
 from grader.report.shown_patch import shown_patch
 from grader.verdict.checks.all import STATIC
@@ -173,12 +174,16 @@ class _RunJudge:
     request: FixRequest
     submission: Submission
     notify: Notify
+    tries: Iterator[int] = field(default_factory=count)
 
     def __call__(self, files: Files) -> list[Finding]:
-        """Return the findings of a build and a run."""
+        """Return the findings of a build and a run; the progress is shown meanwhile."""
         order = replace(self.request.order, tries_fixes=False)  # this is where they are tried
-        self.notify(say("running the node …"))
-        report = mark(files.put_into(self.submission), order, unheard)
+        tried = next(self.tries)
+        again = say("running the node with change {number} …", number=tried)
+        self.notify(again if tried else say("running the node …"))
+        with LiveProgress(sys.stderr, lang=order.lang) as progress:
+            report = mark(files.put_into(self.submission), order, progress)
         if report.environment.sandbox == "none":
             self.notify(
                 say("No sandbox was used: the package ran as your user, with access to your files.")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import click
@@ -25,7 +26,14 @@ from grader.cli import options
     show_default=True,
     help="The folder for reports.",
 )
+@click.option(
+    "--like",
+    type=click.Path(path_type=Path, exists=True),
+    metavar="REPORT",
+    help="Use the drawn values of this report (report.json or its folder).",
+)
 @options.lang
+@options.whole
 @options.verbose
 def grade(
     path: Path,
@@ -36,15 +44,27 @@ def grade(
     name: str | None,
     limits: tuple[str, ...],
     out: Path,
+    like: Path | None,
     lang: str | None,
+    whole: bool,
     verbose: bool,
 ) -> int:
     """Mark one package: PATH is the package, a workspace, or a repository that holds it."""
-    from grader.cli.mark_orders import mark_orders  # noqa: PLC0415 - keeps --help fast
+    from grader.cli.called import commands_for  # noqa: PLC0415 - keeps --help fast
+    from grader.cli.mark_orders import mark_orders  # noqa: PLC0415
     from grader.verdict.order import make_orders  # noqa: PLC0415
 
     with errors_in(lang):
         orders = make_orders(
-            path, assignment, distro, sandbox, limits, name=name, keys=keys, lang=lang
+            path,
+            assignment,
+            distro,
+            sandbox,
+            limits,
+            name=name,
+            keys=keys,
+            lang=lang,
+            like=like,
         )
-        return mark_orders(orders, out, verbose=verbose, show_hidden=True)
+        commands = commands_for("grade", in_lab=False, environment=os.environ)
+        return mark_orders(orders, out, commands, whole=whole, verbose=verbose)

@@ -19,6 +19,7 @@ from grader.base.i18n.message import say
 from grader.base.i18n.translator import OWN, SAMPLES, SOURCE, Translator, chosen_language
 from grader.base.plain_text import first_lines
 from grader.cli.localized import language_of, translated_help
+from grader.report.notice import notice
 
 UTF_8 = "utf-8"
 MOST_LINES = 60  # of an error message
@@ -95,7 +96,7 @@ def _run(command: click.Command, name: str, argv: list[str], lang: str) -> int:
         return 2
     except GraderError as error:
         lines = first_lines(f"{name}: {error}", lines=MOST_LINES)
-        click.echo("\n".join(lines), err=True)
+        notice("\n".join(lines), sys.stderr)
         return error.exit_status
     except (KeyboardInterrupt, click.Abort):
         _print_error(say("{name}: interrupted; nothing was left running", name=name))
@@ -118,4 +119,4 @@ def _run(command: click.Command, name: str, argv: list[str], lang: str) -> int:
 
 
 def _print_error(text: str) -> None:
-    click.echo(Translator(chosen_language(os.environ))(text), err=True)
+    notice(Translator(chosen_language(os.environ))(text), sys.stderr)

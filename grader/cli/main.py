@@ -19,6 +19,14 @@ COMMANDS = {
             "Check your own package before you submit it: the same verdict, by the visible checks."
         ),
     ),
+    "classroom50-autograder": LazyCommand(
+        "grader.cli.classroom50:autograder",
+        "Print the autograder.py for an assignment in Classroom 50.",
+    ),
+    "classroom50-compare": LazyCommand(
+        "grader.cli.classroom50:compare",
+        "List the students whose points in Classroom 50 are not those of your own machine.",
+    ),
     "convert": LazyCommand(
         "grader.cli.convert:convert",
         "Print a report.json in the format of another system (FORM), in the report's language.",
@@ -36,6 +44,10 @@ COMMANDS = {
             "Fix the mistakes in your own package that have only one possible fix; shows a diff "
             "first."
         ),
+    ),
+    "forget": LazyCommand(
+        "grader.cli.forget:forget",
+        "Remove all that is kept about a student: verdicts, evidence, corrections, reports, feedback.",
     ),
     "grade": LazyCommand(
         "grader.cli.grade:grade",
@@ -61,6 +73,10 @@ COMMANDS = {
         "grader.cli.keygen:keygen",
         "Make the key with which this installation signs the evidence of its verdicts.",
     ),
+    "mail": LazyCommand(
+        "grader.cli.mail:mail",
+        "Write e-mail drafts for the students of a class into drafts.mbox: it sends nothing.",
+    ),
     "new": LazyCommand(
         "grader.cli.new:new",
         "Write the files of a new lesson: assignment, text, solution and mutants to start from.",
@@ -76,6 +92,10 @@ COMMANDS = {
     "replay": LazyCommand(
         "grader.cli.replay:replay",
         "Judge a report's evidence again, without running anything, and compare the verdicts.",
+    ),
+    "shell": LazyCommand(
+        "grader.cli.shell:shell",
+        "Open a shell beside a student's package: built, in the sandbox in which it was marked.",
     ),
     "validate": LazyCommand(
         "grader.cli.validate:validate",

@@ -85,6 +85,12 @@ feedback = click.option(
     show_default=True,
     help="How much it says about failed checks (default: as the assignment's feedback: says).",
 )
+whole = click.option(
+    "--all",
+    "whole",
+    is_flag=True,
+    help=msg("Show the whole report: every check, and everything about each failure."),
+)
 verbose = click.option(
     "-v", "--verbose", is_flag=True, help=msg("Show the evidence of every check.")
 )
@@ -92,6 +98,9 @@ ledger = click.option(
     "--ledger",
     type=click.Path(path_type=Path, dir_okay=False),
     help="The file that stores every verdict (default: ledger.sqlite in the --out folder).",
+)
+class_out = click.option(
+    "--out", type=click.Path(path_type=Path, file_okay=False), help="The class' --out folder."
 )
 container_sandbox = click.option(
     "--sandbox",

@@ -15,14 +15,21 @@ from grader.cli import options
 @options.assignment
 @options.keys
 @options.ledger
+@options.whole
 @options.verbose
 def replay(
-    path: Path, assignment: str | None, keys: Path | None, ledger: Path | None, verbose: bool
+    path: Path,
+    assignment: str | None,
+    keys: Path | None,
+    ledger: Path | None,
+    whole: bool,
+    verbose: bool,
 ) -> int:
     """Judge a report's evidence again, without running anything, and compare the verdicts.
 
     REPORT is a report.json or its folder. The checks, diagnosis and fixes of this grader look at
-    the recorded build and run. With --assignment they use that assignment's points and texts.
+    the recorded build and run. With --assignment they use that assignment's points and texts. --all
+    and --verbose print the new report too.
 
     Exit status: 0 the same verdict, 1 another one, 2 the evidence cannot be read.
     """
@@ -47,9 +54,9 @@ def replay(
         lang=evidence.lang,
         student_id=found.report.submission.student_id or "",
     )
-    if verbose:
+    if whole or verbose:
         terminal.print_report(
-            again, quotes=QUOTES, file=sys.stdout, verbose=True, show_hidden=True, path=None
+            again, quotes=QUOTES, file=sys.stdout, verbose=verbose, show_hidden=True, path=None
         )
     changes = list(differences(evidence, again))
     before, now = evidence.recording.environment.grader, grader.__version__

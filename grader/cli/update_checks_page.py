@@ -41,21 +41,27 @@ id of your own:
   with: {topic: /turtle1/cmd_vel, each: {linear.x: 2.0, angular.z: {about: 2.0, within: 0.01}}}
 ```
 
-A value is matched by a form: a plain value (equal to it; a floating-point number to six digits),
+A value is matched by a form:
+
+| form | a value fits if it is |
+|---|---|
+| `2.0`, `"go"`, `true`, `{equal: 2.0}` | equal; a floating-point number to six digits |
+| `[0, 1, 0.1]` | a list with as many items, each equal |
+| `{about: 1.0, within: 0.01}` | a number at most 0.01 away |
+| `{between: [0, 2]}` | a number from 0 to 2, both included |
+| `{one_of: [1, 2]}` | equal to one of them; lists too: `{one_of: [[5], [0, 1]]}` |
+| `{matches: 'a+'}` | a text in which Python's regular expression is found anywhere; `^a+$` is the whole text |
+| `{contains: 'a text'}` | a text with this in it |
+| `{from: 0, step: 1}` | 0 in the first message of the window, 1 in the next, and so on |
+
+Only the first, the second and `one_of` fit a whole list. For one item, name it: `ranges[0]: {between: [0, 2]}`.
 """
 
 
 def page() -> str:
     """Return the text of docs/checks.md."""
-    forms = "`{about: 1.0, within: 0.01}`, `{between: [0, 2]}`, `{one_of: [1, 2]}`,\n"
-    forms += (
-        "`{matches: 'a regular expression'}` or `{contains: 'a text'}`. Messages that count have\n"
-    )
-    forms += (
-        "`{from: 0, step: 1}`: 0 in the first message of the window, 1 in the next, and so on.\n"
-    )
     assert set(KEYS) == {"equal", "about", "between", "one_of", "matches", "contains", "from"}
-    lines = [HEAD + forms, "## Kinds with parameters\n"]
+    lines = [HEAD, "## Kinds with parameters\n"]
     for check in CHECKS.values():
         if check.parameters is not None:
             lines += list(_kind(check, check.parameters))

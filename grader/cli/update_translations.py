@@ -45,10 +45,6 @@ def templates() -> Iterator[tuple[str, str]]:
     for found, place in _marked():
         if isinstance(found, str):
             yield found, place
-    strict = {"silent": "false"}  # (a template that cannot be parsed is an error)
-    for path in sorted((CHECKOUT / "grader/publish/pages/templates").glob("*.j2")):
-        for _, found, _, _ in extract_from_file(TEMPLATE, path, keywords=KEYWORDS, options=strict):
-            yield str(found), _place(path)
     for check in CHECKS.values():
         yield check.title, f"{check.function.__module__.replace('.', '/')}.py"
 
@@ -66,10 +62,15 @@ def plurals() -> Iterator[tuple[tuple[str, str], str]]:
 @cache
 def _marked() -> list[tuple[str | tuple[str, ...], str]]:
     """Return the texts that the sources mark (those for 1 and for other counts), and their file."""
+    strict = {"silent": "false"}  # (a template that cannot be parsed is an error)
+    pages = sorted((CHECKOUT / "grader/publish/pages/templates").glob("*.j2"))
     return [
         (found, _place(path))
-        for path in _sources()
-        for _, found, _, _ in extract_from_file("python", path, keywords=WITH_PLURALS)
+        for form, paths in (("python", _sources()), (TEMPLATE, pages))
+        for path in paths
+        for _, found, _, _ in extract_from_file(
+            form, path, keywords=WITH_PLURALS, options=strict if form == TEMPLATE else None
+        )
     ]
 
 

@@ -37,8 +37,8 @@ def verify(
 ) -> int:
     """Check that PATH (a report.json, its folder, or a ledger) is what the grader wrote.
 
-    A report is compared with its evidence and the evidence with its signature. Of a ledger, every
-    verdict and correction is checked: nothing was changed, removed or inserted.
+    A report is compared with its evidence, the evidence with its own hash and its signature. Of a
+    ledger, every row is checked: nothing was changed, removed or inserted.
 
     Exit status: 0 all agrees, 1 something does not, 2 it cannot be read.
     """

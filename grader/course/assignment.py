@@ -8,6 +8,7 @@ from typing import Any, Literal
 from pydantic import ConfigDict, Field
 
 from grader.base.part import Part
+from grader.course.draw import Draw, Plain, Slot, Values, filled
 from grader.course.policy import Policy
 from grader.course.scenario import Node, RunPlan
 from grader.report.detail import FeedbackRules
@@ -47,7 +48,7 @@ class CheckUse(Part):
     `check` is the kind of check, the same as `id` unless it is given; `title` is what students
     read instead of the kind's title. The rest is for kinds that take it: `with_` their parameters,
     `of` a node, `run` the run that is judged, and `during` the first and the last instant (s of ROS
-    time) that count, from the stimulus `after` if it is given.
+    time) that count, from the stimulus `after` if it is given. `slots` are the places of drawn values.
     """
 
     model_config = ConfigDict(populate_by_name=True)
@@ -62,11 +63,16 @@ class CheckUse(Part):
     after: str = ""
     during: tuple[float, float] | None = None
     with_: dict[str, Any] = Field(default_factory=dict, alias="with")
+    slots: tuple[Slot, ...] = Field(default=(), exclude_if=lambda slots: not slots)
 
     @property
     def kind(self) -> str:
         """The kind of check."""
         return self.check or self.id
+
+    def with_drawn(self, values: Values) -> CheckUse:
+        """Return the same with the drawn values in their places."""
+        return filled(self, self.slots, values) if self.slots else self
 
     def with_types(self, named: Callable[[str], str]) -> CheckUse:
         """Return the same with other names of types."""
@@ -87,6 +93,7 @@ class Lesson(Part):
     nodes: dict[str, Node]
     runs: tuple[RunPlan, ...]
     interface_packages: tuple[str, ...] = ()
+    draw: dict[str, Draw] = Field(default_factory=dict)
     modes: Literal["accept-unknown", "require"] = "accept-unknown"
     hidden_checks: int = Field(default=0, ge=0)
     limits: dict[str, float] = Field(default_factory=dict)
@@ -119,6 +126,7 @@ class Lesson(Part):
             nodes=self.nodes,
             runs=self.runs,
             interface_packages=self.interface_packages,
+            draw=self.draw,
         )
 
 
@@ -128,6 +136,9 @@ class Assignment(Part):
     Of schema 1, it has one node that counts (`output`) and no `nodes` and `runs`; of schema 2, the
     names are those of the main node. `archive` is the name of the file that `lab submit` makes, with
     `{student}` for the student's name; "" for `<id>.zip`.
+
+    `draw` is how values are drawn for each submission, `drawn` has the values of one: in an
+    assignment that was loaded there are none, and the runs and checks hold the lowest.
     """
 
     schema_: Literal[1, 2] = Field(alias="schema")
@@ -152,6 +163,8 @@ class Assignment(Part):
     nodes: dict[str, Node] = Field(default_factory=dict)
     runs: tuple[RunPlan, ...] = ()
     interface_packages: tuple[str, ...] = ()
+    draw: dict[str, Draw] = Field(default_factory=dict, exclude_if=lambda draw: not draw)
+    drawn: dict[str, Plain] = Field(default_factory=dict, exclude_if=lambda drawn: not drawn)
     own_checks: str = Field(
         default="", exclude=True, description="the text of checks.py; it is code: never in a file"
     )
@@ -187,6 +200,20 @@ class Assignment(Part):
     def seconds(self) -> str:
         """The period as Python code; "…", which Python cannot read, if the assignment names none."""
         return "…" if self.period is None else repr(self.period)
+
+    def with_drawn(self, values: Values) -> Assignment:
+        """Return the assignment with the drawn values of one submission.
+
+        Raises KeyError for a name without a value.
+        """
+        drawn = {name: values[name] for name in self.draw}
+        return self.model_copy(
+            update={
+                "runs": tuple(plan.with_drawn(drawn) for plan in self.runs),
+                "checks": tuple(use.with_drawn(drawn) for use in self.checks),
+                "drawn": drawn,
+            }
+        )
 
     def about(self, node: str) -> Assignment:
         """Return the same with another main node: `node_file` and so on are that node's.

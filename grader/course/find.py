@@ -16,10 +16,10 @@ from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.base.part import Part
 from grader.base.positioned_yaml import read_yaml
-from grader.base.project import CHECKOUT, PACKAGE, SHARES
+from grader.base.project import PACKAGE
 from grader.base.yaml_model import validated
+from grader.course.folder import COURSE, course_folder, own_course
 
-COURSE = "GRADER_COURSE"  # the path of another course folder
 LESSON = "GRADER_ASSIGNMENT"  # the lesson to use; the lab sets it for its programs
 FILE = "assignment.yaml"
 ORDER = "course.yaml"
@@ -31,18 +31,6 @@ class Course(Part):
 
     schema_: Literal[1] = Field(alias="schema")
     lessons: tuple[str, ...] = Field(min_length=1)
-
-
-def course_folder() -> Path:
-    """Return the course folder: $GRADER_COURSE, or the one that comes with the grader."""
-    named = os.environ.get(COURSE)
-    return Path(named) if named else own_course()
-
-
-def own_course() -> Path:
-    """Return the course of this checkout or of the installed package."""
-    places = [CHECKOUT / "lab" / "course", *(share / "course" for share in SHARES)]
-    return next((place for place in places if place.is_dir()), places[0])
 
 
 def lessons_of(course: Path) -> list[str]:

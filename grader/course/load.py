@@ -95,6 +95,8 @@ def _digest(assignment: Assignment) -> str:
     for use in content["checks"]:
         if not use["title"]:  # which assignments of before do not have
             del use["title"]
+    for plan in content["runs"]:
+        del plan["kept_back"]  # (it follows from the checks)
     if assignment.schema_ == 1:  # what a later schema added does not change it
         del content["nodes"], content["runs"]
         content["checks"] = [{n: use[n] for n in BEFORE if n in use} for use in content["checks"]]

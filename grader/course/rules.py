@@ -15,6 +15,9 @@ from grader.base.part import Part
 from grader.base.positioned_yaml import Document, Loc
 from grader.base.yaml_model import Fault, error_of, model_faults, validated
 from grader.course.assignment import Assignment, CheckUse, Lesson, Output
+from grader.course.draw import Draw, Values
+from grader.course.draw_forms import FormPlace, checked, draws_of, forms_in, slots_of, with_values
+from grader.course.draw_rules import alike, draw_faults
 from grader.course.interface_rules import interface_faults
 from grader.course.names import NAMES
 from grader.course.policy import Late, Policy, policy_faults
@@ -34,7 +37,13 @@ from grader.course.shorthands import SHORTHANDS
 from grader.report.detail import FeedbackRules
 
 ARCHIVE = r"(?!\.)(?:[\w.-]|\{student\}){1,100}\.zip"
-SCHEMA_2 = ("nodes", "runs", "interface_packages")  # keys of Assignment that schema 1 does not have
+SCHEMA_2 = (
+    "nodes",
+    "runs",
+    "interface_packages",
+    "draw",
+)  # keys of Assignment that schema 1 does not have
+MADE = ("periods", "kept_back", "slots")  # fields of a part that are made from the rest of the file
 ONLY_GRAPH = ("topic.subscribes", "topic.qos")  # kinds that judge no messages
 
 
@@ -67,11 +76,13 @@ def check_content(
 ) -> Assignment:
     """Return the assignment in a document; AssignmentError lists all faults."""
     content = document.content
+    if found := list(_made_faults(content)):
+        raise error_of(document, found)
     if isinstance(content, dict) and content.get("schema") == 2:
         return _lesson(document, known_checks=known_checks, known_limits=known_limits)
-    for key in ("sha256", *SCHEMA_2):
+    for key in ("sha256", "drawn", *SCHEMA_2):
         if isinstance(content, dict) and key in content:
-            hint = "" if key == "sha256" else " (it is of schema 2)"
+            hint = " (it is of schema 2)" if key in SCHEMA_2 else ""
             raise document.error((key,), f"unknown key '{key}'{hint}")
     assignment = validated(document, Assignment, _keys(Assignment))
     found = [
@@ -89,13 +100,68 @@ def check_content(
     return assignment
 
 
+def _made_faults(content: Any) -> Iterator[Fault]:
+    """Yield the keys of runs and checks that a file cannot have, although their models do."""
+    for part in ("runs", "checks"):
+        items = content.get(part) if isinstance(content, Mapping) else None
+        for i, item in enumerate(items if isinstance(items, tuple) else ()):
+            for key in MADE:
+                if isinstance(item, Mapping) and key in item:
+                    yield (part, i, key), f"unknown key '{key}'"
+
+
 def _lesson(
     document: Document,
     *,
     known_checks: KnownChecks | None,
     known_limits: Sequence[str] | None,
 ) -> Assignment:
-    lesson = validated(document, Lesson, _lesson_keys(document.content))
+    """Return an assignment of schema 2, judged for the extremes of its drawn values."""
+    draws = draws_of(document)
+    places = forms_in(document, draws)
+
+    def judged(values: Values) -> Assignment:
+        filled = with_values(document, places, values)
+        return _lesson_of(filled, known_checks=known_checks, known_limits=known_limits)
+
+    assignment = checked(draws, judged).model_copy(update={"draw": draws})
+    if not draws:
+        return assignment
+    made = _with_slots(assignment, places)
+    if found := list(draw_faults(made)):
+        raise error_of(document, found)
+    return made
+
+
+def _with_slots(
+    assignment: Assignment, places: Sequence[FormPlace], *, first: int = 0
+) -> Assignment:
+    """Return an assignment that knows where its drawn values stand.
+
+    `first` is the check with which the document begins; above 0 it has no runs.
+    """
+    runs = assignment.runs
+    if first == 0:
+        runs = tuple(
+            plan.model_copy(update={"slots": slots_of(places, ("runs", i))})
+            for i, plan in enumerate(runs)
+        )
+    checks = tuple(
+        use.model_copy(update={"slots": slots_of(places, ("checks", i))})
+        for i, use in enumerate(assignment.checks[first:])
+    )
+    return assignment.model_copy(
+        update={"runs": runs, "checks": assignment.checks[:first] + checks}
+    )
+
+
+def _lesson_of(
+    document: Document,
+    *,
+    known_checks: KnownChecks | None,
+    known_limits: Sequence[str] | None,
+) -> Assignment:
+    lesson = validated(document, Lesson, lesson_keys(document.content))
     found = list(run_faults(lesson))
     if found:
         raise error_of(document, found)
@@ -122,6 +188,10 @@ def _with_topics(assignment: Assignment, document: Document, *, first: int = 0) 
     do not exist. `first` is the check with which the document begins.
     """
     topics = {plan.name: dict(plan.topics) for plan in assignment.runs}
+    public = {plan.name: set(plan.topics) - set(plan.kept_back) for plan in assignment.runs}
+    for use in assignment.checks:
+        if use.visibility == "visible":
+            public[assignment.plan(use.run).name].add(str(use.with_.get("topic")))
     places = [
         (i, use, topics[assignment.plan(use.run).name])
         for i, use in enumerate(assignment.checks)
@@ -136,7 +206,10 @@ def _with_topics(assignment: Assignment, document: Document, *, first: int = 0) 
     for i, use, known in places:
         topic = use.with_.get("topic")
         if topic and topic not in known:
-            text = f"the type of {topic} is not known: add `topics: {{{topic}: …}}` to the run"
+            run = assignment.plan(use.run).name
+            text = (
+                f"the type of {topic} is not known: add `topics: {{{topic}: …}}` to the run {run}"
+            )
             found.append((("checks", i - first, "with", "topic"), text))
     if found:
         raise error_of(document, found)
@@ -146,7 +219,13 @@ def _with_topics(assignment: Assignment, document: Document, *, first: int = 0) 
         if topic and period:
             periods[assignment.plan(use.run).name][topic] = float(period)
     runs = tuple(
-        plan.model_copy(update={"topics": topics[plan.name], "periods": periods[plan.name]})
+        plan.model_copy(
+            update={
+                "topics": topics[plan.name],
+                "periods": periods[plan.name],
+                "kept_back": tuple(sorted(set(topics[plan.name]) - public[plan.name])),
+            }
+        )
         for plan in assignment.runs
     )
     made = assignment.model_copy(update={"runs": runs})
@@ -156,16 +235,17 @@ def _with_topics(assignment: Assignment, document: Document, *, first: int = 0) 
     return made
 
 
-def _lesson_keys(content: Mapping[str, Any]) -> dict[Loc, tuple[str, ...]]:
+def lesson_keys(content: Mapping[str, Any]) -> dict[Loc, tuple[str, ...]]:
     """Return the known keys of each place of a file of schema 2."""
     keys = _keys(Lesson)
     keys["policy",] = tuple(Policy.model_fields)
     keys["policy", "late"] = tuple(Late.model_fields)
     keys["feedback",] = tuple(FeedbackRules.model_fields)
+    keys["draw", "*"] = tuple(Draw.model_fields)
     nodes = content.get("nodes")
     for name in nodes if isinstance(nodes, Mapping) else ():
         keys["nodes", str(name)] = tuple(Node.model_fields)
-    keys["runs", "*"] = tuple(name for name in RunPlan.model_fields if name != "periods")
+    keys["runs", "*"] = tuple(name for name in RunPlan.model_fields if name not in MADE)
     keys["runs", "*", "clock"] = tuple(ClockPlan.model_fields)
     keys["runs", "*", "start", "*"] = tuple(Start.model_fields)
     keys["runs", "*", "do", "*"] = tuple(Stimulus.model_fields)
@@ -184,7 +264,37 @@ def merge_hidden(
     *,
     known_checks: KnownChecks | None,
 ) -> Assignment:
-    """Return the assignment with the hidden checks added after the visible ones."""
+    """Return the assignment with the hidden checks added after the visible ones.
+
+    They may use its drawn values.
+    """
+    draws = assignment.draw
+    if found := list(_made_faults(hidden.content)):
+        raise error_of(hidden, found)
+    places = forms_in(hidden, draws)
+
+    def judged(values: Values) -> Assignment:
+        at = assignment.with_drawn(values) if draws else assignment
+        filled = with_values(hidden, places, values) if places else hidden
+        return _merged(at, document, filled, known_checks=known_checks)
+
+    made = checked(draws, judged)
+    if not draws:
+        return made
+    first = len(assignment.checks)
+    made = _with_slots(made.model_copy(update={"drawn": {}}), places, first=first)
+    if found := list(alike(made, first=first)):
+        raise error_of(hidden, found)
+    return made
+
+
+def _merged(
+    assignment: Assignment,
+    document: Document,
+    hidden: Document,
+    *,
+    known_checks: KnownChecks | None,
+) -> Assignment:
     extra = validated(hidden, HiddenChecks, _keys(HiddenChecks)).checks
     taken = [use.id for use in assignment.checks]
     found = list(_check_uses(extra, known_checks, assignment.schema_, taken))
@@ -214,8 +324,9 @@ def _keys(model: type[BaseModel]) -> dict[Loc, tuple[str, ...]]:
     """Return the known keys of each place."""
     own = _aliases(model)
     if model is Assignment:
-        own = tuple(name for name in own if name not in ("sha256", *SCHEMA_2))
-    keys: dict[Loc, tuple[str, ...]] = {(): own, ("checks", "*"): _aliases(CheckUse)}
+        own = tuple(name for name in own if name not in ("sha256", "drawn", *SCHEMA_2))
+    of_check = tuple(name for name in _aliases(CheckUse) if name not in MADE)
+    keys: dict[Loc, tuple[str, ...]] = {(): own, ("checks", "*"): of_check}
     if "output" in own:
         keys["output",] = tuple(Output.model_fields)
         keys["policy",] = tuple(Policy.model_fields)

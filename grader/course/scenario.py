@@ -9,6 +9,7 @@ from pydantic import AfterValidator, ConfigDict, Field, model_validator
 
 from grader.base.part import Part
 from grader.base.yaml_model import broken
+from grader.course.draw import Slot, Values, filled
 
 
 def _plain(value: Any) -> Any:
@@ -46,7 +47,7 @@ class Start(_Part):
     """The start of a node, with what `ros2 run` gives it.
 
     `arguments` are the program's own words, before `--ros-args`; `params_file` is a file of
-    parameters in the node's package, such as config/limits.yaml. A program that `exits` ends by
+    parameters that the node's package installs, such as config/limits.yaml. A program that `exits` ends by
     itself, with status 0, before the run does: a client that asks once, for example.
     """
 
@@ -59,12 +60,19 @@ class Start(_Part):
     namespace: str = ""
     name: str = ""
 
-    def words(self, package: str) -> list[str]:
-        """Return the words after the executable's name; `package` is the node's."""
-        words = [*self.arguments, "--ros-args"]
+    def shared_file(self, package: str) -> str:
+        """Return where a package installs the file of parameters, from its prefix."""
+        return f"share/{package}/{self.params_file}"
+
+    def words(self, package: str, *, plain: bool = False) -> list[str]:
+        """Return the words after the executable's name; `package` is the node's.
+
+        With `plain` there are only those that the assignment names.
+        """
+        words = ["--ros-args"]
         if self.params_file:
-            words += ["--params-file", f"src/{package}/{self.params_file}"]
-        words += ["-p", "use_sim_time:=true"]
+            words += ["--params-file", f"install/{package}/{self.shared_file(package)}"]
+        words += [] if plain else ["-p", "use_sim_time:=true"]
         for name, value in self.parameters.items():
             words += ["-p", f"{name}:={_as_yaml(value)}"]
         rules = {**self.remap}
@@ -74,7 +82,7 @@ class Start(_Part):
             rules["__node"] = self.name
         for old, new in rules.items():
             words += ["-r", f"{old}:={new}"]
-        return words
+        return [*self.arguments, *(words if len(words) > 1 else [])]
 
 
 class ClockPlan(_Part):
@@ -163,7 +171,8 @@ class RunPlan(_Part):
     """One run: a fresh start of its nodes, beside a world if it has one.
 
     `topics` are recorded, with their types; the topics of the checks are added to them. `periods`
-    (s) are those that the checks want of topics: at these instants a message is awaited.
+    (s) are those that the checks want of topics: at these instants a message is awaited. `kept_back`
+    are the topics that only checks name which students do not see, `slots` the places of drawn values.
     """
 
     name: str
@@ -173,6 +182,17 @@ class RunPlan(_Part):
     do: tuple[Stimulus, ...] = ()
     topics: dict[str, str] = Field(default_factory=dict)
     periods: dict[str, float] = Field(default_factory=dict)
+    kept_back: tuple[str, ...] = ()
+    slots: tuple[Slot, ...] = Field(default=(), exclude_if=lambda slots: not slots)
+
+    def with_drawn(self, values: Values) -> RunPlan:
+        """Return the same with the drawn values in their places."""
+        return filled(self, self.slots, values)
+
+    @property
+    def drawn(self) -> tuple[str, ...]:
+        """The names of the drawn values that it uses, each once."""
+        return tuple(dict.fromkeys(name for slot in self.slots for name in slot.form.names))
 
     def with_types(self, named: Callable[[str], str]) -> RunPlan:
         """Return the same with other names of types."""

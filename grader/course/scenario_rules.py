@@ -108,7 +108,7 @@ def _stimuli(plan: RunPlan, lesson: Lesson, place: Loc) -> Iterator[Fault]:
         here: Loc = (*place, "do", j)
         if done.index(one.name) != j:
             yield (*here, "name"), f"'{one.name}' is listed twice"
-        if fault := _instant_fault(one, plan):
+        if fault := instant_fault(one, plan):
             yield (*here, "at"), fault
         for node, values in (one.set or {}).items():
             if node not in lesson.nodes:
@@ -129,7 +129,7 @@ def _stimuli(plan: RunPlan, lesson: Lesson, place: Loc) -> Iterator[Fault]:
             yield (*here, "publish", "topic"), text
 
 
-def _instant_fault(one: Stimulus, plan: RunPlan) -> str:
+def instant_fault(one: Stimulus, plan: RunPlan) -> str:
     """Return what is wrong with the instant of a stimulus."""
     period, end = plan.clock.period, plan.clock.period * plan.clock.ticks
     if one.at >= end:

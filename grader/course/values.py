@@ -14,6 +14,8 @@ from typing import Any
 
 from pydantic import Field, model_validator
 
+from grader.base.example_text import example_of
+from grader.base.i18n.message import Message, joined, say
 from grader.base.part import Part
 from grader.base.yaml_model import broken
 
@@ -81,20 +83,60 @@ class Form(Part):
         return _equal(value, self.equal)
 
     def __str__(self) -> str:
-        """Return the form as a person would write it."""
+        """Return the form in English."""
+        return str(self.words)
+
+    @property
+    def words(self) -> Message:
+        """The form as a person would write it."""
+        if self.between is not None:
+            low, high = self.between
+            return say("{low} to {high}", low=f"{low:g}", high=f"{high:g}")
+        if self.matches is not None:
+            return pattern_in_words(self.matches)
+        return joined(self._plain_words)
+
+    @property
+    def _plain_words(self) -> str:
         if self.about is not None:
             return f"{self.about:g} ± {self.within:g}"
-        if self.between is not None:
-            return f"{self.between[0]:g} … {self.between[1]:g}"
         if self.one_of is not None:
             return " | ".join(shown_value(one) for one in self.one_of)
-        if self.matches is not None:
-            return f"/{self.matches}/"
         if self.contains is not None:
             return f"…{self.contains}…"
         if self.from_ is not None:
             return ", ".join([*(str(self.at(index)) for index in range(3)), "…"])
         return shown_value(self.equal)
+
+
+def forms_in_words(each: Mapping[str, Form]) -> Message:
+    """Return fields and their forms, as in `linear.x: 0 to 2, angular.z: 0`."""
+    return joined(*(joined(path, form.words, by=": ") for path, form in each.items()), by=", ")
+
+
+NUMBER = re.compile(r"\(?-?\??(?:\\d|\[0-9\])[+*]?(?:\(\?:)?(?:\\\.(?:\\d|\[0-9\])[+*]?)?\)?[?]?")
+ANYTHING = re.compile(r"\(?\.[*+]\??\)?")
+SIGN = re.compile(r"(?<!\\)[\[\](){}|*+?^$]|\\[a-zA-Z]|(?<!\\)\.")
+
+
+def pattern_in_words(pattern: str) -> Message:
+    r"""Return a pattern as students read it: 'Turning' for ^Turning$, 'x: <number>' for ^x: \d+$.
+
+    Of one that is more than that, a text is shown that it matches.
+    """
+    inner = pattern.removeprefix("^").removesuffix("$")
+    inner = ANYTHING.sub("…", NUMBER.sub("<number>", inner))
+    if SIGN.search(inner):
+        example = example_of(pattern)
+        return (
+            say("a text such as {example}", example=repr(example))
+            if example
+            else joined(f"/{pattern}/")
+        )
+    text = re.sub(r"\\(.)", r"\1", inner)
+    before = "" if pattern.startswith("^") else "…"
+    after = "" if pattern.endswith("$") else "…"
+    return joined(repr(text) if not before + after else f"{before}{text}{after}")
 
 
 def shown_value(value: Any) -> str:

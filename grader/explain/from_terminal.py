@@ -9,19 +9,25 @@ from itertools import islice
 from types import MappingProxyType
 
 from grader.base.i18n.message import Message
-from grader.explain import environment, terminal
-from grader.explain.terminal_text import TerminalText
+from grader.explain.frames import may_be_own
+from grader.explain.machine import Machine
+from grader.explain.terminal_text import TerminalText, groups
+from grader.explain.texts import TEXTS
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.kind import Kind
 
 MOST = 200_000  # characters that are searched, at the end of the text: errors come last
 MOST_OF_A_KIND = 20  # matches of one kind of mistake that are examined
 LONGEST = 2_000  # characters of a line that are searched
-MOST_TRACEBACK = 50_000  # characters of a traceback that are searched
 ENTRIES: Mapping[str, Kind] = MappingProxyType(
     {
         kind.id: kind
-        for kinds in (environment.KINDS, CATALOGUE.values(), terminal.KINDS)
+        for kinds in (
+            (text for text in TEXTS if text.stage == "environment"),
+            CATALOGUE.values(),
+            (text for text in TEXTS if text.stage == "terminal"),
+            (text for text in TEXTS if text.stage == "general"),
+        )
         for kind in kinds
     }
 )
@@ -29,10 +35,6 @@ ENTRIES: Mapping[str, Kind] = MappingProxyType(
 OF_LAUNCH = re.compile(r"^\[[\w.+-]{1,80}-\d{1,4}\] ?")
 """What `ros2 launch` writes before each line of a process."""
 DISTRO = re.compile(r"/opt/ros/([a-z]{1,20})/")
-FRAME = re.compile(r'^ +File "([^"\n]{1,500})", line \d', re.MULTILINE)
-NEUTRAL = re.compile(r"<|/opt/ros/|\S{0,200}/lib/python3(?:\.\d{1,2})?/(?!site-|dist-)")
-"""Files of Python and of ROS: what they raise may be about the line that calls them."""
-LIBRARY = re.compile(r"(?!\S{0,300}/install/)\S{0,300}(?:/site-packages/|/dist-packages/)|/usr/")
 
 
 @dataclass(frozen=True)
@@ -44,12 +46,14 @@ class Seen:
     line: str
     variant: str = ""
     shown: tuple[Message, ...] = ()
+    here: tuple[Message, ...] = ()
 
 
-def seen_in(text: str) -> list[Seen]:
-    """Return the mistakes that a text shows, root causes first.
+def seen_in(text: str, machine: Machine | None = None) -> list[Seen]:
+    """Return the mistakes that a text shows, root causes first, and what a machine shows of them.
 
-    If several entries match the same words, the first entry gets them.
+    If several entries match the same words, the first entry gets them. A general entry is told only
+    if there is nothing else.
     """
     lines = (OF_LAUNCH.sub("", line[:LONGEST]) for line in text[-MOST:].splitlines())
     text = "\n".join(lines)
@@ -58,47 +62,51 @@ def seen_in(text: str) -> list[Seen]:
     taken: list[tuple[int, int]] = []
     found: list[Seen] = []
     for kind in ENTRIES.values():
+        if found and kind.stage == "general":
+            break
         matches = kind.pattern.finditer(text) if kind.pattern is not None else iter(())
         for match in islice(matches, MOST_OF_A_KIND):
             start, end = match.span()
             if any(start < other_end and other_start < end for other_start, other_end in taken):
                 continue
-            seen = _read(kind, text, match, common)
+            seen = _read(kind, text, match, common, machine)
             if seen is None:
                 continue
             taken.append((start, end))
-            if all(other.kind is not kind or other.params != seen.params for other in found):
+            if not any(_same(seen, other) for other in found):
                 found.append(seen)
     return found
 
 
-def _read(kind: Kind, text: str, match: re.Match[str], common: Mapping[str, str]) -> Seen | None:
-    """Return what a match shows; None if the rest of the text speaks against it."""
-    start, end = match.span()
-    groups = ((name, value) for name, value in match.groupdict("").items() if value)
-    known = {**common, **{re.sub(r"_\d$", "", name): value for name, value in groups}}
-    line = _line_around(text, start, end)
+def _same(seen: Seen, other: Seen) -> bool:
+    """Whether both say the same: an entry of a terminal is told once."""
+    told_once = isinstance(seen.kind, TerminalText)
+    return seen.kind is other.kind and (told_once or seen.params == other.params)
+
+
+def _read(
+    kind: Kind,
+    text: str,
+    match: re.Match[str],
+    common: Mapping[str, str],
+    machine: Machine | None,
+) -> Seen | None:
+    """Return what a match shows; None if the rest of the text, or the machine, speaks against it."""
+    known = {**common, **groups(match)}
+    line = _line_around(text, *match.span())
     if not isinstance(kind, TerminalText):
-        of_source = kind.id.startswith("node.")
-        return None if of_source and not _may_be_own(text, start) else Seen(kind, known, line)
+        of_source = kind.id.startswith(("node.", "source.syntax_error"))
+        return (
+            None if of_source and not may_be_own(text, match.start()) else Seen(kind, known, line)
+        )
     if kind.excluded_by(text):
         return None
-    variant, values = kind.variant_in(text)
-    return Seen(kind, {**values, **known}, line, variant, tuple(kind.shown_in(text)))
-
-
-def _may_be_own(text: str, start: int) -> bool:
-    """Whether an error can be a mistake of a student's source: a traceback above must lead there.
-
-    An error inside of a library that is not of ROS says nothing about the student's line.
-    """
-    begin = text.rfind("Traceback (most recent call last)", max(start - MOST_TRACEBACK, 0), start)
-    above = text[begin:start].splitlines()[1:-1] if begin >= 0 else []
-    frames = FRAME.findall("\n".join(above))
-    if not frames or not all(line.startswith((" ", "|")) or not line for line in above):
-        return True
-    frames = [frame for frame in frames if not NEUTRAL.match(frame)]
-    return bool(frames) and not LIBRARY.match(frames[-1])
+    case, values = kind.case_in(text)
+    known = {**known, **values}
+    here = kind.found_on(machine, {**kind.values, **known}) if machine is not None else []
+    if kind.only_if_found and not here:
+        return None
+    return Seen(kind, known, line, case, tuple(kind.shown_in(text)), tuple(here))
 
 
 def _line_around(text: str, start: int, end: int) -> str:

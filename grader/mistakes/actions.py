@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.kind import Family
+from grader.mistakes.kind import Family, Step
+from grader.package.source.follows_already import calls, names, never
 
 ENDS = msg(
     "The callback of an action decides how the goal ends: it calls succeed(), abort() or canceled() "
@@ -20,11 +21,49 @@ SLEEP_FOR = msg(
     "with Duration from rclpy.duration, and spin the node with a MultiThreadedExecutor and the "
     "action's callbacks in a ReentrantCallbackGroup."
 )
+SLEEP_STEPS = (
+    Step(
+        msg(
+            "Wait in ROS time: self.get_clock().sleep_for(Duration(seconds=…)) in place of "
+            "time.sleep(…), with Duration from rclpy.duration."
+        ),
+        never,
+    ),
+    Step(msg("Spin the node with a MultiThreadedExecutor."), calls("MultiThreadedExecutor")),
+    Step(
+        msg("Put the action's callbacks in a ReentrantCallbackGroup."),
+        calls("ReentrantCallbackGroup"),
+    ),
+)
+CANCEL_STEPS = (
+    Step(msg("Pass a cancel_callback to the ActionServer of {service}."), names("cancel_callback")),
+    Step(msg("Return CancelResponse.ACCEPT in the cancel callback."), names("ACCEPT")),
+    Step(
+        msg("Check goal_handle.is_cancel_requested while the goal runs."),
+        names("is_cancel_requested"),
+    ),
+    Step(msg("Call goal_handle.canceled() before you return."), calls("canceled")),
+)
+PUBLISH_FEEDBACK = msg(
+    "Call goal_handle.publish_feedback(…) in the callback of {service}, while it works."
+)
+CALL_ASYNC = msg(
+    "Send the request with self.client_.call_async(request), with parentheses, when it is due."
+)
 _action = Family("action", links.ACTIONS)
 _graph = Family("graph", links.NODES)
 _world = Family("world", links.TOPICS)
 _files = Family("files", links.PACKAGE)
 KINDS = (
+    _world(
+        "other_state",
+        "world",
+        msg("The world is in another state"),
+        msg(
+            "The world publishes {topic}, not the node: it shows what came of the node's commands."
+        ),
+        msg("Look at what the node sends to the world up to that time, and correct that."),
+    ),
     _world(
         "off_path",
         "world",
@@ -49,13 +88,14 @@ KINDS = (
         "world",
         msg("The turtle hits the wall"),
         msg(
-            "The turtle goes on with its last command until the next one comes: it has to turn "
-            "early enough before the wall."
+            "The turtle goes on with its last command until the next one comes, for up to a second: it "
+            "has to turn early enough before the wall."
         ),
         msg("Turn earlier, or drive more slowly near the wall."),
+        whys={"straight": msg("No message asked for a turn until then: angular.z was 0 in all.")},
         fixes={
             "straight": msg(
-                "The turtle never turns: set angular.z of the message when a wall is near."
+                "Set angular.z when a wall is near. If a line does so, look at the condition above it."
             )
         },
     ),
@@ -81,8 +121,8 @@ KINDS = (
         "world",
         msg("It runs into something"),
         msg(
-            "What moves goes on with its last command until the next one comes: it has to stop or "
-            "turn early enough before an obstacle."
+            "What moves goes on with its last command until the next one comes, for up to a second: it "
+            "has to stop or turn early enough before an obstacle."
         ),
         msg("Stop or turn {turtle} earlier, or drive more slowly near an obstacle."),
     ),
@@ -98,10 +138,8 @@ KINDS = (
         "service",
         msg("The service is not called"),
         msg("A client does nothing by itself: each call needs a request that is sent."),
-        msg(
-            "Send the request with self.client_.call_async(request), with parentheses, when it is "
-            "due."
-        ),
+        CALL_ASYNC,
+        steps={"": (Step(CALL_ASYNC, calls("call_async")),)},
     ),
     _world(
         "wrong_request",
@@ -130,6 +168,15 @@ KINDS = (
         msg("A node is not on the ROS graph"),
         msg("A node is on the graph as soon as it is made, under the name that it gets."),
         msg("Make the node {name}, with exactly this name."),
+        of_shape=True,
+    ),
+    _graph(
+        "node_twice",
+        "class",
+        msg("Several nodes have the same name"),
+        msg("The name of a node must be unique on the ROS graph: others find it by its name."),
+        msg("Make the node {name} once, and give other nodes other names."),
+        of_shape=True,
     ),
     _graph(
         "node_unexpected",
@@ -137,6 +184,7 @@ KINDS = (
         msg("There is one node too many"),
         msg("Each object of the class Node is a node of its own on the ROS graph."),
         msg("Make {name} only if the assignment asks for it."),
+        of_shape=True,
     ),
     _graph(
         "not_connected",
@@ -148,6 +196,15 @@ KINDS = (
         ),
         msg("Look at {node}: create its publisher or subscription on {topic}."),
         fixes={"type": msg("Use the same type on both sides of {topic}.")},
+        of_shape=True,
+    ),
+    _action(
+        "foreign_server",
+        "service",
+        msg("Another node offers the action too"),
+        msg("If two nodes offer an action of one name, a client cannot know which of them acts."),
+        msg("Make the ActionServer of {service} in {judged} only; remove it from {node}."),
+        of_shape=True,
     ),
     _action(
         "missing",
@@ -157,6 +214,7 @@ KINDS = (
         msg(
             "Write self.server_ = ActionServer(self, {short}, '{service}', self.execute) in __init__."
         ),
+        of_shape=True,
     ),
     _action(
         "wrong_name",
@@ -164,6 +222,7 @@ KINDS = (
         msg("The action has a different name"),
         msg("A client and an action meet if their names are equal, to the letter."),
         msg("Use '{service}' in place of '{name}'."),
+        of_shape=True,
     ),
     _action(
         "wrong_type",
@@ -171,6 +230,7 @@ KINDS = (
         msg("The action has a different type"),
         msg("A client and an action of different types never meet."),
         msg("Pass {short} as the second argument of ActionServer."),
+        of_shape=True,
     ),
     _action(
         "no_answer",
@@ -198,6 +258,18 @@ KINDS = (
             "Pass goal_callback=… to the ActionServer of {service}, and return GoalResponse.REJECT "
             "in it for such a goal."
         ),
+        steps={
+            "": (
+                Step(
+                    msg("Pass goal_callback=… to the ActionServer of {service}."),
+                    names("goal_callback"),
+                ),
+                Step(
+                    msg("Return GoalResponse.REJECT in the goal callback for such a goal."),
+                    names("REJECT"),
+                ),
+            )
+        },
     ),
     _action(
         "no_feedback",
@@ -206,9 +278,13 @@ KINDS = (
         msg(
             "A client learns how far the goal is from feedback, which the callback has to publish."
         ),
-        msg("Call goal_handle.publish_feedback(…) in the callback of {service}, while it works."),
+        PUBLISH_FEEDBACK,
         whys={"sleeps": SLEEPS},
         fixes={"sleeps": SLEEP_FOR},
+        steps={
+            "": (Step(PUBLISH_FEEDBACK, calls("publish_feedback")),),
+            "sleeps": SLEEP_STEPS,
+        },
     ),
     _action(
         "wrong_feedback",
@@ -225,6 +301,7 @@ KINDS = (
         msg("Let the callback of {service} return the result when the work is done."),
         whys={"sleeps": SLEEPS},
         fixes={"sleeps": SLEEP_FOR},
+        steps={"sleeps": SLEEP_STEPS},
     ),
     _action(
         "wrong_status",
@@ -242,7 +319,10 @@ KINDS = (
         msg(
             "The callback fills the result and returns it. Fields that are not set are 0, or empty."
         ),
-        msg("Set {field} of the result in the callback of {service}, and return it."),
+        msg(
+            "Look at the lines that set {field} of the result in the callback of {service}, and at what "
+            "they make of the goal."
+        ),
     ),
     _action(
         "not_cancelled",
@@ -258,5 +338,6 @@ KINDS = (
         ),
         whys={"sleeps": SLEEPS},
         fixes={"sleeps": SLEEP_FOR},
+        steps={"": CANCEL_STEPS, "sleeps": SLEEP_STEPS},
     ),
 )

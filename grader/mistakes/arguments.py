@@ -14,13 +14,12 @@ from grader.mistakes.ends import ends
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import lines, node_arguments, node_log
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect, on_line
+from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace, Write
 from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import NodeSource
 from grader.package.source.node_here import node_here
-from grader.package.source.place import statement_at
 
 LOGGER_OPTION = (
     r"TypeError: parameter \"(?P<name>\w{1,120})\" is not one of the recognized logging options"
@@ -41,7 +40,6 @@ ROS_1 = {
     "Rate": "self.create_timer(…)",
     "Service": "self.create_service(…)",
     "get_param": "self.get_parameter(…)",
-    "is_shutdown": "not rclpy.ok()",
 }
 """What ROS 2 has instead of the functions and classes of rospy."""
 OF_BOTH = ("init", "node", "ok", "create_node", "spin_once", "shutdown", "Node")
@@ -69,55 +67,16 @@ def main():
 def _many(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     del match
     for timer in raised.source.timers:
-        if raised.line not in (None, *range(timer.call.lineno, (timer.call.end_lineno or 0) + 1)):
+        if raised.line not in (None, *lines_of(timer.call)):
             continue
         written = node_arguments.with_comma(raised.source, timer.call)
+        found = raised.finding("timer_arguments_many", at=timer.call)
         if written is not None:
-            found = raised.finding("timer_arguments_many", at=timer.call, name=written[0])
-            words = {**found.words, "written": written[1]}
-            return replace(found, variant="comma", words=words)
-        if len(timer.call.args) > 2 and not timer.call.keywords:
-            return _first_two(raised, timer.call)
+            params = {"name": written[0]}
+            words = {**found.words, **params, "written": written[1]}
+            return replace(found, variant="comma", params=params, words=words)
+        return found if len(timer.call.args) > 2 else None
     return None
-
-
-def _first_two(raised: Raised, call: ast.Call) -> RecognisedMistake:
-    """Return that a period and a callback are enough, if the call has them at their places."""
-    found = raised.finding("timer_arguments_many", at=call)
-    text = raised.source.module_of(call).text
-    code = text.code(call)
-    period, callback = call.args[:2]
-    named = isinstance(callback, ast.Name | ast.Attribute | ast.Lambda)
-    if "\n" in code or not named or isinstance(period, ast.Lambda):
-        return found
-    of_class = dotted(callback).partition(".")[0] in raised.source.class_names
-    own = f"self.{last_part(dotted(callback))}" if of_class else text.code(callback)
-    written = f"{text.code(call.func)}({text.code(period)}, {own})"
-    words = {**found.words, "written": written}
-    return replace(found, variant="two", words=words)
-
-
-def _given_twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """A value without a name takes the place of a parameter that the call also names."""
-    calls = [
-        call
-        for call, name in raised.source.calls
-        if last_part(name) == last_part(match["function"]) and raised.line in lines_of(call)
-    ]
-    if len(calls) != 1 or not calls[0].args:
-        return None
-    call, text = calls[0], raised.source.module_of(calls[0]).text
-    code, first = text.code(call), text.code(call.args[0])
-    params = {"name": match["name"], "given": shown(first)}
-    named = {keyword.arg: keyword.value for keyword in call.keywords}
-    if last_part(match["function"]) != "create_timer" or "\n" in code or len(call.args) != 1:
-        return raised.finding("argument_twice", at=call, params=params)
-    if set(named) != {"timer_period_sec"}:
-        return raised.finding("argument_twice", at=call, params=params)
-    period = text.code(named["timer_period_sec"])
-    new = f"{text.code(call.func)}(timer_period_sec={period}, callback={first})"
-    params = {"name": code, "written": new, "given": first}
-    return replace(raised.finding("argument_twice", at=call, params=params), variant="timer")
 
 
 def _own_init(source: NodeSource) -> bool:
@@ -133,31 +92,10 @@ def _keyword(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     found = raised.finding("keyword_unknown", name=name, function=function)
     if match["function"] == "Node.__init__":
         return replace(found, variant="super")
-    if function != "create_timer":
-        return found
-    plain = [
-        timer
-        for timer in raised.source.timers
-        if raised.line in lines_of(timer.call) and dotted(timer.call.func).startswith("self.")
-    ]
-    given = [k.value for timer in plain for k in timer.call.keywords] + [
-        value for timer in plain for value in timer.call.args
-    ]
+    timers = [t.call for t in raised.source.timers if raised.line in lines_of(t.call)]
+    given = [value for call in timers for value in (*call.args, *(k.value for k in call.keywords))]
     own = any(own_name(value) in raised.source.methods for value in given)
-    if own:
-        return replace(found, variant="timer")
-    calls = [timer.call for timer in plain]
-    left = _open_names(calls[0]) if len(calls) == 1 else []
-    if len(left) == 1:
-        params = {"name": f"{name}=", "written": f"{left[0]}="}
-        return replace(raised.finding("keyword_unknown", params=params), variant="written")
-    return replace(found, variant="timer_names")
-
-
-def _open_names(call: ast.Call) -> list[str]:
-    """Return the first parameters of create_timer that a call gives no value."""
-    names = ["timer_period_sec", "callback"][len(call.args) :]
-    return [name for name in names if name not in {keyword.arg for keyword in call.keywords}]
+    return replace(found, variant="timer") if function == "create_timer" and own else found
 
 
 def _option(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
@@ -170,30 +108,9 @@ def _rospy(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     used = re.search(r"\brospy\.(?P<name>\w{1,120})", raised.module.line(raised.line))
     if match["name"] != "rospy" or used is None:
         return None
-    name = used["name"]
-    if name == "is_shutdown":
-        return _is_shutdown(raised)
-    if name in ("spin", "init_node"):
-        variant = "init_node" if name == "init_node" else "spin"
-        return replace(raised.finding("ros_1", name=name), variant=variant)
-    if name == "Rate":
-        return _rate(raised)
-    new = _of_ros_2(raised, name)
-    found = raised.finding("ros_1", name=name, written=new)
-    return replace(found, variant="rospy" if new else "rospy_other")
-
-
-def _of_ros_2(raised: Raised, name: str) -> str:
-    """Return what ROS 2 has instead of a name of rospy, as this line can call it; "" if nothing."""
-    new, node = ROS_1.get(name, ""), node_here(raised.source, raised.module, raised.line)
-    return re.sub(r"\Aself\.", f"{node or 'node'}.", new)
-
-
-def _rate(raised: Raised) -> RecognisedMistake:
-    """Rate, and the loop that sleeps with it: a timer takes the place of both."""
-    node = node_here(raised.source, raised.module, raised.line) or "node"
-    found = raised.finding("ros_1", name="Rate")
-    return replace(found, variant="rate", words={**found.words, "node": node})
+    found = _of_ros_1(raised, used["name"])
+    variant = found.variant or ("rospy" if used["name"] in ROS_1 else "rospy_other")
+    return replace(found, variant=variant)
 
 
 def _used_of_rospy(module: Module) -> list[str]:
@@ -224,38 +141,29 @@ def _for_ros_1(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None
 
 def _many_given(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A call gives more arguments than the function takes."""
-    name = last_part(match["function"])
+    name, call = last_part(match["function"]), raised.source.super_init
     if match["function"].partition(".")[0] not in {"Node", *raised.source.known_classes}:
         return None
     if any(t.called and raised.line == t.call.lineno for t in raised.source.timers):
         return None  # (the callback is called where it is passed)
     found = raised.finding("arguments_many", name=name)
-    if raised.inside and (of_ros := _called_by_ros(raised, match["function"])) is not None:
-        return of_ros
-    call = raised.source.super_init
-    own = match["function"] == "Node.__init__" and call is not None
-    if own and call is not None and call.args and dotted(call.args[0]) == "self":
-        return None  # (super() passes self on its own)
-    if own and call is not None and raised.line in lines_of(call):
-        return replace(found, variant="super")
-    if name == "__exit__":
-        return _exit(raised, found)
-    return _only_self(raised, match["function"]) or _of_own(raised, match["function"]) or found
+    if match["function"] == "Node.__init__" and call is not None:
+        if call.args and dotted(call.args[0]) == "self":
+            return None  # (super() passes self on its own)
+        return replace(found, variant="super") if raised.line in lines_of(call) else found
+    if raised.inside:
+        return _called_by_ros(raised, match["function"])
+    return _only_self(raised, match["function"]) or found
 
 
-def _of_own(raised: Raised, function: str) -> RecognisedMistake | None:
-    """The function is a method of the student's, whose def has fewer parameters than values come."""
+def _called_by_ros(raised: Raised, function: str) -> RecognisedMistake | None:
+    """The method is the callback of a subscription, and has no parameter for the message."""
     owner, _, method = function.rpartition(".")
-    taken = [m for m in _defs(raised.source, owner, method) if not m.decorator_list]
-    if len(taken) != 1 or taken[0].args.vararg is not None or method == "__init__":
+    taken = _defs(raised.source, owner, method)
+    ways = [end.kind for end in ends(raised.source) if end.method == method]
+    if ways != ["create_subscription"] or len(taken) != 1 or len(taken[0].args.args) != 1:
         return None
-    names = [a.arg for a in (*taken[0].args.posonlyargs, *taken[0].args.args)][1:]
-    calls = [c for c, name in raised.source.calls if last_part(name) == method]
-    if not names or taken[0].args.kwonlyargs or not any(raised.line in lines_of(c) for c in calls):
-        return None
-    found = raised.finding("arguments_many", name=method)
-    words = {**found.words, "line": str(taken[0].lineno), "names": ", ".join(names)}
-    return replace(found, words=words, variant="own")
+    return replace(raised.finding("arguments_many", at=taken[0], name=method), variant="message")
 
 
 def _defs(source: NodeSource, owner: str, method: str) -> list[Function]:
@@ -264,49 +172,12 @@ def _defs(source: NodeSource, owner: str, method: str) -> list[Function]:
     return [m for c in classes for m in c.body if isinstance(m, Function) and m.name == method]
 
 
-def _called_by_ros(raised: Raised, function: str) -> RecognisedMistake | None:
-    """The method is the callback of a subscription, and has no parameter for the message."""
-    owner, _, method = function.rpartition(".")
-    for end in ends(raised.source):
-        taken = _defs(raised.source, owner, method)
-        if end.kind != "create_subscription" or end.method != method or len(taken) != 1:
-            continue
-        if [a.arg for a in taken[0].args.args] == ["self"]:
-            found = raised.finding("arguments_many", at=taken[0], name=method)
-            return replace(found, variant="message")
-    return None
-
-
-def _exit(raised: Raised, found: RecognisedMistake) -> RecognisedMistake:
-    """With calls __exit__ with three values."""
-    made = [n for n in raised.module.nodes if isinstance(n, Function) and n.name == "__exit__"]
-    if len(made) != 1:
-        return found
-    return replace(raised.finding("arguments_many", at=made[0], name="__exit__"), variant="exit")
-
-
-def _is_of_object(raised: Raised, taken: Function, name: str, made: str) -> bool:
-    """Whether a call is of a method of an object, and not of a class; or of what it creates."""
-    owner, _, method = name.rpartition(".")
-    return name == made or (
-        bool(owner) and method == taken.name and owner not in raised.source.known_classes
-    )
-
-
 def _without_self(raised: Raised, taken: Function) -> RecognisedMistake | None:
     """The method has no self: the object goes into its first parameter."""
     first = taken.args.args[0].arg
-    read = [n for n in ast.walk(taken) if isinstance(n, ast.Name) and n.id == first]
-    owner = raised.module.parents.get(taken)
-    made = owner.name if isinstance(owner, ast.ClassDef) and taken.name == "__init__" else ""
-    given = [
-        call
-        for call, name in raised.source.calls
-        if _is_of_object(raised, taken, name, made) and raised.line in lines_of(call)
-    ]
-    if len(given) != 1 or not read or taken.decorator_list:
-        return None
-    if len(given[0].args) != len(taken.args.args) or given[0].keywords:
+    calls = [c for c, name in raised.source.calls if last_part(name) == taken.name]
+    here = [c for c in calls if raised.line in lines_of(c)]
+    if len(here) != 1 or taken.decorator_list or len(here[0].args) != len(taken.args.args):
         return None
     params = {"name": f"{taken.name}({first}", "written": f"{taken.name}(self, {first}"}
     found = raised.finding("arguments_many", at=taken, params=params)
@@ -334,42 +205,9 @@ def _only_self(raised: Raised, function: str) -> RecognisedMistake | None:
     return None
 
 
-def _is_shutdown(raised: Raised) -> RecognisedMistake | None:
-    """rospy.is_shutdown() is the contrary of rclpy.ok()."""
-    for node in raised.module.nodes:
-        if not isinstance(node, ast.Call) or last_part(dotted(node.func)) != "is_shutdown":
-            continue
-        if raised.line not in lines_of(node):
-            continue
-        around = raised.module.parents.get(node)
-        name, written = raised.module.text.code(node), "not rclpy.ok()"
-        if isinstance(around, ast.UnaryOp) and isinstance(around.op, ast.Not):
-            name, written = raised.module.text.code(around), "rclpy.ok()"
-        found = raised.finding("ros_1", name=name, written=written)
-        return replace(found, variant="is_shutdown")
-    return None
-
-
 def _ros_1(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    name = match["name"]
-    if name == "is_shutdown":
-        return _is_shutdown(raised)
-    if name == "init_node":
-        return _init_node(raised)
-    if name not in ROS_1:
-        return None
-    if name == "Rate":
-        return _rate(raised)
-    return raised.finding("ros_1", name=name, written=_of_ros_2(raised, name))
-
-
-def _init_node(raised: Raised) -> RecognisedMistake:
-    """init_node, whose value is kept as the node if there is no class of a node."""
-    statement = statement_at(raised.module, raised.line)
-    if isinstance(statement, ast.Assign) and raised.source.node_class is None:
-        params = {"name": "rclpy.init_node", "written": "rclpy.create_node"}
-        return replace(raised.finding("ros_1", params=params), variant="create_node")
-    return replace(raised.finding("ros_1", name="init_node"), variant="init_node")
+    known = match["name"] in ROS_1 or match["name"] == "init_node"
+    return _of_ros_1(raised, match["name"]) if known else None
 
 
 def _outside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -399,6 +237,15 @@ def _text_outside(suspect: Suspect, module: Module, line: int | None) -> Recogni
     one_line = written and "\n" not in written
     words = {**mistake.words, "written": written}
     return replace(mistake, variant="written" if one_line else "", words=words)
+
+
+def _of_ros_1(raised: Raised, name: str) -> RecognisedMistake:
+    """Return what ROS 2 has instead of a name of rospy, as this line can call it."""
+    node = node_here(raised.source, raised.module, raised.line) or "node"
+    new = re.sub(r"\Aself\.", f"{node}.", ROS_1.get(name, ""))
+    found = raised.finding("ros_1", name=name, written=new)
+    variant = {"Rate": "rate", "spin": "spin", "init_node": "init_node"}.get(name, "")
+    return replace(found, variant=variant, words={**found.words, "node": node})
 
 
 _node = Family("node", links.FIRST_NODE)
@@ -450,18 +297,8 @@ KINDS = (
                 "Rate belongs to rospy, the Python library of ROS 1, where a loop waits with it. In "
                 "ROS 2, a timer calls a function once in each period, and spin waits for the timer."
             ),
-            "create_node": msg(
-                "init_node belongs to rospy, the Python library of ROS 1. In ROS 2, create_node gives "
-                "a node with this name."
-            ),
-            "is_shutdown": msg(
-                "is_shutdown belongs to rospy, the Python library of ROS 1. In ROS 2, rclpy.ok() is "
-                "true until ROS is shut down."
-            ),
         },
         fixes={
-            "is_shutdown": msg("Write {written} instead of {name}."),
-            "create_node": msg("Write {written} instead of {name}."),
             "rate": msg(
                 "Write the lines of the loop that log and count into a function of their own, and let "
                 "a timer call it: {node}.create_timer({period}, and the name of that function). Then "
@@ -480,22 +317,7 @@ KINDS = (
             r"module 'rclpy' has no attribute '(?P<name>\w{1,120})'": _ros_1,
             NAME_ERROR: _rospy,
         },
-        fixed_by=(
-            node_arguments.ros_2_log,
-            node_arguments.ros_2_timer,
-            node_arguments.without_init_node,
-            lines.written,
-        ),
         examples=(
-            example(
-                "is_shutdown_of_ros_1",
-                Replace(
-                    NODE,
-                    "        rclpy.spin(node)",
-                    "        while not rclpy.is_shutdown():\n            rclpy.spin_once(node)",
-                ),
-                fails="run.starts",
-            ),
             example(
                 "loginfo_of_ros_1",
                 Replace(NODE, "self.get_logger().info", "rclpy.loginfo"),
@@ -532,13 +354,12 @@ KINDS = (
                 "Write {written} instead of {name}: a decimal number has a point in Python. With "
                 "the comma it is two arguments."
             ),
-            "two": msg("Write {written}: a period and a callback are enough."),
         },
         raised={
             "has no attribute 'add_entity'": _many,
             r"create_timer\(\) takes from \d to \d positional arguments but": _many,
         },
-        fixed_by=(node_arguments.decimal_point, node_arguments.third),
+        fixed_by=(node_arguments.decimal_point,),
         examples=(
             example("decimal_comma", Replace(NODE, "(1.0,", "(1,0,"), fails="run.starts"),
             example(
@@ -616,17 +437,9 @@ KINDS = (
             "only_self": msg(
                 "The def has only self in its brackets, which Python passes on its own."
             ),
-            "exit": msg(
-                "with calls __exit__ at its end, with three values: the class of the exception, the "
-                "exception, and its traceback. Python passes self on its own."
-            ),
             "message": msg(
                 "A subscription calls its callback with one value after self: the message. The def of {name} "
                 "has no parameter for it."
-            ),
-            "own": msg(
-                "The def of {name} (line {line}) has these parameters besides self: {names}. This call gives "
-                "it more values."
             ),
             "no_self": msg(
                 "The def of {method} has no self. Python passes the object as the first argument, so "
@@ -634,12 +447,7 @@ KINDS = (
             ),
         },
         fixes={
-            "exit": msg("Write: def __exit__(self, kind, value, trace):"),
             "message": msg("Write: def {name}(self, msg):"),
-            "own": msg(
-                "Give {name} one value for each of its parameters. Several texts become one with + between "
-                "them. Or add a parameter to def {name}, if it needs one more value."
-            ),
             "no_self": msg("Write self before {parameter} in this line: {head}"),
             "super": msg("Write super().__init__('{node_name}')."),
             "only_self": msg("Write {written} instead of {name}."),
@@ -665,43 +473,6 @@ KINDS = (
         ),
     ),
     _node(
-        "argument_twice",
-        "callback",
-        msg("A call gives one parameter two values"),
-        msg(
-            "Values without a name go to the parameters in their order. Here the place of {name} gets a "
-            "value, and {name}= gives it another one."
-        ),
-        msg(
-            "If a value without a name, such as {given}, is meant for another parameter, write the name of "
-            "that parameter and = before it. Otherwise delete one of the two values."
-        ),
-        links.PYTHON_ERRORS,
-        whys={
-            "timer": msg(
-                "The first value without a name is the period, timer_period_sec. So {given} takes its "
-                "place, and timer_period_sec= gives it a second value."
-            )
-        },
-        fixes={"timer": msg("Write {written}")},
-        raised={
-            r"TypeError: (?P<function>[\w.]{1,200})\(\) got multiple values for argument "
-            r"'(?P<name>\w{1,120})'": on_line(_given_twice)
-        },
-        fixed_by=(lines.written,),
-        examples=(
-            example(
-                "period_given_twice",
-                Replace(
-                    NODE,
-                    "(1.0, self.timer_callback)",
-                    "(self.timer_callback, timer_period_sec=1.0)",
-                ),
-                fails="run.starts",
-            ),
-        ),
-    ),
-    _node(
         "keyword_unknown",
         "callback",
         msg("A call names a parameter that the function does not have"),
@@ -712,11 +483,6 @@ KINDS = (
         links.PYTHON_ERRORS,
         fixes={
             "timer": msg("Write self.create_timer({period}, self.{callback})"),
-            "written": msg("Write {written} instead of {name} in this call."),
-            "timer_names": msg(
-                "The first parameters of create_timer are timer_period_sec and callback. Write one of "
-                "these names instead of {name}, or remove {name}=…"
-            ),
             "logger": msg("Remove {name}=…: the logger does not have this option."),
             "super": msg("Write super().__init__('{node_name}')."),
         },

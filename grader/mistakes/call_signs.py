@@ -9,7 +9,6 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.constructor import lines_of
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
@@ -23,7 +22,6 @@ NO_LIST = (
     r" is not subscriptable"
 )
 NOT_CONVERTED = r"TypeError: not all arguments converted during string formatting"
-OF_SUPER = r"TypeError: super\(\) argument 1 must be (?:a )?type|super\(type, obj\): obj must be"
 PLACE = re.compile(r"%[-+ #0]{0,3}\d{0,3}(?:\.\d{1,3})?[a-zA-Z%]")
 FIELD = re.compile(r"(?<!\{)\{\d?\}(?!\})")
 
@@ -69,22 +67,6 @@ def _percent(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
             written = f"{before[:-1]}%d{before[-1]} % {given}"
             found = raised.finding("percent_without_place", at=part, name=code, written=written)
             return replace(found, variant="none")
-    return None
-
-
-def _super(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """super() gets only the class, or the two in the wrong order."""
-    del match
-    for call, name in raised.source.calls:
-        if name == "super" and call.args and raised.line in lines_of(call):
-            module = raised.source.module_of(call)
-            code, alone = module.text.code(call), module.parents.get(call)
-            if isinstance(alone, ast.Expr) and all(isinstance(a, ast.Constant) for a in call.args):
-                given = ", ".join(map(module.text.code, call.args))
-                params = {"name": code, "written": f"super().__init__({given})"}
-                found = raised.finding("super_arguments", at=call, params=params)
-                return replace(found, variant="alone")
-            return raised.finding("super_arguments", at=call, name=code, written="super()")
     return None
 
 
@@ -152,40 +134,6 @@ KINDS = (
                 ),
                 fails="run.output",
                 blocks=DEAD,
-            ),
-        ),
-    ),
-    _node(
-        "super_arguments",
-        "class",
-        msg("super() gets wrong arguments"),
-        msg("In a class, super() needs no arguments: it knows the class and the object."),
-        msg("Write {written} instead of {name}"),
-        links.PYTHON_CLASSES,
-        whys={
-            "alone": msg(
-                "super() does not call __init__ and does not hand values on to it: it only stands for the base "
-                "class. The name "
-                "goes to the __init__ of the base class."
-            )
-        },
-        raised={OF_SUPER: _super},
-        fixed_by=(lines.written,),
-        examples=(
-            example(
-                "super_called_as_in_java",
-                Replace(NODE, "super().__init__('my_first_node')", "super('my_first_node')"),
-                fails="run.starts",
-            ),
-            example(
-                "super_of_class_alone",
-                Replace(NODE, "super().__init__", "super(MyFirstNode).__init__"),
-                fails="run.starts",
-            ),
-            example(
-                "super_of_self",
-                Replace(NODE, "super().__init__", "super(self, MyFirstNode).__init__"),
-                fails="run.starts",
             ),
         ),
     ),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from grader.mistakes.recognised import Suspect
 from grader.package.source.counter import logged_counter, parts_of_callback, targets_of
-from grader.package.source.names import dotted
+from grader.package.source.names import called_name, dotted
 
 
 @dataclass(frozen=True)
@@ -44,3 +44,14 @@ def text_added(statement: ast.Assign) -> str:
         return ""
     step = value.right.value if isinstance(value.right, ast.Constant) else None
     return step if isinstance(step, str) else ""
+
+
+def has_text(value: ast.expr) -> bool:
+    """Whether one of the parts of a sum is a text for certain."""
+    if isinstance(value, ast.BinOp) and isinstance(value.op, ast.Add):
+        return has_text(value.left) or has_text(value.right)
+    if isinstance(value, ast.BinOp) and isinstance(value.op, ast.Mod):
+        return has_text(value.left)
+    made = isinstance(value, ast.Call) and called_name(value) in ("str", "format", "join")
+    plain = isinstance(value, ast.Constant) and isinstance(value.value, str)
+    return made or plain or isinstance(value, ast.JoinedStr)

@@ -8,30 +8,21 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
-from grader.base.shown import shown
 from grader.mistakes import links
 from grader.mistakes.example import BODY_OF_MAIN, INNER, NODE, example
-from grader.mistakes.fixes import lines, node_input, node_life, node_main, node_names
+from grader.mistakes.fixes import node_life, node_main, node_names
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Copy, Replace, Write
 from grader.package.source.guard import guarded_code
 from grader.package.source.module import Function
-from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.names import calls_in, dotted
 from grader.package.source.node import NodeSource
 from grader.package.source.sleeps import SLEEPS
-from grader.report.model import Where
 
-SPINS = ("spin", "spin_once", "spin_until_future_complete")
 WAITS = ("input", *SLEEPS)
 NO_FUNCTION = r"AttributeError: module '[\w.]{1,200}' has no attribute '(?P<function>\w{1,120})'"
 MAIN = 'def main(args=None):\n    """Run the node until Ctrl+C."""\n'
-PLACEHOLDER = re.compile(
-    r"^[ \t]*#(?P<words>[^#\r\n]*\b(?:rest of|remains|unchanged|existing code|your code|code here|"
-    r"same as (?:before|above))\b[^#\r\n]*)",
-    re.I,
-)
-"""A comment of a chatbot, or of a tutorial, in the place of code."""
 ASKS = msg(
     "{name} waits until someone types a line and presses Enter. Until then no line after it runs, "
     "so the program does not reach rclpy.spin, and nothing calls the node's callbacks."
@@ -52,29 +43,22 @@ def _close_function(raised: Raised) -> str:
 def _function_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if match["function"] != raised.assignment.function or _close_function(raised):
         return None
-    guard = guarded_code(raised.source.entry.tree)
+    entry = raised.source.entry
+    if any(isinstance(n, Function) and n.name == match["function"] for n in entry.nodes):
+        return None  # (it is there, in a block)
+    guard = guarded_code(entry.tree)
     if guard is None:
         return _absent(raised)
     return replace(raised.finding("main_missing", at=guard), variant="guarded")
 
 
 def _absent(raised: Raised) -> RecognisedMistake:
-    """Return that there is no function: what the class is called, or what stands in its place."""
-    own = raised.source.node_class
-    made = own.name if own is not None else "MyNode"
-    found = raised.finding("main_missing", made=made)
-    text = raised.source.entry.text
-    if not raised.source.entry.tree.body:
-        return replace(
-            found, variant="no_code", words={**found.words, "path": raised.source.entry.path}
-        )
-    for number, row in enumerate(text.lines, 1):
-        match = PLACEHOLDER.search(row)
-        if match is not None:
-            where = Where(file=raised.source.entry.path, line=number)
-            words = {**found.words, "found": shown(match["words"].strip())}
-            return replace(found, variant="placeholder", where=where, words=words)
-    return found
+    """Return that there is no function, and what the class is called."""
+    own, entry = raised.source.node_class, raised.source.entry
+    found = raised.finding("main_missing", made=own.name if own is not None else "MyNode")
+    if entry.tree.body:
+        return found
+    return replace(found, variant="no_code", words={**found.words, "path": entry.path})
 
 
 def _function_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -91,31 +75,11 @@ def _main_wants(raised: Raised, match: re.Match[str]) -> RecognisedMistake | Non
     main = raised.source.main
     found = raised.finding("main_wants_args", at=main)
     wanted = [a.arg for a in main.args.args] if main is not None else []
-    if main is None or wanted in (["args"], ["self"]):
-        return found
-    if ast.unparse(main.args) != wanted[0]:
-        head = _with_defaults(main)
-        words = {**found.words, "written": head}
-        return replace(found, variant="other" if head else "several", words=words)
-    words = {**found.words, "written": f"def {main.name}({wanted[0]}=None):"}
-    return replace(found, variant="other", words=words)
-
-
-def _with_defaults(main: Function) -> str:
-    """Return the def with None as the default of its parameters, if only rclpy.init reads them.
-
-    "" if another line of the function reads one: None may be no value for it.
-    """
-    given = main.args.args
-    if ast.unparse(main.args) != ", ".join(arg.arg for arg in given):
-        return ""
-    names = {arg.arg for arg in given}
-    read = [n for n in ast.walk(main) if isinstance(n, ast.Name) and n.id in names]
-    inits = [c for c, name in calls_in(main) if name.rpartition(".")[2] == "init"]
-    of_init = {n for call in inits for n in ast.walk(call)}
-    if any(n not in of_init for n in read):
-        return ""
-    return f"def {main.name}({', '.join(f'{arg.arg}=None' for arg in given)}):"
+    return (
+        found
+        if main is None or wanted in (["args"], ["self"])
+        else replace(found, variant="several")
+    )
 
 
 def _main_takes_none(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -137,69 +101,21 @@ def _main_empty(suspect: Suspect) -> RecognisedMistake | None:
 
 def _hands_class_on(source: NodeSource) -> bool:
     """Whether something may make the node without the class's name: cls(), or what gets the class."""
-    for node in source.all_nodes:
-        if not isinstance(node, ast.Name | ast.Attribute) or not isinstance(node.ctx, ast.Load):
-            continue
-        around = source.module_of(node).parents.get(node)
-        if isinstance(node, ast.Name) and node.id == "cls":
-            if isinstance(around, ast.Call) and around.func is node:
-                return True
-        elif source.is_node_class(node):
-            of_super = isinstance(around, ast.Call) and dotted(around.func) in (
-                "super",
-                "isinstance",
-            )
-            if not of_super and not isinstance(
-                around, ast.ClassDef | ast.arg | Function | ast.AnnAssign
-            ):
-                return True
-    return False
+    names = (n for n in source.all_nodes if isinstance(n, ast.Name | ast.Attribute))
+    used = (n for n in names if dotted(n) == "cls" or source.is_node_class(n))
+    return any(not isinstance(source.module_of(n).parents.get(n), ast.ClassDef) for n in used)
 
 
 def _waits_first(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a wait in the entry function, above the line that creates the node."""
     main = suspect.function
     for call, name in calls_in(main) if main is not None else ():
         if suspect.source.is_node_class(call.func):
             break
-        if name == "input":
-            return _input_first(suspect, call)
         if name in WAITS:
-            return suspect.finding("waits_first", call, name=f"{name}()")
-    return _asks_first(suspect)
-
-
-def _input_first(suspect: Suspect, call: ast.Call) -> RecognisedMistake:
-    """Name input() with the int() or float() around it, or as a line of its own."""
-    module = suspect.source.module_of(call)
-    code: ast.AST = call
-    around = module.parents.get(code)
-    while isinstance(around, ast.Call) and dotted(around.func) in ("int", "float", "str"):
-        code, around = around, module.parents.get(around)
-    alone = isinstance(around, ast.Expr)
-    name = module.text.code(code) if isinstance(code, ast.expr) else "input()"
-    found = suspect.finding("waits_first", call, name=name)
-    return replace(found, variant="input_alone" if alone else "input_value")
-
-
-def _asks_first(suspect: Suspect) -> RecognisedMistake | None:
-    """Look for input() where the program runs it before the node spins."""
-    call = node_input.input_before_spin(suspect.source)
-    if call is None:
-        return None
-    node = min(suspect.source.node_variables, default="node")
-    if not any(last_part(name) in SPINS for _, name in suspect.source.calls):
-        found = suspect.finding(
-            "waits_first",
-            call,
-            name=suspect.source.module_of(call).text.code(call),
-            written=f"rclpy.spin({node})",
-        )
-        return replace(found, variant="no_spin")
-    found = suspect.finding("waits_first", call, name="input()")
-    counter = node_input.counter_of_input(suspect.source, call)
-    if not counter:
-        return replace(found, variant="input")
-    return replace(found, variant="counter", words={**found.words, "counter": counter})
+            found = suspect.finding("waits_first", call, name=f"{name}()")
+            return replace(found, variant="input" if name == "input" else "")
+    return None
 
 
 _node = Family("node", links.FIRST_NODE)
@@ -216,10 +132,6 @@ KINDS = (
         links.DEVELOPING,
         whys={
             "no_code": msg("The file {path} has only comments, and no code."),
-            "placeholder": msg(
-                "'{found}' stands for lines that were left out, and is no code. The function "
-                "{function}, to which the entry point leads, is one of them."
-            ),
             "guarded": msg(
                 "The entry point ends in :{function}, so Python looks for a function {function} at "
                 "the top level of the module. The lines below this guard run only if the file is "
@@ -231,14 +143,6 @@ KINDS = (
                 "If your node is open in the editor, save it into this file. If it is in another file "
                 "or in a copy of the package, copy its code into this one. If you have not written "
                 "it, write it here."
-            ),
-            "in_copy": msg(
-                "{there} has the node and {function}. Copy all of it into {path}, save, and delete "
-                "{there}."
-            ),
-            "placeholder": msg(
-                "Write the lines that are left out in its place: def {function}(args=None): and, "
-                "indented below it, rclpy.init(args=args), node = {made}() and rclpy.spin(node)."
             ),
             "guarded": msg(
                 "Put these lines into the function: write def {function}(args=None): instead of "
@@ -266,13 +170,6 @@ KINDS = (
                 Replace(NODE, "def main(args=None):", "if __name__ == '__main__':"),
                 Replace(NODE, "args=args", ""),
                 Replace(NODE, "\n\nif __name__ == '__main__':\n    main()\n", ""),
-                fails="run.starts",
-            ),
-            example(
-                "placeholder_for_main",
-                Replace(NODE, BODY_OF_MAIN, "# ... (rest of your code) ..."),
-                Replace(NODE, MAIN, ""),
-                Replace(NODE, "if __name__ == '__main__':\n    main()\n", ""),
                 fails="run.starts",
             ),
             example(
@@ -315,7 +212,6 @@ KINDS = (
         msg("The executable calls {function}() without arguments."),
         msg("Give the argument a default: def {function}(args=None):"),
         fixes={
-            "other": msg("Give the argument a default: {written}"),
             "several": msg(
                 "Give each parameter of {function} a default in this line, with the value that you want: "
                 "name=value."
@@ -389,44 +285,13 @@ KINDS = (
         ),
         msg("Remove {name}. What must happen again and again belongs in a timer's callback."),
         whys={
-            **dict.fromkeys(("input", "input_alone", "input_value", "counter"), ASKS),
-            "no_spin": msg(
-                "{name} waits until someone types a line and presses Enter, and then the program goes "
-                "on to its end. It never calls rclpy.spin, so nothing calls the node's callbacks. "
-                "rclpy.spin also keeps the program running."
-            ),
+            "input": ASKS,
         },
         fixes={
             "input": msg("Write the value in the code instead of {name}, or delete this line."),
-            "input_alone": msg("Delete {name}: the program must not wait for a key."),
-            "input_value": msg("Write the value itself in the code instead of {name}."),
-            "counter": msg("Write {counter} = {start} on this line, without {name}."),
-            "no_spin": msg("Write {written} instead of {name}."),
         },
-        behind={"run.no_node": _waits_first, "run.never_spins": _asks_first},
-        fixed_by=(lines.written, node_input.number, node_input.deleted),
+        behind={"run.no_node": _waits_first},
         examples=(
-            example(
-                "counter_from_input",
-                Replace(NODE, "self.counter_ = 0", "self.counter_ = int(input('start? '))"),
-                fails="run.spins",
-                blocks=("run.output", "run.logger", "run.period"),
-            ),
-            example(
-                "input_in_place_of_spin",
-                Replace(
-                    NODE, "        rclpy.spin(node)\n", "        input('Enter ends the node')\n"
-                ),
-                fails="run.spins",
-                blocks=("run.output", "run.logger", "run.period"),
-            ),
-            example(
-                "input_at_import",
-                Replace(
-                    NODE, "\n\nclass MyFirst", "name = input('Your name: ')\n\n\nclass MyFirst"
-                ),
-                fails="run.starts",
-            ),
             example(
                 "waits_for_input",
                 Replace(

@@ -29,6 +29,13 @@ from grader.package.edit.tree import Copy, Delete, Move, Replace, Write
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
+OVERLAY = msg(
+    "A shell that sources the workspace finds and runs what a package puts there, before what the "
+    "entry point leads to."
+)
+PROGRAM = msg(
+    "ros2 run starts the file of the entry point. Others read that file, and expect it to be the node."
+)
 WHY = msg(
     "An entry of console_scripts has the form name = package.module:function. The build turns it "
     "into the executable that ros2 run starts: <name> is what you type after the package."
@@ -1048,9 +1055,17 @@ KINDS = (
             "setup.py is a program: what it does besides setup() can change what is installed. "
             "Others read the sources, and expect the package to be what they say."
         ),
-        whys=dict.fromkeys(SOURCE_FOLDERS, SOURCE_FOLDER),
+        whys={
+            **dict.fromkeys(SOURCE_FOLDERS, SOURCE_FOLDER),
+            "overlay": OVERLAY,
+            "program": PROGRAM,
+        },
         fix=msg("Remove what setup.py does besides calling setup()."),
-        fixes=SOURCE_FOLDERS,
+        fixes={
+            **SOURCE_FOLDERS,
+            "overlay": msg("Remove what installs it (setup.py, colcon.pkg)."),
+            "program": msg("Make and spin the node in the function of the entry point."),
+        },
         link=links.DEVELOPING,
         fixed_by=(setup_py.fault,),
         examples=(
@@ -1067,7 +1082,8 @@ KINDS = (
                     "except OSError:\n"
                     "    pass\n",
                 ),
-                fails="entry_point.executable",
+                fails="entry_point.mapping",
+                blocks=UNINSTALLED,
             ),
             example(
                 "package_dir_leads_nowhere",

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from grader.package.edit.tree import Edit, Replace
+from grader.package.edit.tree import Edit
 
 PACKAGE = "my_robot_controller"
 INNER = PACKAGE
@@ -32,15 +32,6 @@ SPIN_UNTIL_CTRL_C = (
     "    finally:\n"
     "        node.destroy_node()\n"
     "        rclpy.try_shutdown()\n"
-)
-DATACLASS_IMPORTED = Replace(
-    NODE, "import rclpy\nfrom", "from dataclasses import dataclass\n\nimport rclpy\nfrom"
-)
-CACHED_PROPERTY_IMPORTED = Replace(
-    NODE, "import rclpy\nfrom", "from functools import cached_property\n\nimport rclpy\nfrom"
-)
-PARTIAL_IMPORTED = Replace(
-    NODE, "import rclpy\nfrom", "from functools import partial\n\nimport rclpy\nfrom"
 )
 BODY_OF_MAIN = f"    rclpy.init(args=args)\n    node = MyFirstNode()\n{SPIN_UNTIL_CTRL_C}"
 

@@ -6,7 +6,7 @@ import ast
 from dataclasses import replace
 
 from grader.course.assignment import Assignment
-from grader.mistakes.fixes import node_order, node_scope, node_try
+from grader.mistakes.fixes import node_order, node_try
 from grader.mistakes.fixes.case import Case, Finding
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.files import Files
@@ -84,12 +84,6 @@ def corrected(case: Case, *, keeps_try: bool = False) -> Files | None:
             if files is not None:
                 return files if keeps_try else _shown(replace(case, files=files))
     return None
-
-
-def attribute_corrected(case: Case) -> Files | None:
-    """Correct the misspelt attribute, and let the except show errors."""
-    files = node_scope.hidden_attribute(case)
-    return _shown(replace(case, files=files)) if files is not None else None
 
 
 def _shown(case: Case) -> Files:

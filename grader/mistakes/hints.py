@@ -8,8 +8,7 @@ from collections.abc import Mapping
 from grader.base.i18n.message import Message, Value, joined, say
 from grader.base.nearest import compared, nearest
 from grader.package.source.guard import called_on_import, is_guard
-from grader.package.source.names import dotted, own_name
-from grader.package.source.second_node import second_node
+from grader.package.source.names import dotted
 
 GUARD = "__main__"
 
@@ -22,27 +21,11 @@ def hints(tree: ast.Module, function: str = "main") -> list[str]:
             found += _guard(node)
         elif isinstance(node, ast.Expr) and dotted(node.value) == "rclpy.shutdown":
             found.append(_advice("node.shutdown_not_called", node.lineno))
-        elif isinstance(node, ast.Assign) and (name := _hidden_method(node)):
-            found.append(_advice("node.timer_hides_method", node.lineno, {"name": name}))
     found += _below_guard(tree, function)
-    second = second_node(tree)
-    if second is not None:
-        values: Mapping[str, Value] = {"name": second.name, "line": second.line}
-        found.append(_advice("node.second_node_spun", second.spin.lineno, values))
     call = called_on_import(tree, function)
     if call is not None:
         found.append(_advice("node.main_at_import", call.lineno, {"name": function}))
     return found
-
-
-def _hidden_method(made: ast.Assign) -> str:
-    """Return the callback whose name a timer gets: self.f = self.create_timer(period, self.f)."""
-    call = made.value
-    if not isinstance(call, ast.Call) or dotted(call.func) != "self.create_timer":
-        return ""
-    given = {own_name(n) for n in (*call.args, *(keyword.value for keyword in call.keywords))}
-    names = given & {own_name(target) for target in made.targets}
-    return next(iter(names - {""}), "")
 
 
 def _below_guard(tree: ast.Module, function: str) -> list[str]:

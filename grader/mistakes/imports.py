@@ -13,12 +13,9 @@ from grader.mistakes import links
 from grader.mistakes.alike import meant_by
 from grader.mistakes.example import DEAD, INNER, NODE, example
 from grader.mistakes.fixes import lines, node_imports, node_life, node_names, node_objects, rename
-from grader.mistakes.fixes.case import Case
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect, always
-from grader.package.edit.files import Files
 from grader.package.edit.tree import Replace, Write
-from grader.package.source.names import dotted, last_part
 from grader.package.source.place import statement_at
 from grader.report.model import Where
 
@@ -28,8 +25,6 @@ MODULES = (
 )
 OTHER_CLIENTS = ("rclcpp", "rospy", "roscpp", "ros2", "ros", "ros2py", "rclpy2")
 """Names under which beginners look for the Python client library: those of C++ and of ROS 1."""
-OF_WINDOWS = ("winsound", "msvcrt", "winreg", "nt")
-"""Modules that Python has on Windows only."""
 OTHER_PACKAGES = (
     *("turtlesim", "turtlesim_msgs", "nav_msgs", "tf2_ros", "tf2_msgs", "visualization_msgs"),
     *("trajectory_msgs", "shape_msgs", "stereo_msgs", "diagnostic_msgs", "example_interfaces"),
@@ -93,11 +88,6 @@ HOMES = {
 """The modules of rclpy in which its names are."""
 OF_SEVERAL = ("Timer", "Time", "Rate", "Future")
 """Names that Python's modules or messages have too, or that a node does not need."""
-NAMES_OF_ROS = (
-    *("create_timer", "create_node", "create_publisher", "create_subscription", "create_service"),
-    *("create_client", "create_rate", "destroy_node", "destroy_timer", "get_logger", "get_clock"),
-    *("get_name", "add_node", "remove_node", "declare_parameter", "get_parameter"),
-)
 NODE_IMPORT = "from rclpy.node import Node\n"
 TEXT_OF = "def text_of(number):\n    return str(number)\n"
 HELLO_CLASS = """\
@@ -151,129 +141,43 @@ def _no_ros(suspect: Suspect) -> RecognisedMistake | None:
 def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     name = match["name"]
     head, dot, tail = name.partition(".")
-    part = _node_of_launch(raised) if head == "launch_ros" else None
-    part = part or _part_of_module(raised, name) or _known_by_its_names(raised, name)
-    part = part or _interface_elsewhere(raised, name)
+    part = _part_of_module(raised, name)
     if part is not None:
         return part
     unused = node_names.unused_import(raised.module, raised.line)
-    close = nearest(name, (*MODULES, *sys.stdlib_module_names), cutoff=0.75)
+    close = _module_of_names(raised, name)
+    close = close or nearest(name, (*MODULES, *sys.stdlib_module_names), cutoff=0.75)
     if head in (*OTHER_PACKAGES, *LIBRARIES):
         close = ""
     if head in OTHER_CLIENTS:
         close = "" if unused and raised.source.uses_ros else f"rclpy{dot}{tail}"
-    if head in OF_WINDOWS:
-        close = ""
     found = raised.finding("import_misspelt", name=name, close=close)
     if head in (*OTHER_PACKAGES, *LIBRARIES) and not unused:
         return replace(found, variant="not_installed")
-    if head in OF_WINDOWS:
-        return replace(found, variant="windows")
     return replace(found, variant="unused") if unused and not close else found
-
-
-def _node_of_launch(raised: Raised) -> RecognisedMistake | None:
-    """Look for the import of the Node of launch files, beside that of rclpy or instead of it."""
-    statement = statement_at(raised.module, raised.line)
-    if not isinstance(statement, ast.ImportFrom):
-        return None
-    if [alias.name for alias in statement.names] != ["Node"]:
-        return None
-    params = {"name": raised.module.text.code(statement), "written": IMPORTS["Node"]}
-    found = raised.finding("import_node", at=statement, params=params)
-    imports = [n for n in raised.module.tree.body if isinstance(n, ast.ImportFrom)]
-    right = [n.lineno for n in imports if n.module == "rclpy.node"]
-    if not right:
-        return replace(found, variant="launch")
-    return replace(found, variant="again", words={**found.words, "line": str(right[0])})
-
-
-def _interface_elsewhere(raised: Raised, name: str) -> RecognisedMistake | None:
-    """The message or service that the line imports is known, and in another package."""
-    statement = statement_at(raised.module, raised.line)
-    kind = name.rpartition(".")[2]
-    if not isinstance(statement, ast.ImportFrom) or statement.module != name:
-        return None
-    names = {alias.name for alias in statement.names}
-    modules = [m for m, known in INTERFACES.items() if m.endswith(f".{kind}") and names <= {*known}]
-    if len(modules) != 1 or modules == [name]:
-        return None
-    return raised.finding("import_misspelt", name=name, close=modules[0])
 
 
 def _part_of_module(raised: Raised, name: str) -> RecognisedMistake | None:
     """What an import names behind a module of ROS or of Python is no module, but a name in it."""
     module, _, last = name.rpartition(".")
-    known = module in MODULES and last[:1].isupper()
-    if not known and (
-        module not in sys.stdlib_module_names or "is not a package" not in raised.error
-    ):
+    whole = "is not a package" in raised.error and module in sys.stdlib_module_names
+    if not whole and not (module in MODULES and last[:1].isupper()):
         return None
     statement = statement_at(raised.module, raised.line)
-    whole = "is not a package" in raised.error
-    if isinstance(statement, ast.ImportFrom) and statement.module == name and whole:
-        return raised.finding("import_misspelt", name=name, close=module)
-    if not isinstance(statement, ast.Import):
+    if isinstance(statement, ast.ImportFrom) and statement.module == name:
+        return raised.finding("import_misspelt", name=name, close=module) if whole else None
+    given = statement.names if isinstance(statement, ast.Import) else []
+    if [alias.name for alias in given] != [name] or given[0].asname:
         return None
-    if node_names.unused_import(raised.module, raised.line) and module not in MODULES:
-        return None
-    given = next((alias for alias in statement.names if alias.name == name), None)
-    used = any(isinstance(n, ast.Name) and n.id == _head(name) for n in raised.module.nodes)
-    whole = used and given is not None and not given.asname and module != "rclpy"
-    whole &= not any(isinstance(n, ast.Name) and n.id == last for n in raised.module.nodes)
-    new = f"import {module}" if whole else IMPORTS.get(last, f"from {module} import {last}")
-    if not whole and given is not None and given.asname:
-        new = f"from {module} import {last} as {given.asname}"
+    read = any(isinstance(n, ast.Name) and n.id == last for n in raised.module.nodes)
+    new = IMPORTS.get(last, f"from {module} import {last}") if read else f"import {module}"
     found = raised.finding("import_misspelt", name=f"import {name}", written=new)
     return replace(found, variant="class")
-
-
-def _used_of(raised: Raised, name: str) -> list[ast.Attribute]:
-    """Return where the file reads something of a module by the module's full name."""
-    parts = [n for n in raised.module.nodes if isinstance(n, ast.Attribute)]
-    return sorted((p for p in parts if dotted(p.value) == name), key=lambda p: p.lineno)
 
 
 def _head(name: str) -> str:
     """Return what is before the first dot."""
     return name.partition(".")[0]
-
-
-def _known_by_its_names(raised: Raised, name: str) -> RecognisedMistake | None:
-    """The module of rclpy is unknown, but not the names that the line imports from it."""
-    statement = statement_at(raised.module, raised.line)
-    used = _used_of(raised, name) if isinstance(statement, ast.Import) else []
-    if isinstance(statement, ast.ImportFrom) and statement.module == name:
-        homes = {HOMES.get(alias.name, "") for alias in statement.names}
-    elif used:
-        homes = {HOMES.get(part.attr, "") for part in used}
-    else:
-        return None
-    home = min(homes)
-    if len(homes) != 1 or not home or _head(name) not in ("rclpy", *OTHER_CLIENTS):
-        return None
-    found = raised.finding("import_misspelt", name=name, close=home)
-    right, word = home.rpartition(".")[2], name.rpartition(".")[2]
-    others = [f"{home}.{part.attr} ({part.lineno})" for part in used]
-    others += _replaced(raised, right, word)
-    if used and len(others) == len(used):
-        rows = ", ".join(str(row) for row in sorted({part.lineno for part in used}))
-        return replace(found, variant="used", words={**found.words, "lines": rows})
-    if _head(name) != "rclpy" or not others:
-        return found
-    words = {**found.words, "word": right, "others": ", ".join(others)}
-    return replace(found, variant="replaced", words=words)
-
-
-def _replaced(raised: Raised, right: str, word: str) -> list[str]:
-    """Return other names of ROS in which a word stands for another one, with their lines."""
-    known = {*NAMES_OF_ROS, raised.assignment.node_name}
-    found = []
-    for part in raised.source.all_nodes:
-        name = part.attr if isinstance(part, ast.Attribute) else getattr(part, "value", None)
-        if isinstance(name, str) and name not in known and name.replace(word, right) in known:
-            found.append((getattr(part, "lineno", 0), f"{name.replace(word, right)}"))
-    return [f"{new} ({line})" for line, new in sorted(found)]
 
 
 def _no_name_in_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
@@ -286,14 +190,9 @@ def _no_name_in_module(raised: Raised, match: re.Match[str]) -> RecognisedMistak
         params = {"name": code, "written": new} if alone else {"name": name, "statement": new}
         found = raised.finding("import_name", params={**params, "module": module})
         return replace(found, variant="home" if alone else "home_too")
-    if module == "rclpy.node" and name.endswith("Node") and name != "Node":
-        found = raised.finding("import_name", name=name, module=module, close="Node")
-        return replace(found, variant="node")
     there = [known for known, place in HOMES.items() if place == module]
-    if close := meant_by(name, there, cutoff=0.75):
-        return raised.finding("import_name", name=name, close=close, module=module)
     known = (*RCLPY, "Node") if module.startswith("rclpy") else ("String", "Twist")
-    close = meant_by(name, known, cutoff=0.75)
+    close = meant_by(name, there, cutoff=0.75) or meant_by(name, known, cutoff=0.75)
     return raised.finding("import_name", name=name, close=close, module=module)
 
 
@@ -315,57 +214,35 @@ def _of_ros(name: str) -> str:
     return f"from {home} import {name}" if home else ""
 
 
-def _for_checkers(raised: Raised, name: str) -> RecognisedMistake | None:
-    """Look for the import of a name below `if TYPE_CHECKING:`."""
-    for block in (s for s in raised.module.tree.body if isinstance(s, ast.If)):
-        if last_part(dotted(block.test)) != "TYPE_CHECKING":
-            continue
-        for node in (s for s in block.body if isinstance(s, ast.ImportFrom) and not s.level):
-            if name in {alias.name for alias in node.names if not alias.asname}:
-                statement = f"from {node.module} import {name}"
-                found = raised.finding("import_missing", name=name, statement=statement)
-                words = {**found.words, "line": str(node.lineno)}
-                return replace(found, variant="type_checking", words=words)
-    return None
-
-
 def _not_imported(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     name = match["name"]
     statement = IMPORTS.get(name) or _of_the_lesson(raised, name) or _of_ros(name)
-    imports = [n for n in raised.module.nodes if isinstance(n, ast.ImportFrom)]
-    of_it = [n for n in imports if n.module == name]
-    if (checked := _for_checkers(raised, name)) is not None:
-        return checked
-    if not statement or (name in raised.module.imports and not of_it):
+    if not statement or name in raised.module.imports:
         return None
-    found = raised.finding("import_missing", name=name, statement=statement)
-    if of_it:
-        return replace(found, variant="from", words={**found.words, "line": of_it[0].lineno})
-    for node in imports if name == "Node" else ():
-        if node.module == "rclpy" and [alias.name for alias in node.names] == ["node"]:
+    for node in raised.module.nodes if name == "Node" else ():
+        if not isinstance(node, ast.ImportFrom) or node.module != "rclpy":
+            continue
+        if [alias.name for alias in node.names] == ["node"]:
             found = raised.finding("import_missing", at=node, name=name, statement=IMPORTS[name])
             return replace(found, variant="module")
-    return found
+    return raised.finding("import_missing", name=name, statement=statement)
 
 
-def _without_launch(case: Case) -> Files | None:
-    """Delete the import of the Node of launch files, if the file imports that of rclpy too."""
-    module, line = case.module, case.finding.line
-    right = [
-        n
-        for n in (module.tree.body if module is not None else ())
-        if isinstance(n, ast.ImportFrom) and n.module == "rclpy.node"
-    ]
-    code = str(case.finding.params.get("name", ""))
-    if module is None or line is None or not right or module.line(line) != code:
-        return None
-    return case.changed(module, module.text.without(line))
+def _module_of_names(raised: Raised, name: str) -> str:
+    """Return the module that has all the names which the line imports; "" if that is none."""
+    statement = statement_at(raised.module, raised.line)
+    if not isinstance(statement, ast.ImportFrom) or statement.module != name:
+        return ""
+    names = {alias.name for alias in statement.names}
+    homes = {HOMES.get(each, "") for each in names}
+    if len(homes) == 1 and (_head(name) == "rclpy" or names == {"Node"}):
+        return min(homes)
+    kind = name.rpartition(".")[2]
+    of_kind = [module for module in INTERFACES if module.endswith(f".{kind}")]
+    homes = {module for module in of_kind if names <= {*INTERFACES[module]}}
+    return min(homes) if len(homes) == 1 and homes != {name} else ""
 
 
-LAUNCH = msg(
-    "The Node of launch_ros starts a node from a launch file. The class of a node inherits from "
-    "another Node, which is in rclpy.node."
-)
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -424,32 +301,9 @@ KINDS = (
         msg("The class Node is in the module rclpy.node; rclpy itself has no Node."),
         msg("Write: from rclpy.node import Node"),
         seen=r"ImportError: cannot import name 'Node' from 'rclpy'",
-        whys=dict.fromkeys(("launch", "again"), LAUNCH),
-        fixes={
-            "launch": msg("Write {written} instead of {name}."),
-            "again": msg("Delete this line: line {line} imports the right Node already."),
-        },
         raised={r"cannot import name 'Node' from 'rclpy'": always("import_node")},
-        fixed_by=(node_life.node_import, _without_launch, lines.written),
+        fixed_by=(node_life.node_import,),
         examples=(
-            example(
-                "import_of_the_node_of_launch",
-                Replace(
-                    NODE,
-                    "from rclpy.node import Node",
-                    "from launch_ros.actions import Node",
-                ),
-                fails="run.starts",
-            ),
-            example(
-                "import_of_the_node_of_launch_too",
-                Replace(
-                    NODE,
-                    "from rclpy.node import Node",
-                    "from rclpy.node import Node\nfrom launch_ros.actions import Node",
-                ),
-                fails="run.starts",
-            ),
             example(
                 "import_of_node",
                 Replace(NODE, "from rclpy.node import Node", "from rclpy import Node"),
@@ -476,26 +330,6 @@ KINDS = (
                 "The folder {package} and its files are different modules: a class or a function is "
                 "in the file that defines it."
             ),
-            "whole": msg(
-                "After this import, the file knows the module only by its whole name, {short}. A "
-                "line uses it as {close}."
-            ),
-            "dots": msg(
-                "One dot in front means the folder of this file, and each other dot the folder above. "
-                "Above this folder there is no package. {path} is in the same folder as this file."
-            ),
-            "of_python": msg(
-                "Python has a module {short} of its own, and this import finds that one. Your file is "
-                "{path}, and is known by its name in the package."
-            ),
-            "called": msg(
-                "{path} is a file, and it defines {short}. With this import, the name {short} means "
-                "the file, which cannot be called."
-            ),
-            "part": msg(
-                "Only folders and files can stand before and after the dots of such an import. "
-                "{path} is a file, and {short} is a name that it defines, not a file in it."
-            ),
         },
         fixes={"elsewhere": msg("Move {there} to {path}, and write {written} instead of {name}.")},
         fixed_by=(node_imports.through_package,),
@@ -519,54 +353,10 @@ KINDS = (
                 fails="run.starts",
             ),
             example(
-                "package_named_twice",
-                Write(f"{INNER}/helpers.py", TEXT_OF),
-                Replace(
-                    NODE,
-                    NODE_IMPORT,
-                    f"{NODE_IMPORT}\nfrom {INNER}.{INNER}.helpers import text_of\n",
-                ),
-                fails="run.starts",
-            ),
-            example(
                 "own_function_from_package",
                 Write(f"{INNER}/helpers.py", TEXT_OF),
                 Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}\nfrom {INNER} import text_of\n"),
                 fails="run.starts",
-            ),
-            example(
-                "two_dots_for_the_same_folder",
-                Write(f"{INNER}/helpers.py", TEXT_OF),
-                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}from ..helpers import text_of\n"),
-                fails="run.starts",
-            ),
-            example(
-                "own_file_called_like_one_of_python",
-                Write(f"{INNER}/string.py", TEXT_OF),
-                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}from string import text_of\n"),
-                fails="run.starts",
-            ),
-            example(
-                "file_called_like_its_function",
-                Write(f"{INNER}/text_of.py", TEXT_OF),
-                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}from {INNER} import text_of\n"),
-                Replace(NODE, "str(self.counter_)", "text_of(self.counter_)"),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-            example(
-                "function_imported_like_a_file",
-                Write(f"{INNER}/helpers.py", TEXT_OF),
-                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}import {INNER}.helpers.text_of\n"),
-                fails="run.starts",
-            ),
-            example(
-                "file_used_by_its_last_name",
-                Write(f"{INNER}/helpers.py", TEXT_OF),
-                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}import {INNER}.helpers\n"),
-                Replace(NODE, "str(self.counter_)", "helpers.text_of(self.counter_)"),
-                fails="run.output",
-                blocks=DEAD,
             ),
             example(
                 "own_file_beside_setup",
@@ -590,22 +380,8 @@ KINDS = (
         ),
         links.PACKAGE,
         close=CLOSE,
-        whys={
-            **dict.fromkeys(
-                ("signs", "signs_named"),
-                msg(
-                    "An import cannot name the file {short}: a module's name has only letters, digits "
-                    "and _, and each . in an import leads into a folder."
-                ),
-            )
-        },
         fixes={
             "elsewhere": msg("Move {there} to {path}: Python looks for it there."),
-            "signs": msg("Rename the file. In the package's folder, run: mv {there} {path}"),
-            "signs_named": msg(
-                "Rename the file, and write {wanted} instead of its old name in the import. In the "
-                "package's folder, run: mv {there} {path}"
-            ),
             "init": msg(
                 "Delete this line. {file} runs before every other file of its folder, and it can be "
                 "empty. Or put {path} into the package, if you need it."
@@ -629,26 +405,6 @@ KINDS = (
                     NODE,
                     "from rclpy.node import Node\n",
                     "from rclpy.node import Node\n\nfrom my_robot_controller.util import text_of\n",
-                ),
-                fails="run.starts",
-            ),
-            example(
-                "helper_with_a_dash",
-                Write(f"{INNER}/text-utils.py", "def text_of(number):\n    return str(number)\n"),
-                Replace(
-                    NODE,
-                    "from rclpy.node import Node\n",
-                    "from rclpy.node import Node\n\nfrom my_robot_controller.text_utils import text_of\n",
-                ),
-                fails="run.starts",
-            ),
-            example(
-                "helper_with_a_point",
-                Write(f"{INNER}/utils.h.py", "def text_of(number):\n    return str(number)\n"),
-                Replace(
-                    NODE,
-                    "from rclpy.node import Node\n",
-                    "from rclpy.node import Node\n\nfrom my_robot_controller.utils.h import text_of\n",
                 ),
                 fails="run.starts",
             ),
@@ -685,28 +441,17 @@ KINDS = (
         links.PYTHON_ERRORS,
         close=CLOSE,
         fixes={
-            "replaced": msg(
-                "Write {close} instead of {name}. The file has the same change in other names of ROS, "
-                "as if {word} had been replaced by another word everywhere. Their right names, with "
-                "the lines: {others}."
-            ),
-            "used": msg("Write {close} instead of {name}, here and in other lines: {lines}."),
             "unused": msg("Delete this line: {name} is not installed here, and no line uses it."),
             "not_installed": msg(
                 "Write the node without {name}: the exercise does not need it. Delete this line, and replace "
                 "what uses {name} in other lines."
             ),
-            "windows": msg("Delete this line, and what uses {name} in other lines."),
             "class": msg(
                 "Write: {written}. After a plain import, only modules can be named; a class comes "
                 "after from … import."
             ),
         },
         whys={
-            "windows": msg(
-                "Python has {name} on Windows only. Python ends the program at an import of a module that it "
-                "does not find."
-            ),
             "not_installed": msg(
                 "{name} is a package of its own, and it is not installed where this node was run. Python ends "
                 "the program at an import of a module that it does not find."
@@ -715,14 +460,6 @@ KINDS = (
         raised={r"No module named '(?P<name>[\w.]{1,200})'": _no_module},
         fixed_by=(lines.written, node_names.without_unused, node_names.rclpy, rename.imported),
         examples=(
-            example(
-                "node_replaced_by_robot",
-                Replace(NODE, "from rclpy.node", "from rclpy.robot"),
-                Replace(NODE, "'my_first_node'", "'my_first_robot'"),
-                Replace(NODE, "node.destroy_node()", "node.destroy_robot()"),
-                fails="run.starts",
-                also={},
-            ),
             example(
                 "service_of_std_msgs",
                 Replace(
@@ -797,10 +534,6 @@ KINDS = (
             "own": OWN_NAME,
             "own_close": OWN_NAME,
             "own_init": OWN_NAME,
-            "node": msg(
-                "rclpy.node has the class Node, and no {name}. You choose the name of your own class, but "
-                "not the name of ROS's class."
-            ),
             "home": OTHER_HOME,
             "home_too": OTHER_HOME,
         },
@@ -809,7 +542,6 @@ KINDS = (
             "home_too": msg(
                 "Take {name} out of this line, and add the line {statement} at the top of the file."
             ),
-            "node": msg("Write Node instead of {name}, here and in brackets behind your class."),
             "own": msg("Define {name} in {path}, or import another name from it."),
             "own_init": msg(
                 "Delete this line: {file} can be empty. setup.py names the node's file, and needs no "
@@ -832,18 +564,6 @@ KINDS = (
                     "import rclpy\nfrom",
                     "import rclpy\nfrom rclpy.executors import ExternalShutdownExcepton\nfrom",
                 ),
-                fails="run.starts",
-            ),
-            example(
-                "node_replaced_by_the_own_name",
-                Replace(NODE, "from rclpy.node import Node", "from rclpy.node import MyFirstNode"),
-                Replace(NODE, "(Node)", "(MyFirstNode)"),
-                fails="run.starts",
-            ),
-            example(
-                "node_of_rclpy_renamed",
-                Replace(NODE, "from rclpy.node import Node", "from rclpy.node import HelloNode"),
-                Replace(NODE, "(Node)", "(HelloNode)"),
                 fails="run.starts",
             ),
             example(
@@ -880,22 +600,10 @@ KINDS = (
         msg("Python knows only names that the file imports or defines."),
         msg("Add the import at the top of the file: {statement}"),
         whys={
-            "from": msg(
-                "Line {line} brings in names that are in {name}, and not the name {name} itself."
-            ),
-            "type_checking": msg(
-                "Line {line} imports {name}, but the lines below if TYPE_CHECKING are only for type "
-                "checkers: Python does not run them."
-            ),
             "own": OTHER_FILE,
-            "own_module": OTHER_FILE,
-            "file": msg(
-                "{path} is another file of your package. A file knows it only after it has imported it."
-            ),
         },
         fixes={
             "module": msg("Write {statement} on this line: it imports the module, not the class."),
-            "own_module": msg("Write {written} instead of {name}: the file imports the module."),
         },
         raised={NAME_ERROR: _not_imported},
         fixed_by=(
@@ -905,21 +613,6 @@ KINDS = (
             lines.written,
         ),
         examples=(
-            example(
-                "node_imported_for_type_checkers",
-                Replace(
-                    NODE,
-                    "from rclpy.node import Node\n",
-                    "from typing import TYPE_CHECKING\n\nif TYPE_CHECKING:\n"
-                    "    from rclpy.node import Node\n",
-                ),
-                fails="run.starts",
-            ),
-            example(
-                "names_of_rclpy_imported_with_a_star",
-                Replace(NODE, "import rclpy\n", "from rclpy import *\n"),
-                fails="run.starts",
-            ),
             example(
                 "import_of_module_missing",
                 Replace(NODE, "self.counter_ += 1", "self.counter_ += 1\n        time.sleep(0.1)"),

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, TypedDict
 
-from grader.base.i18n.message import Message, Value
+from grader.base.i18n.message import Message, Value, joined, msg
 from grader.mistakes.example import Example
 from grader.mistakes.fixes.case import Fix
 from grader.mistakes.recognised import FromError, FromSource
@@ -16,9 +16,12 @@ from grader.mistakes.recognised import FromError, FromSource
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
+    from grader.package.source.node import NodeSource
+
 Stage = Literal[
     "environment",
     "terminal",
+    "general",
     "hand-in",
     "manifest",
     "marker",
@@ -45,6 +48,23 @@ Stage = Literal[
 ]
 
 
+FOLLOWED = msg(
+    "The code for this is there. Look at the conditions on the way to it, and at the values that it "
+    "gets: it does not run at that time, or it does something else."
+)
+"""What is told in place of advice that the source follows already."""
+
+INSTEAD = msg("Write {written} instead of {name}.")
+
+
+@dataclass(frozen=True)
+class Step:
+    """A part of a fix, and whether a source has it already; `done` gets the placeholders' values."""
+
+    text: str
+    done: Callable[[NodeSource, Mapping[str, Value]], bool]
+
+
 @dataclass(frozen=True, kw_only=True)
 class Kind:
     """One kind of mistake. Its texts are templates of `grader.base.i18n.message`.
@@ -59,6 +79,9 @@ class Kind:
     right package that make the mistake. `deletes` are the variants whose fix takes away the statement
     of the finding ("" is the fix without a variant): if its block has no other, the text says what
     becomes of the block (`whole_block.py`).
+
+    `of_shape` is of what a node is made of: its ends, names and types, which no value decides. `steps`
+    are the parts of the fix that a source may have already, by the variant: these are left out.
     """
 
     id: str
@@ -75,6 +98,8 @@ class Kind:
     fixed_by: tuple[Fix, ...] = ()
     examples: tuple[Example, ...] = ()
     deletes: tuple[str, ...] = ()
+    of_shape: bool = False
+    steps: Mapping[str, tuple[Step, ...]] = field(default_factory=dict)
 
     @cached_property
     def pattern(self) -> re.Pattern[str] | None:
@@ -89,6 +114,14 @@ class Kind:
         """Return what to do. KeyError if a placeholder has no value."""
         return Message(self.fixes.get(variant, self.fix), values)
 
+    def fix_for(self, source: NodeSource | None, values: Mapping[str, Value], variant: str) -> str:
+        """Return what to do in a source: no advice that it follows already."""
+        steps = self.steps.get(variant if variant in self.fixes else "", ())
+        left = [step for step in steps if source is None or not step.done(source, values)]
+        if len(left) == len(steps):
+            return self.fix_text(values, variant)
+        return joined(*(Message(one.text, values) for one in left)) if left else Message(FOLLOWED)
+
 
 class Parts(TypedDict, total=False):
     """The parts of a record that are not texts."""
@@ -99,6 +132,8 @@ class Parts(TypedDict, total=False):
     fixed_by: tuple[Fix, ...]
     examples: tuple[Example, ...]
     deletes: tuple[str, ...]
+    of_shape: bool
+    steps: Mapping[str, tuple[Step, ...]]
 
 
 class Variants(Parts, total=False):

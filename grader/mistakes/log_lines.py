@@ -41,14 +41,21 @@ KINDS = (
         "text",
         msg("A log line is missing"),
         msg("A line is logged each time the logger is called, with the text that it gets."),
-        msg("Log the text with self.get_logger().info(…) when it is due."),
+        msg(
+            "Look at the call of the logger, and at the text that it gets: it must be the expected one, at that time."
+        ),
     ),
     _log(
         "too_often",
         "text",
         msg("A log line comes too often"),
-        msg("A callback runs for each message and each tick, and logs each time unless it checks."),
-        msg("Log only when something changes: keep the last state in an attribute and compare."),
+        msg(
+            "A line comes each time the logger is called: each condition on the way to it is true."
+        ),
+        msg(
+            "Look at the conditions on the way to the logger, and at the values in them. If there is "
+            "none, keep the last state in an attribute, and log only when it changes."
+        ),
     ),
     _log(
         "forbidden",

@@ -1,4 +1,4 @@
-"""Texts about the lines of a file that make or change the value that a log call shows."""
+"""The lines of a file that make or change the value that a log call shows."""
 
 from __future__ import annotations
 
@@ -6,15 +6,17 @@ import ast
 
 from grader.base.i18n.message import Message, joined, say
 from grader.base.shown import shown
-from grader.package.source.counter import parts_of_callback
-from grader.package.source.module import Module
-from grader.package.source.names import calls_in, dotted, last_part
-from grader.package.source.node import NodeSource
-from grader.package.source.place import block_of, function_at, statement_at
-from grader.package.source.traced import traced
+from grader.package.source.counter import declares, parts_of_callback
+from grader.package.source.module import Function
+from grader.package.source.names import called_name
+from grader.package.source.node import LOG_METHODS, NodeSource
 from grader.report.model import Where
 
 MOST_LINES = 6
+MOST_ROUNDS = 8  # steps from the logged value back to what makes it
+Named = tuple[Function | str | None, str]
+MADE = ast.Assign | ast.AugAssign | ast.AnnAssign | ast.Return
+NOT_VALUES = ("self", "cls", "get_logger", "get_clock", *LOG_METHODS)
 TEXT_METHODS = (
     *("strip", "lstrip", "rstrip", "replace", "title", "upper", "lower", "capitalize"),
     *("swapcase", "ljust", "rjust", "center", "zfill", "removeprefix", "removesuffix"),
@@ -30,85 +32,77 @@ def lines_that_make(
     line is known, or if they are too many for a text. With `only_texts`, those without a piece of
     text, and without a method that changes one, are left out.
     """
-    statements = statements_that_make(source, where)
+    call = _log_call(source, where)
+    statements = _statements(source, call) if call is not None else set()
     if only_texts:
-        statements = [n for n in statements if any(map(_makes_text, ast.walk(n)))]
-    places = list(dict.fromkeys((source.module_of(n), n.lineno) for n in statements))
+        statements = {n for n in statements if any(map(_makes_text, ast.walk(n)))}
+    places = sorted({(source.module_of(n).path, n.lineno) for n in statements})
     if not 0 < len(places) <= MOST_LINES:
         return None
     here = where.file if where is not None else source.module.path
-    several = {module.path for module, _ in places} != {here}
-    texts = []
-    for module, line in places:
-        code = shown(module.line(line))
-        text = say("line {line}: {code}", line=line, code=code)
-        if several:
-            text = say("{path}, line {line}: {code}", path=module.path, line=line, code=code)
-        idle = _uncalled(source, module, line)
-        if idle:
-            text = say("{text} (no line calls {function})", text=text, function=idle)
-        before = _returned_before(module, line)
-        if before:
-            text = say("{text} (not reached: line {line} returns)", text=text, line=before)
-        own = _replaced(source, module, line)
-        if own:
-            text = say("{text} (not called: {type} has its own {function})", text=text, **own)
-        texts.append(text)
+    alone = {path for path, _ in places} == {here}
+    codes = [shown(source.module_at(path).line(line)) for path, line in places]
+    texts = [
+        say("line {line}: {code}", line=line, code=code)
+        if alone
+        else say("{path}, line {line}: {code}", path=path, line=line, code=code)
+        for (path, line), code in zip(places, codes)
+    ]
     return joined(*texts, by="; ")
 
 
-def statements_that_make(source: NodeSource, where: Where | None) -> list[ast.stmt]:
-    """Return the statements that make or change what is logged at a place, or by the callback."""
+def _log_call(source: NodeSource, where: Where | None) -> ast.Call | None:
+    """Return the log call at a place, else the first one of the callback."""
     calls = [call for part in parts_of_callback(source) for call in source.logs(part)]
     if where is not None and where.line:
-        module = source.module_at(where.file)
-        there = [call for call in source.logs(module.tree) if call.lineno == where.line]
-        calls = there or calls
-    return traced(source, calls[0]) if calls else []
+        tree = source.module_at(where.file).tree
+        calls = [call for call in source.logs(tree) if call.lineno == where.line] or calls
+    return calls[0] if calls else None
 
 
-def _uncalled(source: NodeSource, module: Module, line: int) -> str:
-    """Return the function that a line is in, if nothing calls it and nothing gets it; else ""."""
-    function = function_at(module, line)
-    if function is None or function is source.main or function.decorator_list:
-        return ""
-    if function.name.startswith("__") or function in parts_of_callback(source):
-        return ""
-    names = (n for n in source.all_nodes if isinstance(n, ast.Name | ast.Attribute))
-    uses = [n for n in names if last_part(dotted(n)) == function.name]
-    idle = [n for n in uses if isinstance(source.module_of(n).parents.get(n), ast.Expr)]
-    return function.name if len(idle) == len(uses) else ""
+def _statements(source: NodeSource, call: ast.Call) -> set[ast.stmt]:
+    """Return the statements that set what a call reads, and what these read, by their names."""
+    nodes = [node for module in source.known_modules for node in module.nodes]
+    used = {getattr(n, "attr", getattr(n, "id", "")) for n in nodes} | {"__init__"}
+    read, found = _read(source, call), set[ast.stmt]()
+    for _ in range(MOST_ROUNDS):
+        new = {n for n in nodes if isinstance(n, MADE) and _makes(source, n, read, used)} - found
+        if not new:
+            break
+        found |= new
+        read |= {name for statement in new for name in _read(source, statement)}
+    return {n for n in found if call not in ast.walk(n)}
 
 
-def _returned_before(module: Module, line: int) -> int:
-    """Return the line of a return above a line of the same block; 0 if there is none."""
-    statement = statement_at(module, line)
-    block = block_of(module, statement) if isinstance(statement, ast.stmt) else []
-    ends = [one.lineno for one in block if isinstance(one, ast.Return) and one.lineno < line]
-    return ends[0] if ends else 0
+def _makes(source: NodeSource, statement: MADE, read: set[Named], used: set[str]) -> bool:
+    """Whether a statement sets what is read, or returns it from a function that is called."""
+    around = source.function_around(statement)
+    if isinstance(statement, ast.Return):
+        return around is not None and (".", around.name) in read
+    targets = statement.targets if isinstance(statement, ast.Assign) else [statement.target]
+    if around is not None and around.name not in used:
+        return False
+    return any(_read(source, target) & read for target in targets)
 
 
-def _replaced(source: NodeSource, module: Module, line: int) -> dict[str, str]:
-    """Return the class whose own method replaces the one of a line, which it does not call."""
-    function = function_at(module, line)
-    own = source.methods.get(function.name) if function is not None else None
-    if (
-        function is None
-        or own is None
-        or function in source.own_methods
-        or function.name == "__init__"
-    ):
-        return {}
-    if not any(function in family.body for family in source.family):
-        return {}
-    calls = [name for _, name in calls_in(own)]
-    if any(last_part(name) == function.name for name in calls) or source.node_class is None:
-        return {}
-    return {"type": source.node_class.name, "function": function.name}
+def _read(source: NodeSource, part: ast.AST) -> set[Named]:
+    """Return what a part names: variables by their function, attributes and functions by "."."""
+    names: set[Named] = set()
+    for node in ast.walk(part):
+        if isinstance(node, ast.Attribute) and node.attr not in NOT_VALUES:
+            names.add((".", node.attr))
+        elif isinstance(node, ast.Name) and node.id not in NOT_VALUES:
+            around = source.function_around(node)
+            names.add((around, node.id))
+            if around is None or declares(around, node.id) or isinstance(node.ctx, ast.Load):
+                names.add((None, node.id))
+            if around is None or isinstance(source.module_of(node).parents.get(node), ast.Call):
+                names.add((".", node.id))
+    return names
 
 
 def _makes_text(node: ast.AST) -> bool:
     """Whether a part is a text, or a call of a method that makes another text of one."""
-    if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
-        return node.func.attr in TEXT_METHODS
+    if isinstance(node, ast.Call):
+        return called_name(node) in TEXT_METHODS
     return isinstance(node, ast.Constant) and isinstance(node.value, str)

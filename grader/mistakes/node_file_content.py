@@ -301,12 +301,6 @@ KINDS = (
                 blocks=UNSTARTED,
             ),
             example(
-                "class_with_capital",
-                Replace(NODE, "class MyFirstNode", "Class MyFirstNode"),
-                fails="source.node_file",
-                blocks=UNSTARTED,
-            ),
-            example(
                 "arrow_after_call",
                 Replace(NODE, "self.get_logger().info", "self.get_logger()->info"),
                 fails="source.node_file",

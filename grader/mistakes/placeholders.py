@@ -5,13 +5,11 @@ A text never names a part of one exercise: it has a placeholder instead.
 
 from __future__ import annotations
 
-import ast
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 
 from grader.base.i18n.message import Value
 from grader.course.assignment import Assignment, Output
 from grader.package.source.counter import logged_counter, starts_of
-from grader.package.source.names import dotted
 from grader.package.source.node import NodeSource
 
 CALLBACK = "callback"  # default names, if the student's source has none
@@ -92,16 +90,4 @@ def _callback_of(source: NodeSource | None) -> str:
 def _counter_of(source: NodeSource | None) -> str:
     logged = logged_counter(source) if source is not None else None
     starts = list(starts_of(source)) if source is not None and logged is None else []
-    if source is not None and logged is None and not starts:
-        made = list(_count_objects(source))
-        return f"next({made[0]})" if len(made) == 1 else COUNTER
     return logged[1] if logged else starts[0] if len(starts) == 1 else COUNTER
-
-
-def _count_objects(source: NodeSource) -> Iterator[str]:
-    """Yield the names that get an object of itertools.count."""
-    for node in source.own_nodes:
-        made = node.value if isinstance(node, ast.Assign) else None
-        counts = isinstance(made, ast.Call) and dotted(made.func) in ("count", "itertools.count")
-        if isinstance(node, ast.Assign) and counts:
-            yield from filter(None, map(dotted, node.targets))

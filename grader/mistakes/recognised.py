@@ -6,7 +6,6 @@ import ast
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import ParamSpec
 
 from grader.base.i18n.message import Value
 from grader.course.assignment import Assignment, Output
@@ -15,8 +14,6 @@ from grader.package.source.module import Function, Module
 from grader.package.source.node import NodeSource
 from grader.package.source.place import place_of
 from grader.report.model import Mistake, Where
-
-P = ParamSpec("P")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -162,17 +159,6 @@ FromError = Callable[[Raised, re.Match[str]], "RecognisedMistake | None"]
 """Recognises a mistake by an exception; the match is that of its pattern with the error's line."""
 FromSource = Callable[[Suspect], "RecognisedMistake | None"]
 """Recognises in the node's source the mistake behind a symptom."""
-
-
-def first_of(
-    *looks: Callable[P, RecognisedMistake | None],
-) -> Callable[P, RecognisedMistake | None]:
-    """Return a function that finds what the first of these functions finds."""
-
-    def found(*args: P.args, **kwargs: P.kwargs) -> RecognisedMistake | None:
-        return next(filter(None, (look(*args, **kwargs) for look in looks)), None)
-
-    return found
 
 
 def always(slug: str) -> FromError:

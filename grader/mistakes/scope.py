@@ -15,9 +15,9 @@ from grader.mistakes.recognised import NAME_ERROR, OWN_ATTRIBUTE, Raised, Recogn
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
-from grader.package.source.names import called_name, dotted, own_name
+from grader.package.source.names import called_name, own_name
 from grader.package.source.place import function_at, method_above, statement_at
-from grader.package.source.scopes import bindings, has_self, visible_names
+from grader.package.source.scopes import has_self, visible_names
 
 NODE_METHODS = (
     *("create_timer", "get_logger", "get_clock", "get_name", "create_publisher", "destroy_node"),
@@ -104,24 +104,8 @@ def _self_outside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | N
     method = method_above(raised.module, raised.line)
     if creates_timer(raised):
         return None
-    if (of_class := _for_class(raised)) is not None:
-        return of_class
     found = raised.finding("self_outside", name=method.name if method is not None else "")
     return replace(found, variant="method") if method is not None else found
-
-
-def _for_class(raised: Raised) -> RecognisedMistake | None:
-    """A line in the block of a class, and in none of its methods, sets a plain value for self."""
-    statement = statement_at(raised.module, raised.line)
-    around = raised.module.parents.get(statement) if statement is not None else None
-    if not isinstance(statement, ast.Assign) or not isinstance(around, ast.ClassDef):
-        return None
-    name, method = own_name(statement.targets[0]), method_above(raised.module, statement.lineno)
-    plain = isinstance(statement.value, ast.Constant) and len(statement.targets) == 1
-    if not name or not plain or method is not None:
-        return None
-    params = {"name": f"self.{name}", "written": name}
-    return replace(raised.finding("self_outside", at=statement, params=params), variant="class")
 
 
 def _self_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -139,56 +123,10 @@ def _self_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
 
 def _self_in_function(raised: Raised) -> RecognisedMistake:
     """Return the mistake of a function that is no method: it knows the node by a variable."""
-    variables = sorted(raised.source.node_variables)
-    kept = _kept_as_attribute(raised)
-    if kept is not None:
-        return kept
-    found = raised.finding("self_outside", name=variables[0] if variables else "")
-    known = set(variables) <= visible_names(raised.module, raised.line, "self")
-    if len(variables) != 1 or not known:
-        return _given_self(raised) or found
-    below = [b for b in bindings(raised.module, variables[0]) if b.line > (raised.line or 0)]
-    if len(below) != len(bindings(raised.module, variables[0])):
-        return replace(found, variant="variable")
-    words = {**found.words, "line": str(below[0].line)}
-    return replace(found, variant="variable_below", words=words)
-
-
-def _given_self(raised: Raised) -> RecognisedMistake | None:
-    """A function outside of the class uses self, and only methods call it."""
-    function = function_at(raised.module, raised.line)
-    if function is None or raised.module.functions.get(function.name) is not function:
-        return None
-    uses = [n for n in raised.module.nodes if isinstance(n, ast.Name) and n.id == function.name]
-    around = [function_at(raised.module, use.lineno) for use in uses]
-    called = [isinstance(raised.module.parents.get(use), ast.Call) for use in uses]
-    own = [s for c in raised.source.family for s in c.body]
-    inside = all(isinstance(f, Function) and f in own and has_self(f) for f in around)
-    if not uses or not inside or not all(called) or function.args.posonlyargs:
-        return None
-    lines = ", ".join(str(row) for row in sorted({use.lineno for use in uses}))
-    words = {"function": function.name, "lines": lines}
-    found = raised.finding("self_outside", at=function, name=function.name)
-    return replace(found, variant="given", words={**found.words, **words})
-
-
-def _kept_as_attribute(raised: Raised) -> RecognisedMistake | None:
-    """A function of a program without a class keeps a value in an attribute of self."""
-    statement = statement_at(raised.module, raised.line)
-    function = function_at(raised.module, raised.line)
-    parts = ast.walk(statement) if statement is not None else ()
-    names = [n.attr for n in parts if isinstance(n, ast.Attribute) and dotted(n.value) == "self"]
-    own = [name for name in names if name not in NODE_METHODS]
-    if raised.source.node_class is not None or not own or function is None:
-        return None
-    if any(isinstance(n, Function) and n.name == own[0] for n in raised.module.nodes):
-        params = {"name": f"self.{own[0]}", "written": own[0]}
-        return replace(raised.finding("self_outside", params=params), variant="function")
-    inner = any(isinstance(n, Function) for n in raised.module.around(function))
-    words = {"attribute": own[0], "function": function.name}
-    words["word"] = "nonlocal" if inner else "global"
-    found = raised.finding("self_outside", name=own[0])
-    return replace(found, words={**found.words, **words}, variant="attribute")
+    variables = raised.source.node_variables
+    found = raised.finding("self_outside", name=min(variables, default=""))
+    known = variables <= visible_names(raised.module, raised.line, "self")
+    return replace(found, variant="variable") if len(variables) == 1 and known else found
 
 
 def _main_in_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -196,27 +134,7 @@ def _main_in_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | 
     found = node_scope.inner_function(raised.source, function)
     if match["function"] != function or found is None:
         return None
-    uses = node_scope.uses_of_class(raised.source, function)
-    above = [d.lineno for d in found.decorator_list]
-    around = raised.source.entry.parents.get(found)
-    if isinstance(around, ast.ClassDef) and around.body == [found]:
-        above = [*(d.lineno for d in around.decorator_list), around.lineno, *above]
-    if above:
-        mistake = raised.finding("main_in_class", at=found)
-        head = ", ".join(raised.source.entry.line(row).strip() for row in above)
-        words = {**mistake.words, "head": head}
-        first = found.args.args[0].arg if found.args.args else ""
-        used = [n for n in ast.walk(found) if isinstance(n, ast.Name) and n.id == first]
-        owner = around.name if isinstance(around, ast.ClassDef) else ""
-        if owner and used and "classmethod" in {dotted(d) for d in found.decorator_list}:
-            words |= {"parameter": first, "type": owner}
-            return replace(mistake, variant="head_cls", words=words)
-        return replace(mistake, variant="head", words=words)
-    if not uses:
-        return raised.finding("main_in_class", at=found)
-    code = raised.source.entry.text.code(uses[0])
-    given = {"name": code, "written": function, "line": str(uses[0].lineno)}
-    return replace(raised.finding("main_in_class", at=found, params=given), variant="used")
+    return raised.finding("main_in_class", at=found)
 
 
 def _callback_outside(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -227,11 +145,10 @@ def _callback_outside(raised: Raised, match: re.Match[str]) -> RecognisedMistake
     if at.args.args and at.args.args[0].arg != "self" and _is_called(raised, name):
         return None  # (a function for which self is too much)
     found, first = raised.finding("callback_outside", at=at, name=name), at.args.args[:1]
-    if first and first[0].arg != "self":
-        used = any(isinstance(n, ast.Name) and n.id == first[0].arg for n in ast.walk(at))
-        words = {**found.words, "parameter": first[0].arg}
-        return replace(found, words=words, variant="parameter" if used else "")
-    return found
+    if not first or first[0].arg == "self":
+        return found
+    words = {**found.words, "parameter": first[0].arg}
+    return replace(found, words=words, variant="parameter")
 
 
 def _is_called(raised: Raised, name: str) -> bool:
@@ -358,33 +275,11 @@ KINDS = (
             "outside of every method."
         ),
         msg("Move the line into the method that it belongs to."),
-        whys={
-            "class": msg(
-                "This line is in the class, and in none of its methods. self exists only in methods. A "
-                "name that is set here without self belongs to the class, and its methods read it as "
-                "{name}."
-            )
-        },
         fixes={
-            "class": msg("Write {written} instead of {name}."),
             "method": msg(
                 "Indent the line as far as the other lines of {name}, the method above it."
             ),
             "variable": msg("Write {name} instead of self."),
-            "variable_below": msg(
-                "Write {name} instead of self, and move this line below line {line}, which creates the "
-                "node."
-            ),
-            "given": msg(
-                "Give it the node: write self as the first parameter of {function} in this line, and self "
-                "as the first value in each call of {function} (lines: {lines})."
-            ),
-            "function": msg("Write {written} instead of {name}: the function belongs to no class."),
-            "attribute": msg(
-                "Use a variable: give {attribute} its first value on a line above def {function}, in "
-                "the same column as that def. Write {word} {attribute} as the first line of "
-                "{function}, and {attribute} instead of self.{attribute} everywhere."
-            ),
         },
         seen=r"NameError: name 'self' is not defined",
         raised={NAME_ERROR: _self_outside},
@@ -396,11 +291,6 @@ KINDS = (
                 fails="run.starts",
             ),
             example(
-                "step_at_margin",
-                Replace(NODE, "        self.counter_ += 1\n", "self.counter_ += 1\n"),
-                fails="run.starts",
-            ),
-            example(
                 "start_outside_init",
                 Replace(NODE, "        self.counter_ = 0\n", ""),
                 Replace(
@@ -409,21 +299,6 @@ KINDS = (
                     "    self.counter_ = 0\n\n    def __init__(self):\n",
                 ),
                 fails="run.starts",
-            ),
-            example(
-                "self_in_a_function_that_methods_call",
-                Replace(
-                    NODE,
-                    "class MyFirstNode",
-                    "def say(text):\n    self.get_logger().info(text)\n\n\nclass MyFirstNode",
-                ),
-                Replace(
-                    NODE,
-                    "        self.get_logger().info('Hello time: ' + str(self.counter_))\n",
-                    "        say('Hello time: ' + str(self.counter_))\n",
-                ),
-                fails="run.output",
-                blocks=DEAD,
             ),
             example(
                 "self_in_main",
@@ -450,57 +325,12 @@ KINDS = (
                 _main_in_class
             )
         },
-        fixes={
-            "head": msg(
-                "Make it a function of its own: move def {function}(…) and all of its lines to the "
-                "left, so that def begins at the margin. Leave self or cls out of its brackets, if one is "
-                "there. Where a line calls it through the class, write only {function}(). Delete above "
-                "the def: {head}"
-            ),
-            "head_cls": msg(
-                "Make it a function of its own: move def {function}(…) and all of its lines to the "
-                "left, so that def begins at the margin. Leave {parameter} out of its brackets, and "
-                "write {type} instead of {parameter} in its lines. Where a line calls it through the "
-                "class, write only {function}(). Delete above the def: {head}"
-            ),
-            "used": msg(
-                "Move def {function}(…) and all of its lines to the left by the same number of "
-                "spaces, so that def begins at the margin. Write {written} instead of {name} in line "
-                "{line}."
-            ),
-        },
         fixed_by=(node_scope.at_margin,),
         examples=(
             example("main_in_class", Replace(NODE, MAIN, IN_CLASS), fails="run.starts"),
             example(
-                "main_as_a_class_method",
-                Replace(
-                    NODE,
-                    MAIN,
-                    IN_CLASS.replace("    def ", "    @classmethod\n    def ", 1)
-                    .replace("main(", "main(cls, ", 1)
-                    .replace("MyFirstNode()", "cls()", 1),
-                ),
-                Replace(NODE, "\n    main()\n", "\n    MyFirstNode.main()\n"),
-                fails="run.starts",
-            ),
-            example(
                 "main_as_a_static_method",
                 Replace(NODE, MAIN, IN_CLASS.replace("    def ", "    @staticmethod\n    def ", 1)),
-                Replace(NODE, "\n    main()\n", "\n    MyFirstNode.main()\n"),
-                fails="run.starts",
-            ),
-            example(
-                "main_in_a_class_of_its_own",
-                Replace(
-                    NODE, MAIN, f"class Program:\n    @staticmethod\n{IN_CLASS.lstrip(chr(10))}"
-                ),
-                Replace(NODE, "\n    main()\n", "\n    Program.main()\n"),
-                fails="run.starts",
-            ),
-            example(
-                "main_called_by_class",
-                Replace(NODE, MAIN, IN_CLASS),
                 Replace(NODE, "\n    main()\n", "\n    MyFirstNode.main()\n"),
                 fails="run.starts",
             ),
@@ -517,8 +347,8 @@ KINDS = (
         ),
         fixes={
             "parameter": msg(
-                "Put def {name} and its lines at the end of the class, indented by 4 more spaces than now. "
-                "If {parameter} is the node, write self instead of {parameter} in all of these lines."
+                "Put def {name} and its lines at the end of the class, indented by 4 more spaces than now. If "
+                "{parameter} is the node, write self instead of {parameter} in all of these lines."
             )
         },
         raised={OWN_ATTRIBUTE: _callback_outside},

@@ -29,10 +29,6 @@ KINDS = (
                 "The grader ran the node with another text than {name} in this line, and then this check "
                 "passes."
             ),
-            "end_of_list": msg(
-                "pop() takes the last item of a list, and pop(0) the first. The grader ran the node with "
-                "{written} instead of {name} in this line, and then this check passes."
-            ),
             "seconds": msg(
                 "ROS counts periods in seconds. The grader ran the node with {written} instead of "
                 "{name} in this line, and then this check passes."
@@ -70,11 +66,6 @@ KINDS = (
             "branches": msg(
                 "Each call runs only one branch of this condition. The grader ran the node with the lines below "
                 "{name} each time, and without the other branches, and then this check passes."
-            ),
-            "given_back": msg(
-                "A function that gets a number changes only its own variable: {form} stays as it is. The grader "
-                "ran the node with a function that returns the changed number, and with {written}, and then this "
-                "check passes."
             ),
             "else": msg(
                 "The grader ran the node without the condition {name}, with only the lines of its "
@@ -150,33 +141,6 @@ KINDS = (
                 "{name} calls the function in this line. The grader ran the node with {written}, "
                 "which only names it, and then this check passes."
             ),
-            "copied": msg(
-                "This line gives the object {name} a second name, and makes no second object: what changes "
-                "one of them later changes the other. The grader ran the node with {written}, which is an "
-                "object of its own, and then this check passes."
-            ),
-            "once": msg(
-                "Each call of this function makes {name} anew. The grader ran the node with {written} "
-                "above the function, so that it is made once, and then this check passes."
-            ),
-            "once_init": msg(
-                "Each call of this function makes {name} anew. The grader ran the node with {written} "
-                "in __init__, so that it is made once, and then this check passes."
-            ),
-            "kept": msg(
-                "A function reads {form} when it is called, and then the loop has already given "
-                "{form} its last value. The grader ran the node with {form} as a default value, which "
-                "Python reads when it makes the function, and then this check passes."
-            ),
-            "asked_for": msg(
-                "{name} makes an object that works out its values only when something asks for them, "
-                "and nothing does. The grader ran the node with list() around it, which asks for all "
-                "of them, and then this check passes."
-            ),
-            "yields": msg(
-                "A function with yield is a generator: calling it runs none of its lines. The grader "
-                "ran the node without this yield, and then this check passes."
-            ),
             "returned": msg(
                 "This function changes {form} before it returns it, so that it gives the next value "
                 "already the first time. The grader ran the node with the value from before the "
@@ -205,20 +169,7 @@ KINDS = (
                 "Keep the value in a variable before the line that changes it, and write {written} "
                 "instead of {name}."
             ),
-            "once": msg(
-                "Write {written} above the function. In this line, use the name that it sets instead "
-                "of {name}."
-            ),
-            "once_init": msg(
-                "Write {written} as the last line of __init__. In this line, use the name that it sets "
-                "instead of {name}."
-            ),
             "gives_itself": msg("Write return self below this line, as the last line of {name}."),
-            "asked_for": msg("Write {written}, or a for loop, instead of {name}."),
-            "yields": msg("Delete this yield."),
-            "copied": msg(
-                "Write {written} instead of {name}, and at the top of the file: import copy"
-            ),
             "long": msg("Make the change below."),
             "condition": msg(
                 "If these lines are meant to run each time, delete the line {name}, and indent the lines of "
@@ -231,9 +182,6 @@ KINDS = (
             "branches": msg(
                 "Delete the whole condition with all its branches, and keep only the lines below {name}, "
                 "indented one step less."
-            ),
-            "given_back": msg(
-                "Return the changed number at the end of the function, and write {written} instead of {name}."
             ),
             "loop": msg(
                 "If the lines of this loop are meant to run once, delete the line {name}, and indent them one "

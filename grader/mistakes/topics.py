@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Collection
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
@@ -12,13 +11,12 @@ from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import NODE, example
 from grader.mistakes.fixes import lines, node_parameters
-from grader.mistakes.kind import Family
+from grader.mistakes.kind import Family, Step
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
-from grader.package.source.counter import targets_of
-from grader.package.source.declared import Parameter, declared, declares_others, with_namespace
+from grader.package.source.declared import Parameter, declared, declares_others
+from grader.package.source.follows_already import publishes
 from grader.package.source.names import called_name, calls_in, dotted, last_part
-from grader.package.source.node import NodeSource
 from grader.package.source.place import place_of, statement_at
 
 UNDECLARED = r"ParameterNotDeclaredException: .*?: (?P<name>[\w.]{1,100})$"
@@ -33,40 +31,20 @@ ENDS = ("create_publisher", "create_subscription", "create_service", "create_cli
 
 def _undeclared(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     """A parameter is used that the node has not declared."""
-    name, source, module = match["name"], raised.source, raised.module
+    name, source = match["name"], raised.source
     words = {**raised.words, "name": name, "close": "", "type": ""}
     found = RecognisedMistake(kind="parameter.not_declared", words=words, where=raised.where)
-    within = with_namespace(source)
-    if within is not None:
-        words["row"] = within.lineno
-        return replace(found, words=words, variant="namespace")
-    parameter = node_parameters.reading(source, module, name, raised.line)
+    parameter = node_parameters.reading(source, raised.module, name, raised.line)
     if parameter is None:
         return found
     found = replace(found, where=place_of(source, parameter.call))
     known = {p.name: p for p in declared(source)}
     if name in known:
         return _declared_late(raised, found, parameter, known[name])
-    close = nearest(name, known, cutoff=0.7) or _renamed(source, name, known)
+    close = nearest(name, known, cutoff=0.7)
     if close and not declares_others(source):
         return _misspelt(raised, found, parameter, known[close])
-    declaration = node_parameters.declaration(source, raised.assignment, module, parameter)
-    if declaration is None:
-        return found
-    words |= {"written": declaration.written, "row": declaration.above.lineno}
-    variant = "above" if declaration.in_place else "start"
-    if "…" in declaration.written:
-        variant += "_open"
-    return replace(found, params={"parameter": name}, words=words, variant=variant)
-
-
-def _renamed(source: NodeSource, name: str, known: Collection[str]) -> str:
-    """Return the one declared name that no line reads, if it has a word of another name."""
-    texts = [n.value for n in source.all_nodes if isinstance(n, ast.Constant)]
-    unread = [other for other in known if texts.count(other) == 1]
-    words = set(name.lower().split("_"))
-    alike = [other for other in unread if words & set(other.lower().split("_"))]
-    return alike[0] if len(alike) == 1 else ""
+    return found
 
 
 def _misspelt(
@@ -89,12 +67,6 @@ def _declared_late(
     later = same and raised.module.has(known.call) and line > parameter.call.lineno
     words = {**found.words, "row": line}
     if not later:
-        owner = parameter.call.func
-        if known.default is not None and isinstance(owner, ast.Attribute):
-            code, of_known = raised.module.text.code, source.module_of(known.call).text.code
-            given = f"{code(parameter.written)}, {of_known(known.default)}"
-            words["written"] = f"{code(owner.value)}.declare_parameter({given})"
-            return replace(found, words=words, variant="elsewhere_known")
         return replace(found, words=words, variant="elsewhere")
     params = {"parameter": known.name, "late": str(line)}
     return replace(found, params=params, words=words, variant="late")
@@ -146,21 +118,6 @@ def _parameter_object(raised: Raised, match: re.Match[str]) -> RecognisedMistake
     statement = statement_at(raised.module, raised.line)
     calls = [call for call, _ in calls_in(statement)] if statement is not None else []
     found = [c for c in calls if called_name(c) in ("get_parameter", "declare_parameter")]
-    named = {dotted(n) for n in ast.walk(statement)} - {""} if statement is not None else set()
-    sets = [
-        n.value
-        for n in raised.source.all_nodes
-        if isinstance(n, ast.Assign)
-        and named & set(targets_of(n))
-        and isinstance(n.value, ast.Call)
-        and called_name(n.value) in ("get_parameter", "declare_parameter")
-    ]
-    if not found and len(sets) == 1 and raised.module.has(sets[0]):
-        code = " ".join(raised.module.text.code(sets[0]).split())
-        params = {"name": code, "written": f"{code}.value"}
-        return replace(
-            raised.finding("parameter_object", at=sets[0], params=params), variant="written"
-        )
     if len(found) != 1:
         return raised.finding("parameter_object")
     code = " ".join(raised.module.text.code(found[0]).split())
@@ -168,6 +125,11 @@ def _parameter_object(raised: Raised, match: re.Match[str]) -> RecognisedMistake
     return replace(found_call, variant="written")
 
 
+CALL_PUBLISH = msg(
+    "Call self.publisher_.publish(message) in the callback of the timer or of the subscription, "
+    "with parentheses."
+)
+PUBLISH_THERE = msg("Publish on {topic} in the callback of the subscription.")
 ELSEWHERE = msg(
     "A parameter exists from the line on that declares it. Line {row} declares '{name}', but it has "
     "not run for this node when this line reads it."
@@ -258,20 +220,6 @@ KINDS = (
                 ),
                 fails="run.starts",
             ),
-            example(
-                "parameter_in_text",
-                Replace(
-                    NODE,
-                    "        self.create_timer(1.0,",
-                    "        self.declare_parameter('text', 'Hello time: ')\n"
-                    "        self.text = self.get_parameter('text')\n"
-                    "        self.create_timer(1.0,",
-                ),
-                Replace(
-                    NODE, "'Hello time: ' + str(self.counter_)", "f'{self.text}{self.counter_}'"
-                ),
-                fails="run.output",
-            ),
         ),
     ),
     _topic(
@@ -293,6 +241,7 @@ KINDS = (
             "Write self.publisher_ = self.create_publisher({short}, '{topic}', 10) in __init__, and "
             "import {short}."
         ),
+        of_shape=True,
     ),
     _topic(
         "no_subscription",
@@ -303,6 +252,7 @@ KINDS = (
             "Write self.create_subscription({short}, '{topic}', self.callback, 10) in __init__, and "
             "import {short}."
         ),
+        of_shape=True,
     ),
     _topic(
         "wrong_end",
@@ -313,6 +263,7 @@ KINDS = (
             "for one on which it receives them."
         ),
         msg("Use {call} for '{topic}'. Are two topics swapped?"),
+        of_shape=True,
     ),
     _topic(
         "wrong_name",
@@ -323,6 +274,7 @@ KINDS = (
             "Use '{topic}' in place of '{name}'. A name without a slash in front begins with the "
             "node's namespace."
         ),
+        of_shape=True,
     ),
     _topic(
         "wrong_type",
@@ -330,6 +282,7 @@ KINDS = (
         msg("The topic has a different type"),
         TYPED,
         msg("Pass {short} as the first argument, and import it ({wanted})."),
+        of_shape=True,
     ),
     _topic(
         "never_published",
@@ -339,10 +292,8 @@ KINDS = (
             "create_publisher only announces the topic. A message goes out each time publish() is "
             "called."
         ),
-        msg(
-            "Call self.publisher_.publish(message) in the callback of the timer or of the "
-            "subscription, with parentheses."
-        ),
+        CALL_PUBLISH,
+        steps={"": (Step(CALL_PUBLISH, publishes),)},
     ),
     _topic(
         "too_few",
@@ -376,8 +327,13 @@ KINDS = (
         "wrong_value",
         "topic",
         msg("A message has a different value"),
-        msg("Fields that are not set are 0. Velocities are in m/s and rad/s, distances in m."),
-        msg("Set {field} to {wanted}, each time before publish()."),
+        msg(
+            "A message goes out with the values that its fields have when publish() is called. A field "
+            "that no line sets is 0."
+        ),
+        msg(
+            "Here {field} must be {wanted}. Look at the lines that set it, and at the values in them."
+        ),
         whys={
             "changed": msg(
                 "A value that is read in __init__ stays as it was. The callback has to read it "
@@ -388,8 +344,25 @@ KINDS = (
             "changed": msg(
                 "Read the value in the callback, for example with "
                 "self.get_parameter('…').value, and set {field} to {wanted}."
-            )
+            ),
+            "reaction": msg(
+                "Here {field} must be {wanted}. Look at the lines that set it, and at what they make of "
+                "what came in."
+            ),
         },
+    ),
+    _topic(
+        "foreign_sender",
+        "topic",
+        msg("Another node sends the messages"),
+        msg(
+            "Who listens to {topic} sees in the graph which node publishes there. Each publisher is of "
+            "the node whose create_publisher made it."
+        ),
+        msg(
+            "Make the publisher of {topic} with create_publisher of the node {judged}, and only there."
+        ),
+        of_shape=True,
     ),
     _topic(
         "none_then",
@@ -406,22 +379,25 @@ KINDS = (
         msg(
             "Build the package of {short} again from its .msg file, without changing what is built."
         ),
+        of_shape=True,
     ),
     _topic(
         "not_silent",
         "topic",
         msg("A message at a time when none may come"),
+        msg("publish() was called at that time: each condition on the way to it was true."),
         msg(
-            "A message goes out each time publish() is called, also if it says the same as before."
+            "Look at the conditions on the way to publish() on {topic}, and at the values in them. If "
+            "there is no condition, add one."
         ),
-        msg("Check in the callback whether to publish on {topic}, and return if not."),
     ),
     _topic(
         "no_reaction",
         "topic",
         msg("The node does not react to a message"),
         msg("A subscription calls its callback for each message, while the node spins."),
-        msg("Publish on {topic} in the callback of the subscription."),
+        PUBLISH_THERE,
+        steps={"": (Step(PUBLISH_THERE, publishes),)},
     ),
     _topic(
         "reacts_too_often",
@@ -442,10 +418,11 @@ KINDS = (
             "does not fit best effort, transient local does not fit volatile."
         ),
         msg(
-            "Create the subscription with the QoS that the publisher offers; for sensors this is "
-            "qos_profile_sensor_data from rclpy.qos."
+            "Give this line the QoS of the other side: 10 in place of a profile is reliable, "
+            "qos_profile_sensor_data from rclpy.qos is best effort."
         ),
         links.QOS,
+        of_shape=True,
     ),
     _topic(
         "wrong_qos",
@@ -456,6 +433,7 @@ KINDS = (
         ),
         msg("Pass a QoSProfile with {wanted} in place of the depth."),
         links.QOS,
+        of_shape=True,
     ),
     _parameter(
         "not_declared",
@@ -472,45 +450,23 @@ KINDS = (
                 "A node has only the parameters that it declares, by exactly that name: line {row} "
                 "declares {written}, and this line reads {name}."
             ),
-            "namespace": msg(
-                "declare_parameters puts its first argument and a dot before each name. The call in line "
-                "{row} has such a first argument, so that no parameter is called only {name}."
-            ),
             "late": msg(
                 "A parameter exists from the line on that declares it. Line {row} declares '{name}', "
                 "and it runs after this line."
             ),
-            "elsewhere_known": ELSEWHERE,
             "elsewhere": ELSEWHERE,
         },
         fixes={
             "misspelt": msg("Write {written} instead of {name} in this line."),
-            "namespace": msg(
-                "Read the parameter by its whole name, as in 'group.{name}' for the first argument 'group'. "
-                "Or write '' as the first argument in line {row}."
-            ),
             "late": msg("Move line {row}, which declares '{name}', above this line."),
             "elsewhere": msg(
                 "Declare '{name}' in __init__, before anything reads it: move line {row} there."
-            ),
-            "elsewhere_known": msg(
-                "Write this line in __init__, before anything reads the parameter: {written} Then "
-                "delete line {row}: a parameter can be declared once only."
-            ),
-            "above": msg("Write this line above line {row}: {written}"),
-            "above_open": msg(
-                "Write this line above line {row}, with the default value in the place of …: {written}"
-            ),
-            "start": msg("Write this line in __init__, above line {row}: {written}"),
-            "start_open": msg(
-                "Write this line in __init__, above line {row}, with the default value in the place of …: {written}"
             ),
         },
         raised={UNDECLARED: _undeclared},
         fixed_by=(
             lines.written,
             node_parameters.moved_up,
-            node_parameters.declared_above,
         ),
         examples=(
             example(
@@ -523,34 +479,12 @@ KINDS = (
                 fails="run.starts",
             ),
             example(
-                "parameter_renamed_in_one_place",
-                Replace(
-                    NODE,
-                    "        self.create_timer(1.0,",
-                    "        self.declare_parameter('timer_period', 1.0)\n"
-                    "        period = self.get_parameter('period').value\n"
-                    "        self.create_timer(period,",
-                ),
-                fails="run.starts",
-            ),
-            example(
                 "parameter_misspelt",
                 Replace(
                     NODE,
                     "        self.create_timer(1.0,",
                     "        self.declare_parameter('period', 1.0)\n"
                     "        period = self.get_parameter('periode').value\n"
-                    "        self.create_timer(period,",
-                ),
-                fails="run.starts",
-            ),
-            example(
-                "parameter_in_a_namespace",
-                Replace(
-                    NODE,
-                    "        self.create_timer(1.0,",
-                    "        self.declare_parameters('hello', [('period', 1.0)])\n"
-                    "        period = self.get_parameter('period').value\n"
                     "        self.create_timer(period,",
                 ),
                 fails="run.starts",
@@ -567,6 +501,7 @@ KINDS = (
                 fails="run.starts",
             ),
         ),
+        of_shape=True,
     ),
     _parameter(
         "wrong_type",
@@ -577,6 +512,7 @@ KINDS = (
             "value of another type is refused later."
         ),
         msg("Declare '{name}' with a default value of the type {type}."),
+        of_shape=True,
     ),
     _parameter(
         "wrong_value",
@@ -598,12 +534,54 @@ KINDS = (
             "SetParametersResult(successful=True)."
         ),
     ),
+    _parameter(
+        "no_effect",
+        "parameter",
+        msg("The node accepts a change of the parameter and does not make it"),
+        msg(
+            "A node that declares a parameter keeps its value, answers for it, and tells each change on "
+            "/parameter_events. Services of these names that a program makes itself only say so."
+        ),
+        msg(
+            "Declare '{name}' with declare_parameter, and read it with get_parameter. The node makes "
+            "the services for it."
+        ),
+    ),
+    _parameter(
+        "foreign_server",
+        "parameter",
+        msg("Another node answers for the node's parameters"),
+        msg("Each node offers the services of its own parameters; rclpy makes them with the node."),
+        msg("Remove the services that {node} offers under the name of {judged}."),
+        of_shape=True,
+    ),
+    _service(
+        "foreign_server",
+        "service",
+        msg("Another node offers the service too"),
+        msg(
+            "If two nodes offer a service of one name, a client cannot know which of them answers."
+        ),
+        msg("Offer {service} in {judged} only; remove it from {node}."),
+        of_shape=True,
+    ),
+    _service(
+        "foreign_client",
+        "service",
+        msg("Another node calls the service too"),
+        msg(
+            "A service does not learn which of two clients calls it. This node must call it itself."
+        ),
+        msg("Make the client of {service} in {judged} only; remove it from {node}."),
+        of_shape=True,
+    ),
     _service(
         "missing",
         "service",
         msg("The node does not offer the service"),
         msg("A service exists as soon as create_service is called; clients find it by its name."),
         msg("Write self.create_service({short}, '{service}', self.callback) in __init__."),
+        of_shape=True,
     ),
     _service(
         "no_client",
@@ -611,6 +589,7 @@ KINDS = (
         msg("The node has no client of the service"),
         msg("A client finds a service by its name and type."),
         msg("Write self.client_ = self.create_client({short}, '{service}') in __init__."),
+        of_shape=True,
     ),
     _service(
         "wrong_name",
@@ -618,6 +597,7 @@ KINDS = (
         msg("The service has a different name"),
         msg("A client and a service meet if their names are equal, to the letter."),
         msg("Use '{service}' in place of '{name}'."),
+        of_shape=True,
     ),
     _service(
         "wrong_type",
@@ -625,6 +605,7 @@ KINDS = (
         msg("The service has a different type"),
         msg("A client and a service of different types never meet."),
         msg("Pass {short} as the first argument of {make}."),
+        of_shape=True,
     ),
     _service(
         "no_answer",
@@ -641,6 +622,9 @@ KINDS = (
         "service",
         msg("The service answers something else"),
         msg("The callback fills the response that it gets, and returns it."),
-        msg("Set the fields of the response in the callback of {service}, and return it."),
+        msg(
+            "Look at the lines that set the fields of the response in the callback of {service}, and at "
+            "what they make of the request."
+        ),
     ),
 )

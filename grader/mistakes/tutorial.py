@@ -8,7 +8,6 @@ from dataclasses import replace
 from grader.base.i18n.message import Value, msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, example
-from grader.mistakes.fixes import node_tutorial
 from grader.mistakes.fixes.node_clock import count_of
 from grader.mistakes.fixes.node_tutorial import parts_of_topic
 from grader.mistakes.kind import Family
@@ -181,7 +180,6 @@ KINDS = (
             "run.wrong_period": _of_tutorial,
             "run.no_lines": _of_tutorial,
         },
-        fixed_by=(node_tutorial.logs_instead,),
         examples=(
             example(
                 "tutorial_publisher",

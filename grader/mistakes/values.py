@@ -9,15 +9,14 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import DEAD, INNER, LOG, NODE, example
+from grader.mistakes.example import DEAD, LOG, NODE, example
 from grader.mistakes.fixes import node_values
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect, always, on_line
-from grader.package.edit.tree import Replace, Write
+from grader.package.edit.tree import Replace
 from grader.package.source.counter import adds_to, logged_counter, starts_of
 from grader.package.source.module import Module
 from grader.package.source.names import dotted
-from grader.package.source.own_imports import imports_of
 from grader.package.source.place import function_at, statement_at
 
 ADDED = (
@@ -78,28 +77,7 @@ def _hidden(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         if name in dir(builtins) and named in (None, name):
             at = _assigned(raised, name)
             if at is not None:
-                found = raised.finding("name_hides_function", at=at, name=name)
-                others = _other_lines(raised, at)
-                words = {**found.words, "lines": ", ".join(map(str, others))}
-                return replace(found, words=words, variant="lines" if others else "")
-            star = _imported_with_star(raised, name)
-            if star is not None:
-                found = raised.finding("name_hides_function", at=star[1], name=name)
-                words = {"line": str(star[0].lineno), "path": raised.module.path}
-                return replace(found, words={**found.words, **words}, variant="star")
-    return None
-
-
-def _imported_with_star(raised: Raised, name: str) -> tuple[ast.stmt, ast.Name] | None:
-    """Return the import with * of a module of the package that sets a name, and where it does."""
-    for statement in raised.module.tree.body:
-        for imported in imports_of(statement, raised.module.path):
-            for other in raised.source.known_modules if imported.name == "*" else ():
-                for found in other.nodes if other.path in imported.paths else ():
-                    if isinstance(found, ast.Name) and isinstance(found.ctx, ast.Store):
-                        outside = raised.source.function_around(found) is None
-                        if found.id == name and outside and not _in_class(other, found):
-                            return statement, found
+                return raised.finding("name_hides_function", at=at, name=name)
     return None
 
 
@@ -114,20 +92,6 @@ def _assigned(raised: Raised, name: str) -> ast.Name | None:
             if scope is not None or not _in_class(module, found):
                 return found
     return None
-
-
-def _other_lines(raised: Raised, at: ast.Name) -> list[int]:
-    """Return the other lines on which the variable is set or read, without the calls."""
-    module, function = raised.module, raised.source.function_around(at)
-    within = ast.walk(function) if function is not None else module.nodes
-    lines = {
-        n.lineno
-        for n in within
-        if isinstance(n, ast.Name)
-        and n.id == at.id
-        and getattr(module.parents.get(n), "func", None) is not n
-    }
-    return sorted(lines - {at.lineno})
 
 
 def _in_class(module: Module, part: ast.AST) -> bool:
@@ -157,14 +121,6 @@ KINDS = (
         behind={"run.wrong_text": _joined, "run.wrong_step": _joined},
         fixed_by=(node_values.number,),
         examples=(
-            example(
-                "counter_is_a_text_and_a_sum",
-                Replace(NODE, "self.counter_ = 0", "self.counter_ = '0'"),
-                Replace(NODE, "str(self.counter_)", "self.counter_"),
-                Replace(NODE, "self.counter_ += 1", "self.counter_ = self.counter_ + '1'"),
-                fails="run.output",
-                blocks=("run.period",),
-            ),
             example(
                 "counter_grows_as_text",
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = '0'"),
@@ -219,22 +175,6 @@ KINDS = (
         ),
         msg("Give the variable another name than {name}."),
         links.PYTHON_ERRORS,
-        whys={
-            "star": msg(
-                "Line {line} of {path} imports all names of this file, also {name}. From there on, {name} "
-                "means this value in {path} too, and {name}(…) does not call Python's function any more."
-            )
-        },
-        fixes={
-            "lines": msg(
-                "Give the variable another name than {name}, here and on line {lines}. Leave "
-                "{name}(…) as it is."
-            ),
-            "star": msg(
-                "Give the variable another name than {name}, here and wherever this value is meant. "
-                "Import only the names that you need, instead of *."
-            ),
-        },
         raised={
             r"TypeError: '\w{1,120}' object is not callable": _hidden,
             r"UnboundLocalError: .{0,60}'(?P<name>\w{1,120})'": _hidden,
@@ -249,14 +189,6 @@ KINDS = (
                     "str = 'Hello time: '\n"
                     "        self.get_logger().info(str + str(self.counter_))",
                 ),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-            example(
-                "variable_named_str_in_a_module",
-                Write(f"{INNER}/words.py", "str = 'Hello time: '\nhello = str\n"),
-                Replace(NODE, "import rclpy\n", f"import rclpy\nfrom {INNER}.words import *\n"),
-                Replace(NODE, "'Hello time: ' +", "hello +"),
                 fails="run.output",
                 blocks=DEAD,
             ),

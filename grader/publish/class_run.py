@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import sys
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from datetime import datetime, timezone
 from functools import partial
 from pathlib import Path
@@ -13,19 +13,29 @@ from typing import TextIO
 
 from grader.base.errors import SurroundingsError
 from grader.base.gate import gate, show
-from grader.base.plain_text import one_line
 from grader.base.stream import takes_styles, width_of
 from grader.batch import run
+from grader.batch.by_hand import BY_HAND_FILE, by_hand
 from grader.batch.correction import note_counting
 from grader.batch.find_student import find_student
+from grader.batch.given_files import given_files, write_private
 from grader.batch.inputs import GRADEBOOK, read_inputs
 from grader.batch.ledger import Ledger
 from grader.batch.local_pool import LocalPool
+from grader.batch.mistake_group import mistake_group
 from grader.batch.model import ClassFolder, ClassResult
 from grader.batch.progress import ClassProgress
 from grader.batch.result import class_result
 from grader.batch.sheets import SheetOptions
+from grader.batch.words import plural
 from grader.batch.work import Job, Pool
+from grader.publish.before_marking import (
+    agreed,
+    marking_page,
+    say_changes,
+    say_join,
+    seconds_to_mark,
+)
 from grader.publish.class_table import changes_of, class_page, regrade_page
 from grader.publish.outputs import INDEX, Outcome, Outputs
 from grader.publish.written import raise_failures
@@ -38,7 +48,9 @@ MOST_A_CORE = 2  # workers per core, while the cores are not busy
 class ClassOptions:
     """The options of `grade-all`; `order` has the assignment, the distro and the sandbox.
 
-    `accepts` holds what the instructor accepts in advance (see `accept`).
+    `accepts` holds what the instructor accepts in advance (see `accept`), `given` the instructor's
+    own lists (see `given_files`); `yes`: a long run does not ask first; `pseudonyms`: a gradebook
+    without names is written too; `heard` gets the result, without its reports, once all is written.
     """
 
     order: Order
@@ -48,11 +60,16 @@ class ClassOptions:
     roster: Path | None = None
     regrade: bool = False
     students: tuple[str, ...] = ()
+    mistakes: tuple[str, ...] = ()
     workers: int = 0
     scheduler: str = ""
     sheets: SheetOptions = field(default_factory=SheetOptions)
     accepts: frozenset[str] = frozenset()
+    given: Mapping[str, Path | None] = field(default_factory=dict)
     quiet: bool = False
+    yes: bool = False
+    pseudonyms: bool = False
+    heard: Callable[[ClassResult], None] = lambda _: None
 
 
 def grade_all(options: ClassOptions, *, dry_run: bool) -> int:
@@ -71,35 +88,45 @@ def grade_all(options: ClassOptions, *, dry_run: bool) -> int:
         options.out,
         system=options.system,
         roster=options.roster,
-        accepts=options.accepts,
+        given=given_files(options.given, options.out),
         notify=_notify,
     )
+    rows = say_join(known, options.out, quiet=options.quiet, notify=_notify)
+    known.refuse_poor_join(order.assignment.policy, options.accepts)
+    if not dry_run:
+        known.given.keep(options.out)
     ended: KeyboardInterrupt | SurroundingsError | None = None
     with Ledger(options.ledger) as ledger, _marking(options) as (setting, pool):
         outputs = Outputs(options.out, options.sheets, known, ledger, options.accepts)
         with ClassProgress(sys.stderr) as progress:
             plan = run.make_plan(ledger, known.folder, setting, listener=progress)
-            if options.regrade or options.students:
-                chosen = None if options.regrade else _chosen(options.students, plan)
+            if options.regrade or options.students or options.mistakes:
+                chosen = None if options.regrade else _chosen(options, plan, ledger)
                 if dry_run:
                     count = len(plan.items if chosen is None else chosen)
                     _notify(f"a regrade would mark {count} again")
                 else:
                     plan = run.request_regrade(ledger, plan, chosen)
+            result_now = partial(_result, options, ledger, known.folder, plan, started)
+            before = result_now() if outputs.can_lower else None
+            if before is not None:
+                say_changes(known, plan, before, notify=_notify)
             _say_plan(plan)
             if dry_run:
-                for item in plan.todo:
-                    _print(one_line(item.handed_in.student.name or item.student))
+                width, styled = width_of(sys.stdout), takes_styles(sys.stdout)
+                _show_page(marking_page(rows, plan, width=width, styled=styled))
                 return 0
-            result_now = partial(_result, options, ledger, known.folder, plan, started)
+            if not (options.yes or _agreed(ledger, plan, options)):
+                _notify("nothing was marked")
+                return 0
             try:
                 if plan.todo:
-                    if outputs.can_lower:
-                        outputs.refuse_lower(result_now(), but=plan.students)
+                    if before is not None:
+                        outputs.refuse_lower(before, but=plan.students)
                     run.carry_out(ledger, plan, setting, pool, listener=progress)
             except (KeyboardInterrupt, SurroundingsError) as why:
                 ended = why
-        result = result_now()
+        result = result_now() if plan.todo or before is None else before
         note_counting(ledger, result)
         written = outputs.write(result, notify=_notify)
         _show(result, plan, ledger, options, written)
@@ -111,7 +138,22 @@ def grade_all(options: ClassOptions, *, dry_run: bool) -> int:
     if written.state == "refused":
         raise written.failures[0]
     raise_failures(written.failures)
+    options.heard(replace(result, entries=tuple(replace(e, report=None) for e in result.entries)))
     return status
+
+
+def _write_pseudonyms(result: ClassResult, ledger: Ledger, out: Path) -> None:
+    from grader.publish import pseudonyms as hidden  # noqa: PLC0415 - seldom needed
+
+    names = hidden.pseudonyms(result, ledger)
+    write_private(out, hidden.FOLDER, GRADEBOOK, hidden.gradebook(result, names))
+    write_private(out, "", hidden.LIST, hidden.pseudonym_list(result, names))
+    _print(f"pseudonyms {out / hidden.FOLDER / GRADEBOOK} (whose is which: {hidden.LIST})")
+
+
+def _agreed(ledger: Ledger, plan: run.ClassPlan, options: ClassOptions) -> bool:
+    seconds = seconds_to_mark(ledger, plan, options.workers or run.cores_here())
+    return agreed(seconds, len(plan.todo))
 
 
 def _say_ended(ended: KeyboardInterrupt | SurroundingsError, written: Outcome) -> None:
@@ -174,10 +216,14 @@ def _marking(options: ClassOptions) -> Iterator[tuple[run.MarkingSetting, Pool]]
         yield setting, cluster
 
 
-def _chosen(words: Sequence[str], plan: run.ClassPlan) -> list[str]:
+def _chosen(options: ClassOptions, plan: run.ClassPlan, ledger: Ledger) -> list[str]:
     """Return the keys of the students to mark again."""
     students = {item.student: item.handed_in.student for item in plan.items}
-    return [find_student(word, list(students.values())).key for word in words]
+    keys = [find_student(word, list(students.values())).key for word in options.students]
+    for mistake in options.mistakes:
+        group = mistake_group(ledger, options.order.assignment.id, mistake)
+        keys += [student.key for student in group.students if student.key in students]
+    return list(dict.fromkeys(keys))
 
 
 def _say_faults(result: ClassResult) -> None:
@@ -220,6 +266,11 @@ def _show(
         return
     _print(f"page       {options.out / INDEX}")
     _print(f"gradebook  {options.out / GRADEBOOK}")
+    if options.pseudonyms:
+        _write_pseudonyms(result, ledger, options.out)
+    if waiting := by_hand(result):
+        people = plural(len({one.entry.student.key for one in waiting}), "student")
+        _print(f"by hand    {options.out / BY_HAND_FILE} ({people})")
     if written.state == "unchanged":
         _notify("nothing has changed since these were written")
 

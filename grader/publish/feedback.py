@@ -12,7 +12,7 @@ from dataclasses import replace
 from grader.base.carets import is_marks
 from grader.base.i18n.message import joined, say, say_plural
 from grader.base.i18n.translator import LANGUAGES, Translator
-from grader.base.plain_text import one_line
+from grader.base.plain_text import one_line, shorten, visible
 from grader.batch.cells import number
 from grader.batch.model import GradebookEntry
 from grader.batch.words import STATES
@@ -47,6 +47,30 @@ def headline(entry: GradebookEntry) -> str:
     return Translator(entry.lang)(text)
 
 
+def written_by_hand(entry: GradebookEntry) -> str:
+    """Return what the instructor wrote to the student, with its title; "" if nothing."""
+    if entry.remark is None:
+        return ""
+    return Translator(entry.lang)(say("Your instructor writes: {text}", text=entry.remark.text))
+
+
+def reason(view: StudentView) -> str:
+    """Return why points are missing, in a line: the first check that failed; "" if none did."""
+    failed = next((one for one in view.checks if one.check.status == "failed"), None)
+    if failed is None or failed.override is not None:
+        return ""
+    translate = Translator(view.entry.lang)
+    title = translate(say("First: {title}", title=failed.check.title))
+    labels = [translate(label) for label in SHORT_FIELDS]
+    told = [one for label in labels for one in failed.fields if one.label == label]
+    found = [f"{one.label}: {_first_line(one.text)}" for one in told]
+    return ". ".join(part.removesuffix(".") for part in (title, *found)) + "."
+
+
+def _first_line(text: str) -> str:
+    return one_line(next((line.strip() for line in text.split("\n") if line.strip()), ""))
+
+
 def hidden_words(view: StudentView) -> str:
     """Return a text with the number of checks hidden from the student, "" for none."""
     return Translator(view.entry.lang)(hidden_checks(view.hidden)) if view.hidden else ""
@@ -72,7 +96,7 @@ def mark_of(one: CheckView, lang: str) -> str:
 
 
 def short_html(entry: GradebookEntry, *, show_hidden: bool) -> str:
-    """Return the feedback as short HTML without line breaks or quotation marks.
+    """Return the feedback as short HTML without line breaks or quotation marks; the reason first.
 
     Moodle keeps comments as HTML, and PHP's CSV reader treats a backslash before a quotation
     mark as an escape (PHP manual, `fgetcsv`). A cell without either is read the same everywhere.
@@ -81,11 +105,12 @@ def short_html(entry: GradebookEntry, *, show_hidden: bool) -> str:
     open_ = [one for one in view.checks if one.check.status not in ("passed", "skipped")]
     skipped = sum(one.check.status == "skipped" for one in view.checks)
     translate = Translator(entry.lang)
-    summary = [line for line in (translate(entry.problem), *view.calculation) if line]
-    lines = [_safe(line) for line in summary]
+    first = [line for line in (written_by_hand(entry), translate(entry.problem)) if line]
+    lines = [_safe(line) for line in first]
     lines += [_check(one, translate) for one in open_[:MOST_CHECKS]]
     rest = [_more(len(open_) - MOST_CHECKS), _skipped(skipped), hidden_words(view)]
     lines += [_safe(translate(line)) for line in rest if line]
+    lines += [_safe(line) for line in view.calculation]
     items = "".join(f"<li>{line}</li>" for line in lines)
     return f"<p><strong>{_safe(headline(entry))}</strong></p><ul>{items}</ul>"
 
@@ -117,6 +142,8 @@ def html_page(entry: GradebookEntry, title: str, *, show_hidden: bool) -> bytes:
         script=False,
         view=view,
         headline=headline(entry),
+        by_hand=written_by_hand(entry),
+        reason=reason(view),
         logs=[log for log in logs if log[2].strip()],
         log_titles={place: words for place, words, _ in logs},
     )
@@ -140,5 +167,7 @@ def _check(one: CheckView, translate: Translator) -> str:
 
 
 def _safe(text: str) -> str:
-    """Return a text escaped for HTML on one line, backslashes as character references."""
-    return html.escape(one_line(text, most=MOST)).replace("\\", "&#92;")
+    """Return a text escaped for HTML, `<br>` between its lines, backslashes as character references."""
+    lines = shorten(text.strip(), most=MOST).split("\n")
+    escaped = [html.escape(visible(line)).replace("\\", "&#92;") for line in lines]
+    return "<br>".join(escaped)

@@ -28,6 +28,7 @@ BEFORE = (
     "attempt",
     "submitted",
     "late",
+    "due",
 )
 AFTER = ("mistakes", "notes")
 MOST_NOTES = 4_000  # characters
@@ -36,7 +37,7 @@ MOST_NOTES = 4_000  # characters
 def gradebook_csv(result: ClassResult, *, bom: bool = False) -> bytes:
     """Return the table in UTF-8: one row per student in class order, hidden checks included.
 
-    `bom` adds the byte order mark by which Excel recognises UTF-8. `submitted` is ISO 8601 in UTC,
+    `bom` adds the byte order mark by which Excel recognises UTF-8. `submitted` and `due` are ISO 8601 in UTC,
     `late` is in seconds, or `unknown`, and empty without a submission. A check's cell is empty if its
     points are undecided, or if nothing could be marked.
     """
@@ -79,6 +80,7 @@ def _row(entry: GradebookEntry, checks: Sequence[str]) -> list[str]:
         str(entry.attempt),
         _instant(entry.submitted),
         _late(entry),
+        _instant(entry.due),
         *(cells.number(given.get(check)) for check in checks),
         cells.text(_mistakes(entry), most=MOST_NOTES),
         cells.text(" | ".join(_notes(entry)), most=MOST_NOTES),
@@ -112,6 +114,8 @@ def _notes(entry: GradebookEntry) -> list[str]:
         notes.append(
             f"{what} corrected{by} to {points(override.points)} because: {override.because}"
         )
+    if entry.remark is not None:
+        notes.append(f"comment: {' '.join(entry.remark.text.split())}")
     notes += [f"no longer applies: {lapsed_words(lapsed)}" for lapsed in entry.lapsed]
     if entry.same_as:
         notes.append(f"same content as: {', '.join(entry.same_as)}")

@@ -9,7 +9,14 @@ from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
 from grader.base.plain_text import first_lines, last_lines, one_line
 from grader.batch.model import GradebookEntry
-from grader.publish.feedback import feedback_view, headline, hidden_words, mark_of
+from grader.publish.feedback import (
+    feedback_view,
+    headline,
+    hidden_words,
+    mark_of,
+    reason,
+    written_by_hand,
+)
 from grader.publish.pages.student import CheckView
 from grader.report.tracebacks import folded
 
@@ -26,8 +33,13 @@ def markdown(entry: GradebookEntry, title: str, *, show_hidden: bool) -> str:
     student, translate = entry.student, Translator(entry.lang)
     lines = [f"# {_plain(student.name or student.key)}: {_plain(title)}", ""]
     lines += [f"**{_plain(headline(entry))}**", ""]
+    if by_hand := written_by_hand(entry):
+        for part in by_hand.split("\n"):
+            lines += [_plain(part), ""]
     if entry.problem:
         lines += [_plain(translate(entry.problem)), ""]
+    if first := reason(view):
+        lines += [_plain(first), ""]
     lines += [f"- {_plain(line)}" for line in view.calculation]
     if view.checks:
         head = translate(say("Checks"))

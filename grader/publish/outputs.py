@@ -22,7 +22,7 @@ from grader.batch.verdict_key import source_digest
 from grader.report.files import write_report
 
 INDEX = "index.html"
-CLASS_FOLDERS = ("students", "feedback", "unpacked")
+CLASS_FOLDERS = ("students", "feedback", "unpacked", "given", "pseudonyms")
 
 
 @dataclass(frozen=True)

@@ -29,6 +29,9 @@ OF_DETAIL: Mapping[Detail, Mapping[str, object]] = {  # what a level adds: the f
 
 
 MISNAMED = "source.misnamed_node_file"
+NO_ENTRY = "setup.no_entry"
+OF_FILE = {MISNAMED, "source.misplaced_node_file", "source.no_node_file", "source.empty_node_file"}
+"""The mistakes because of which there is no node that an entry point could name."""
 
 
 def with_feedback(
@@ -128,11 +131,16 @@ def most_stopping(failed: Sequence[CheckResult], checks: Sequence[CheckResult]) 
     """Return that check of some failed ones; see `first_failure`.
 
     A file of another name comes before the entry point that names it: the entry follows the file.
+    Where there is no entry yet, the file that it will name comes first, too. Of the checks that judge
+    the messages, answers and lines of runs, the first one that explains itself is nearest to the cause.
     """
     causes = [cause.id for c in checks if c.status == "skipped" for cause in roots(c, checks)]
     found = max(failed, key=lambda check: (not check.consequence_of, causes.count(check.id)))
+    if found.run:
+        found = next((one for one in failed if one.run and not one.consequence_of), found)
     of_entry = found.where is not None and found.where.file == "setup.py"
-    named = [c for c in failed if any(m.id == MISNAMED for m in c.mistakes)]
+    first = OF_FILE if any(m.id == NO_ENTRY for m in found.mistakes) else {MISNAMED}
+    named = [c for c in failed if any(m.id in first for m in c.mistakes)]
     named = [c for c in named if c.node == found.node]
     return named[0] if of_entry and named else found
 
@@ -153,4 +161,4 @@ def _with_detail(check: CheckResult, level: Detail, *, some_fail: bool) -> Check
 
 
 def _without_wanted(run: RunInfo) -> RunInfo:
-    return run.model_copy(update={"wanted": {}, "plots": []})
+    return run.model_copy(update={"wanted": {}, "plots": [], "drawn": {}})

@@ -23,6 +23,7 @@ from grader.report.events import (
     StageStarted,
     TickSeen,
 )
+from grader.report.notice import for_terminal
 
 if TYPE_CHECKING:
     from rich.live import Live
@@ -89,7 +90,8 @@ class LiveProgress:
             case Note(text=text):
                 note = one_line(self._translate(text), most=500)
                 if self._live is not None:
-                    self._live.console.print(note, soft_wrap=True)
+                    wrapped = for_terminal(note, width_of(self._file))
+                    self._live.console.print(wrapped, soft_wrap=True)
                 else:
                     self._print(f"{note}\n")
 

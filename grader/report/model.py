@@ -240,10 +240,12 @@ class RunInfo(Part):
 
     `instants` is how many instants of ROS time the clock showed, `period` s apart (`observed`);
     `path` has points in metres by the turtle's name, `wanted` those of the path that was wanted.
-    `plots` are the values that the checks of topics judge.
+    `plots` are the values that the checks of topics judge. `drawn` are the values that were drawn
+    for this submission and used in this run, by their names in the assignment's `draw:`.
     """
 
     name: str
+    drawn: dict[str, bool | int | float | str] = Field(default_factory=dict)
     node: str = Field(default="", description="of the assignment, which the first program is")
     world: str = ""
     observed: Observed = Field(default_factory=Observed)

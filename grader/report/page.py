@@ -7,7 +7,8 @@ environment or the terminal of this process.
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Iterator, Sequence
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from rich.cells import cell_len, set_cell_size
@@ -16,12 +17,14 @@ from rich.text import Text
 
 from grader.base.carets import pieces, shortened
 from grader.base.gated_console import Code, GatedConsole
+from grader.base.plain_text import visible
 from grader.report.wrap import breaks, longest_word
 
 NARROW = 60  # columns; on a narrower page, columns are stacked
 WIDEST = 100  # columns; longer lines are hard to read
 LABEL = 12  # columns
 MOST_NARROW = 10  # columns, of text beside its label
+LINE_NUMBER = re.compile(r":\d+$")
 QUOTED, CONTINUED = "  | ", "  |   "
 
 
@@ -40,13 +43,22 @@ class Page:
     """A page of `width` columns; without `styled` it has no control sequences.
 
     Every string must be safe to show (see `grader.base.plain_text`); markup is never interpreted.
-    `translate` renders a `Message` in the reader's language.
+    `translate` renders a `Message` in the reader's language. `links` has URLs by the text of a line
+    of code (a line number after it does not count); a terminal opens them (OSC 8).
     """
 
-    def __init__(self, *, width: int, styled: bool, translate: Callable[[str], str] = str) -> None:
+    def __init__(
+        self,
+        *,
+        width: int,
+        styled: bool,
+        translate: Callable[[str], str] = str,
+        links: Mapping[str, str] | None = None,
+    ) -> None:
         self._out = io.StringIO()
         self.translate = translate
         self._styled = styled
+        self._links = dict(links or {})
         self._whole: set[str] = set()  # lines whose spaces at the end stay
         self._width = max(20, min(width, WIDEST))
         self._console = GatedConsole(
@@ -59,6 +71,11 @@ class Page:
             no_color=not styled,
             legacy_windows=False,
         )
+
+    @property
+    def width(self) -> int:
+        """The columns of the page."""
+        return self._width
 
     @property
     def columns(self) -> int:
@@ -105,6 +122,10 @@ class Page:
         first, rest = self._lead(label, lines)
         for number, line in enumerate(lines):
             lead = first if number == 0 else rest
+            if url := self._links.get(LINE_NUMBER.sub("", line), ""):
+                self._console.print(Text(lead, style="bold"), soft_wrap=True, end="")
+                self._out.write(f"{linked(visible(line), url)}\n")
+                continue
             code = Code((lead, "bold"), (line, _diff_style(line)))
             self._console.print(code, soft_wrap=True)
             if line[1:].strip() and line != line.rstrip():
@@ -218,3 +239,8 @@ class Page:
 
 def _diff_style(line: str) -> str:
     return {"+": "green", "-": "red"}.get(line[:1], "")
+
+
+def linked(text: str, url: str) -> str:
+    """Return a text that a terminal opens as a URL (OSC 8); both must be free of control codes."""
+    return f"\x1b]8;;{url}\x1b\\{text}\x1b]8;;\x1b\\"

@@ -21,8 +21,9 @@ if TYPE_CHECKING:
     from grader.report.model import CheckResult, Quote, Report, RunInfo
 
 LINES, LINES_VERBOSE = 12, 200  # per text
-VALUES_KEY = say("* as wanted, x not as wanted, - wanted; below, | is a due instant")
-INSTANTS_KEY = say("* a message; below, | is a due instant")
+VALUES_KEY = say("* as wanted, x not as wanted, - wanted")
+INSTANTS_KEY = say("* a message")
+DUE_KEY = say("below, | is a due instant")
 PATH_KEY = say("* driven from S to E, . wanted")
 CLOCKS = {"virtual": say("virtual clock"), "wall": say("wall clock"), None: ""}
 COMMAND = re.compile(r"(?<![\w./-])(?:mv|chmod) \S")
@@ -68,6 +69,8 @@ def _head(page: Page, report: Report) -> None:
     page.field(say("package"), one_line(who.package, most=100) if who.package else none)
     page.code(say("in"), [one_line(who.path, most=4_000)])
     page.field(say("ran on"), ran_on(report))
+    if values := drawn_values(report):
+        page.field(say("drawn"), values)
     for note in who.notes:
         page.field(say("note"), first_lines(note, lines=3, translate=page.translate))
     page.gap()
@@ -82,6 +85,16 @@ def ran_on(report: Report) -> str:
     return joined(ros, sandbox, CLOCKS[report.observed.clock], by=", ")
 
 
+def drawn_values(report: Report) -> str:
+    """Return the values that were drawn for the submission, "" if there are none."""
+    found = {name: value for run in report.runs for name, value in run.drawn.items()}
+    shown = [
+        f"{name} = {value:g}" if isinstance(value, float) else f"{name} = {value}"
+        for name, value in found.items()
+    ]
+    return ", ".join(one_line(text, most=60) for text in shown)
+
+
 def _table(page: Page, report: Report, checks: Sequence[CheckResult]) -> None:
     if report.status == "error":
         message = "\n".join(first_lines(report.message, lines=8, translate=page.translate))
@@ -91,9 +104,7 @@ def _table(page: Page, report: Report, checks: Sequence[CheckResult]) -> None:
     if checks:
         page.table([_row(check) for check in checks])
         page.gap()
-    total = say("Score {score} / {most}", score=points(report.score), most=points(report.max_score))
-    open_ = say(", {points} inconclusive", points=points(report.inconclusive))
-    page.line((total + (open_ if report.inconclusive else ""), "bold"), _counts(checks))
+    page.line((total(report), "bold"), counts(checks))
     if report.status == "graded" and report.message.strip():
         page.line(
             "\n".join(first_lines(report.message, lines=8, translate=page.translate)), indent=2
@@ -108,7 +119,15 @@ def hidden_checks(count: int) -> str:
     return say_plural("1 hidden check: not shown", "{count} hidden checks: not shown", count)
 
 
-def _counts(checks: Sequence[CheckResult]) -> str:
+def total(report: Report) -> str:
+    """Return the score, and the points that are neither given nor lost."""
+    score = say("Score {score} / {most}", score=points(report.score), most=points(report.max_score))
+    open_ = say(", {points} inconclusive", points=points(report.inconclusive))
+    return score + (open_ if report.inconclusive else "")
+
+
+def counts(checks: Sequence[CheckResult]) -> str:
+    """Return how many checks have which verdict, in brackets."""
     if checks and all(check.status == "passed" for check in checks):
         return joined("  (", say("every check passed"), ")", by="")
     count = {word: sum(c.status == status for c in checks) for status, word in WORDS.items()}
@@ -166,7 +185,8 @@ def _sketches(page: Page, report: Report, check: CheckResult, drawn: set[tuple[s
             if is_new(run.name, plot.topic, plot.field):
                 what = heading(run, plot.topic, plot.field)
                 page.code(say("values"), [what, *value_sketch(plot, page.columns)])
-                page.field("", VALUES_KEY if plot.field else INSTANTS_KEY)
+                key = VALUES_KEY if plot.field else INSTANTS_KEY
+                page.field("", joined(key, DUE_KEY if plot.due else "", by="; "))
         if any(found.id.startswith("world.") for found in check.mistakes):
             for turtle, driven in run.path.items():
                 if is_new(run.name, turtle):
@@ -251,7 +271,8 @@ def _details(
             quotation(page, text, title, lines=LINES_VERBOSE, whole=True)
 
 
-def _next(check: CheckResult, *, own_code: bool) -> str:
+def next_step(check: CheckResult, *, own_code: bool) -> str:
+    """Return what to do about a check that failed."""
     name, edited = one_line(check.id, most=60), not _is_done_by_command(check)
     if check.where is None:
         if own_code and edited:
@@ -261,9 +282,7 @@ def _next(check: CheckResult, *, own_code: bool) -> str:
         if edited:
             return say("Fix {check}, save, and grade again.", check=name)
         return say("Fix {check}, then grade again.", check=name)
-    place: str = one_line(check.where.file, most=100)
-    if check.where.line is not None:
-        place = say("{file}, line {line}", file=place, line=check.where.line)
+    place = place_of(check)
     if own_code and edited:
         return say("Fix {check} (in {place}), save, and run check again.", check=name, place=place)
     if own_code:
@@ -271,6 +290,16 @@ def _next(check: CheckResult, *, own_code: bool) -> str:
     if edited:
         return say("Fix {check} (in {place}), save, and grade again.", check=name, place=place)
     return say("Fix {check} ({place}), then grade again.", check=name, place=place)
+
+
+def place_of(check: CheckResult) -> str:
+    """Return the file and the line that a check names, "" if it names none."""
+    if check.where is None:
+        return ""
+    file = one_line(check.where.file, most=100)
+    if check.where.line is None:
+        return file
+    return say("{file}, line {line}", file=file, line=check.where.line)
 
 
 def _is_done_by_command(check: CheckResult) -> bool:
@@ -293,7 +322,7 @@ def _foot(
     failed = [check for check in checks if check.status == "failed"]
     first = most_stopping(failed, report.checks) if failed else None
     if first is not None:
-        page.field(say("next"), _next(first, own_code=own_code))
+        page.field(say("next"), next_step(first, own_code=own_code))
     if command := command_for(first, report):
         page.code(say("ran"), [one_line(command, most=4_000)])
     if path is not None:

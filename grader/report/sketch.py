@@ -10,18 +10,18 @@ from collections.abc import Sequence
 from grader.report.model import TopicPlot
 
 WIDEST, LEAST = 60, 16  # columns
-ROWS = 9
+ROWS = 9  # of a plot of values
 RIGHT, WRONG, WANTED, DUE = "*", "x", "-", "|"
 LABEL = 10  # columns, of a value at the left
 SIDES = 2.1  # height of a character for its width
 
 
-def value_sketch(plot: TopicPlot, columns: int) -> list[str]:
-    """Return the lines of a plot that is at most so many columns wide."""
+def value_sketch(plot: TopicPlot, columns: int, *, rows: int = ROWS) -> list[str]:
+    """Return the lines of a plot that is at most so many columns wide, and so many rows high."""
     width = max(LEAST, min(WIDEST, columns) - LABEL - 2)
     first, last = plot.times
     low, high = plot.values
-    rows = ROWS if plot.field else 1
+    rows = rows if plot.field else 1
     grid = [[" "] * width for _ in range(rows)]
 
     def column(at: float) -> int:

@@ -8,18 +8,27 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, TextIO
 
 from grader.base.gate import show
-from grader.base.stream import takes_styles, width_of
+from grader.base.stream import is_terminal, takes_styles, width_of
 from grader.report.live import LiveProgress
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from grader.report.model import Quote, Report
+    from grader.report.one_screen import Lead
 
-__all__ = ["LiveProgress", "print_matrix", "print_report", "render_matrix", "render_report"]
+__all__ = [
+    "LiveProgress",
+    "print_matrix",
+    "print_one_screen",
+    "print_report",
+    "render_matrix",
+    "render_report",
+]
 
 
 def render_report(
@@ -96,6 +105,26 @@ def print_report(
         path=path,
         own_code=own_code,
         more=more,
+    )
+    show(text, file)
+
+
+def print_one_screen(
+    report: Report, lead: Lead, *, file: TextIO | None = None, show_hidden: bool = False
+) -> None:
+    """Print what fits on one screen (see `grader.report.one_screen`), by default to standard output.
+
+    Paths are links where `file` is a terminal.
+    """
+    from grader.report.one_screen import one_screen  # noqa: PLC0415 - rich costs 35 ms
+
+    file = file or sys.stdout
+    text = one_screen(
+        report,
+        lead if is_terminal(file) else replace(lead, links={}),
+        width=width_of(file),
+        styled=takes_styles(file),
+        show_hidden=show_hidden,
     )
     show(text, file)
 

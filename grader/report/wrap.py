@@ -5,6 +5,7 @@ A name that fits on a line is never cut, nor is quoted code.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 
@@ -31,6 +32,11 @@ def breaks(text: str, width: int, *, whole_code: bool = False) -> list[int]:
             found.append(start + len(word) - len(bare))
             used = cell_len(bare)
     return found
+
+
+def rows(text: str, width: int) -> int:
+    """Return how many lines a text without styles takes on a terminal, which breaks long ones."""
+    return sum(max(1, math.ceil(cell_len(line) / width)) for line in text.splitlines())
 
 
 def _units(text: str, width: int, *, whole_code: bool) -> Iterator[tuple[int, str]]:

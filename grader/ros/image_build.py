@@ -18,7 +18,7 @@ from grader.base.cache import Notify
 from grader.base.errors import SurroundingsError, UsageError
 from grader.base.project import CHECKOUT, SHARES
 from grader.ros.distro import Distro
-from grader.ros.images import Base, Stage, image_name
+from grader.ros.images import ROS_LABEL, Base, Stage, image_name
 
 if TYPE_CHECKING:
     from docker import DockerClient
@@ -27,6 +27,7 @@ WHEELS_BASE = "debian:trixie-slim"
 PROXIES = ("HTTP_PROXY", "HTTPS_PROXY", "NO_PROXY", "http_proxy", "https_proxy", "no_proxy")
 CONTEXT = ("docker", "grader", "lab", ".dockerignore")
 STEP = re.compile(r"^Step (\d+/\d+) : (\S+) *(.*)")
+COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 TAIL = 12  # lines of output in an error message
 
 
@@ -34,15 +35,19 @@ TAIL = 12  # lines of output in an error message
 class Network:
     """The network settings of a build.
 
-    `extra_ca` is a PEM file that only builder stages see. `wheels_base` and `ros_base` name other
-    base images (a local one, or a digest).
+    `extra_ca` is a PEM file that only builder stages see. `base_image` is another image to build
+    on than the official one, or than Debian's for the wheels (a local one, or a digest).
     """
 
     apt_mirror: str = ""
     pip_index: str = ""
     extra_ca: Path | None = None
-    wheels_base: str = WHEELS_BASE
-    ros_base: str = ""
+    base_image: str = ""
+
+    def check(self) -> None:
+        """Raise UsageError if the extra certificate cannot be read or is none."""
+        if self.extra_ca is not None:
+            _certificates(self.extra_ca)
 
     def arguments(self) -> dict[str, str]:
         """Return the build arguments, including the proxies of this process' environment."""
@@ -62,22 +67,37 @@ def build_image(
 ) -> str:
     """Build an image (and its wheels base), tag it, and return its id.
 
-    Raises UsageError if the distro has no wheels, SurroundingsError if the build fails.
+    `choose_base` chooses the base, whose image has to be there. Raises SurroundingsError if the build
+    fails, UsageError if the extra certificate is none.
     """
     arguments = {**network.arguments(), "DISTRO": distro.name, "VERSION": grader.__version__}
     if base == "wheels":
-        if distro.lock is None:
-            raise UsageError(
-                f"PyPI has no ROS wheels for {distro.name}", remedy="Use BASE=ros for it."
-            )
         under = image_name(distro, "base", "wheels")
-        build = {**arguments, "WHEELS_BASE": network.wheels_base}
+        build = {**arguments, "WHEELS_BASE": network.base_image or WHEELS_BASE}
         _build(client, "docker/wheels.Dockerfile", "wheels", under, build, network, notify)
         arguments |= {"BASE": under, "ROS": "wheels"}
     else:
-        arguments |= {"BASE": network.ros_base or distro.pinned_image, "ROS": "image"}
+        arguments |= {"BASE": network.base_image or distro.pinned_image, "ROS": "image"}
     name = image_name(distro, stage, base)
-    return _build(client, "docker/Dockerfile", stage, name, arguments, network, notify)
+    made = _build(client, "docker/Dockerfile", stage, name, arguments, network, notify)
+    if base == "wheels":
+        _name_as_only_one(client, made, image_name(distro, stage, "ros"))
+    return made
+
+
+def _name_as_only_one(client: DockerClient, made: str, official: str) -> None:
+    """Give an image on wheels the name without a suffix too, unless an official one has it.
+
+    compose cannot look for images: it finds the one with this name, or makes it.
+    """
+    import docker.errors  # noqa: PLC0415
+
+    try:
+        has_it = client.images.get(official).labels.get(ROS_LABEL) != "wheels"
+    except docker.errors.ImageNotFound:
+        has_it = False
+    if not has_it:
+        client.images.get(made).tag(official)
 
 
 def _build(
@@ -115,9 +135,9 @@ def _build(
                     notify(f"  {step.group(1)} {step.group(2)} {step.group(3)[:70]}".rstrip())
         return str(client.images.get(name).id)
     except _BuildError as error:
-        raise _failed(name, str(error), tail, arguments) from None
+        raise _failed(name, str(error), tail) from None
     except (docker.errors.DockerException, OSError) as error:
-        raise _failed(name, str(error), tail, arguments) from None
+        raise _failed(name, str(error), tail) from None
 
 
 class _BuildError(Exception):
@@ -127,28 +147,21 @@ class _BuildError(Exception):
 def _texts(lines: Iterator[dict[str, object]]) -> Iterator[str]:
     for line in lines:
         if "error" in line:
-            raise _BuildError(str(line["error"]).strip())
-        text = str(line.get("stream") or line.get("status") or "").strip()
+            raise _BuildError(plain(str(line["error"])))
+        text = plain(str(line.get("stream") or line.get("status") or ""))
         if text:
             yield text
 
 
-def _failed(name: str, said: str, tail: list[str], arguments: dict[str, str]) -> SurroundingsError:
-    base = arguments.get("BASE") or arguments.get("WHEELS_BASE", "")
+def plain(text: str) -> str:
+    """Return a text of the daemon without colours: the classic builder's for what is on stderr."""
+    return COLOUR.sub("", text).strip()
+
+
+def _failed(name: str, said: str, tail: list[str]) -> SurroundingsError:
     words = "\n".join([*tail, said])
     if "no space left" in words:
         remedy = "Free some disk space for Docker: `docker system df` shows what uses it."
-    elif (
-        (base and base in said)
-        or "pull access denied" in said
-        or "registry" in said
-        or "manifest" in said
-    ):
-        remedy = (
-            f"The base image {base} is not available. If you cannot reach a registry: "
-            "docker/make_base.sh makes a base with debootstrap, and `make images BASE=wheels` needs "
-            "no official image (docs/images.md)."
-        )
     else:
         remedy = (
             "Check the network (HTTPS_PROXY, APT_MIRROR, EXTRA_CA=file.pem; docs/images.md), then "

@@ -23,19 +23,21 @@ Base = Literal["ros", "wheels"]
 Stage = Literal["grade", "lab"]
 REPOSITORY = "ros2-teaching-lab"
 REPOSITORY_VARIABLE = "GRADER_IMAGES"
-DISTRO_LABEL = "ros2-teaching-lab.distro"
 ROS_LABEL = "ros2-teaching-lab.ros"
-STAGE_LABEL = "ros2-teaching-lab.stage"
 VERSIONS = "/opt/ros/versions.json"
 OLDEST_API = (1, 40)  # Docker 19.03
 CONNECT_SECONDS = 20.0  # a daemon that hangs must not block us
 REQUEST_SECONDS = 120.0
 
 
+def repository() -> str:
+    """Return the images' repository; $GRADER_IMAGES sets another one."""
+    return os.environ.get(REPOSITORY_VARIABLE) or REPOSITORY
+
+
 def image_name(distro: Distro, stage: Stage | Literal["base"], base: Base) -> str:
-    """Return the name of an image; $GRADER_IMAGES sets another repository."""
-    repository = os.environ.get(REPOSITORY_VARIABLE) or REPOSITORY
-    return f"{repository}:{stage}-{distro.name}" + ("-wheels" if base == "wheels" else "")
+    """Return the name of an image."""
+    return f"{repository()}:{stage}-{distro.name}" + ("-wheels" if base == "wheels" else "")
 
 
 def connect(*, instead: str = WITHOUT_DOCKER) -> DockerClient:
@@ -73,7 +75,7 @@ def _unreachable(said: str, instead: str) -> SurroundingsError:
             remedy=joined(
                 say(
                     "Join the group `docker` (sudo usermod -aG docker $USER, then log in again; its "
-                    "members have the power of root), or use rootless Docker."
+                    "members have the power of root)."
                 ),
                 instead,
             ),

@@ -6,8 +6,7 @@ import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from grader.ros.distro import HERE
-
+HERE = Path(__file__).resolve().parent
 KINDS = ("msg", "srv", "action")
 ALWAYS = ("action_msgs", "builtin_interfaces", "service_msgs", "unique_identifier_msgs")
 """Packages that the messages of services and actions use."""

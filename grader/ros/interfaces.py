@@ -13,12 +13,7 @@ from __future__ import annotations
 
 import hashlib
 import os
-import re
 import shutil
-import subprocess
-import sys
-import sysconfig
-import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
@@ -27,21 +22,17 @@ from pathlib import Path
 from grader.base.cache import Notify, discard, make_once
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import Message, msg
+from grader.ros import wheels_tree
 from grader.ros.distro import HERE, Distro
-from grader.ros.interface_package import BUILD, USED, interface_package, texts_in
+from grader.ros.interface_package import texts_in
 from grader.ros.prefix import PROGRAMS, Ros, is_complete, is_in_cache
 from grader.ros.prefix_build import install
-from grader.ros.scripts import use_own_python
 from grader.ros.turtlesim_executables import install_programs, program_sources
 
 FORMAT = 2  # increment it when this module makes something else
 TEXTS = HERE / "interface_texts"
 TURTLESIM = TEXTS / "turtlesim"
-LINT = "ament_lint_auto"
-SOURCES = ("interfaces.cmake.in", "interface_package.py", f"{LINT}.cmake")
-MOST_OUTPUT = 2_000  # characters of the output of a failed build
-PYTHON_INCLUDE = re.compile(r"/opt/python/[^/\";]+/include/python[\d.]+")
-NUMPY_INCLUDE = re.compile(r"/opt/python/[^\";]*/numpy/_?core/include")
+SOURCES = ("interfaces.cmake.in", "interface_package.py", f"{wheels_tree.LINT}.cmake")
 MAKING = msg("building the interfaces of {package} for ROS {distro} (a minute or two, once)")
 READY = msg("the interfaces of {package} are ready in {path}")
 NO_COMPILER = msg("interfaces of {package} must be built once, but this machine has no {missing}")
@@ -50,6 +41,7 @@ INSTALL_COMPILER = msg(
     "wheels need none."
 )
 NOT_BUILT = msg("the interfaces of {package} could not be built:\n{output}")
+WITHOUT_TURTLESIM = msg("turtlesim is not in this lab: {problem}")
 REPORT = msg("Run the command again. If that does not help, report this error message.")
 NOT_INSTALLED = msg("ROS {distro} at {path} has no package {package}")
 INSTALL_PACKAGE = msg("Install it: sudo apt-get install ros-{distro}-{deb}")
@@ -70,6 +62,22 @@ def with_interfaces(ros: Ros, packages: Sequence[str] = (), *, notify: Notify) -
         folder = ros.path.with_name(f"{ros.path.name}-{package}-{key.hexdigest()[:16]}")
         ros = _with_package(ros, package, folder, partial(_add_package, package), notify)
     return ros
+
+
+def with_turtlesim(ros: Ros, *, notify: Notify) -> Ros:
+    """Return a ROS installation with turtlesim if it has it or it can be built, else as it is.
+
+    A failure is told with `notify`: nothing depends on turtlesim here.
+    """
+    if not is_in_cache(ros):
+        return ros
+    if not _is_complete(interfaces_path(ros)) and missing_for_building():
+        return ros
+    try:
+        return with_interfaces(ros, notify=notify)
+    except SurroundingsError as error:
+        notify(Message(WITHOUT_TURTLESIM, {"problem": error.message}))
+        return ros
 
 
 def _with_package(
@@ -107,11 +115,7 @@ def make_interfaces(ros: Ros, staging: Path, notify: Notify) -> None:
     """Make the prefix in an empty folder beside the wheels prefix; raises SurroundingsError."""
     _copy(ros, staging)
     install(ros.distro.name, _lock(ros.distro), staging, notify)
-    use_own_python(staging / "bin", sys.executable)
-    _correct_paths(staging)
-    lint = staging / "share" / LINT / "cmake"
-    lint.mkdir(parents=True)
-    shutil.copy(HERE / f"{LINT}.cmake", lint / f"{LINT}Config.cmake")
+    wheels_tree.prepare_building(staging)
     _build(ros, staging, ros.distro.turtlesim, TURTLESIM)
     install_programs(staging, ros.interpreter)
 
@@ -127,20 +131,13 @@ def _copy(ros: Ros, staging: Path) -> None:
 
 
 def _build(ros: Ros, prefix: Path, package: str, folder: Path) -> None:
-    """Build and install a package of interfaces from its texts, and load one of its messages."""
-    texts = texts_in(folder)
-    used = {name for text in texts.values() for name in USED.findall(text)} - {package}
-    with tempfile.TemporaryDirectory(dir=prefix.parent, prefix=".interfaces-") as made:
-        for path, text in interface_package(package, texts, used).items():
-            file = Path(made, path)
-            file.parent.mkdir(exist_ok=True)
-            file.write_text(text, encoding="utf-8")
-        _run(package, ["bash", "-c", BUILD, "bash", str(prefix), made, str(prefix)])
-    parents = prefix / "share" / "ament_index" / "resource_index" / "parent_prefix_path"
-    (parents / package).write_text(ros.inside, encoding="utf-8")  # (the build wrote its own)
-    message = next(Path(path).stem for path in sorted(texts) if path.startswith("msg/"))
-    code = f"import {package}.msg as m; m.{message}.__class__.__import_type_support__()"
-    _run(package, ["bash", "-c", '. "$0/setup.bash"; exec python3 -c "$1"', str(prefix), code])
+    """Build and install a package of interfaces from its texts; raises SurroundingsError."""
+    try:
+        wheels_tree.build_interfaces(ros.inside, prefix, package, folder)
+    except wheels_tree.InterfacesError as error:
+        raise SurroundingsError(
+            Message(NOT_BUILT, {"package": package, "output": str(error)}), remedy=Message(REPORT)
+        ) from None
 
 
 def _lock(distro: Distro) -> Path:
@@ -155,7 +152,7 @@ def _is_complete(folder: Path) -> bool:
 def missing_for_building() -> list[str]:
     """Return what this machine lacks for building interfaces; empty if it can."""
     missing = [name for name in ("g++", "make") if shutil.which(name) is None]
-    if not Path(_python_include(), "Python.h").is_file():
+    if not Path(wheels_tree.python_include(), "Python.h").is_file():
         missing.append("Python.h")
     return missing
 
@@ -166,38 +163,4 @@ def _require_compiler(package: str) -> None:
         raise SurroundingsError(
             Message(NO_COMPILER, {"package": package, "missing": ", ".join(missing)}),
             remedy=Message(INSTALL_COMPILER),
-        )
-
-
-def _python_include() -> str:
-    return sysconfig.get_path("include")
-
-
-def _correct_paths(staging: Path) -> None:
-    """Replace the paths of the machine that built the wheels, in their CMake files."""
-    site = next((staging / "lib").glob("python3*/site-packages"))
-    core = next(name for name in ("_core", "core") if (site / "numpy" / name / "include").is_dir())
-    numpy = f"${{CMAKE_CURRENT_LIST_DIR}}/../../../lib/{site.parent.name}/site-packages/numpy"
-    for file in (staging / "share").rglob("*.cmake"):
-        text = file.read_text(encoding="utf-8")
-        new = NUMPY_INCLUDE.sub(lambda _: f"{numpy}/{core}/include", text)
-        new = PYTHON_INCLUDE.sub(lambda _: _python_include(), new)
-        if new != text:
-            file.unlink()  # a hard link: the file of the other prefix stays as it is
-            file.write_text(new, encoding="utf-8")
-
-
-def _run(package: str, command: list[str]) -> None:
-    done = subprocess.run(
-        command,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        env={"PATH": "/usr/local/bin:/usr/bin:/bin", "LANG": "C.UTF-8"},
-        check=False,
-    )
-    if done.returncode:
-        output = done.stdout.decode(errors="replace")[-MOST_OUTPUT:]
-        raise SurroundingsError(
-            Message(NOT_BUILT, {"package": package, "output": output}), remedy=Message(REPORT)
         )

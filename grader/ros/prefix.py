@@ -25,16 +25,18 @@ from grader.base.cache import Notify, cache_root, discard, make_once
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import Message, joined, msg, say
 from grader.ros.distro import HERE, Distro
-from grader.ros.prefix_build import COMMAND, VERSION_NAMES, make_prefix
+from grader.ros.prefix_build import COMMAND, make_prefix
+from grader.ros.wheels_tree import VERSION_NAMES
 
-FORMAT = 2  # increment it when `prefix_build` makes something else
+FORMAT = 2  # increment it when `wheels_tree` or `prefix_build` makes something else
 PYTHONS = ("3.10", "3.11", "3.12", "3.13")  # with ROS wheels on PyPI
 PROGRAMS = ("python3", "colcon", "ros2")  # in bin, used by a verdict
 NO_ROS = msg("there is no ROS {distro} at {path}")
 INSTALL = msg("Install it, or unset GRADER_ROS to use PyPI's wheels.")
 NO_WHEELS = msg("PyPI has no ROS wheels for {distro}")
 OTHER_DISTRO = msg(
-    "Use DISTRO=jazzy or DISTRO=kilted, or a machine that has ROS {distro} at /opt/ros/{distro}."
+    "With Docker: make images DISTRO={distro}. Without: DISTRO=jazzy or DISTRO=kilted, or a machine that "
+    "has ROS {distro} at /opt/ros/{distro}."
 )
 OTHER_PLATFORM = msg(
     "PyPI's ROS wheels are for Linux x86_64 and Python {versions}; this is {system} and Python "
@@ -164,8 +166,8 @@ def instead_of_docker(distro: Distro) -> str:
 
 
 def has_system_ros(distro: Distro) -> bool:
-    """Whether this machine has the distro at /opt/ros."""
-    return (Path("/opt/ros") / distro.name / "setup.bash").is_file()
+    """Whether this machine has the distro at /opt/ros, and this user may read it."""
+    return os.access(f"/opt/ros/{distro.name}/setup.bash", os.R_OK)
 
 
 def _other_machine() -> bool:

@@ -5,17 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from grader.base.errors import UsageError
-from grader.base.i18n.message import say
 from grader.course.assignment import Assignment
-from grader.course.scenario import Call, Publish, RunPlan, SendGoal, Start, Stimulus
+from grader.course.scenario import Call, Publish, RunPlan, SendGoal, Stimulus
 from grader.package.source.timer_periods import TimerPeriods
-from grader.ros.distro import Distro
 from grader.run.in_probe.turtlesim import STEP
-from grader.run.observations import Done, End, Goal, Message, Observations, Parameter, Pose
+from grader.run.observations import Done, Goal, Message, Observations, Pose, parameter_from
 from grader.run.observer import SECOND, Event, Observer
-from grader.run.probe_link import Answer, ProbeError, ProbeLink, in_probe
-from grader.run.programs import full_name, names_of
+from grader.run.prepare import prepare
+from grader.run.probe_link import Answer, ProbeError, ProbeLink
+from grader.run.programs import command_of, full_name, names_of
 from grader.run.run import (
     COMPLETE_SECONDS,
     DYING_SECONDS,
@@ -25,16 +23,14 @@ from grader.run.run import (
     Run,
     accepts,
     ends,
+    look_at_programs,
     press_ctrl_c,
-    ros2_run,
     start,
 )
 from grader.run.terminal import Terminal
 from grader.sandbox.base import Sandbox
 
-MODULES = ("messages", "parameters", "graph", "goals", "scenario")  # of in_probe, in order of need
 MILLISECOND = 1_000_000
-PREPARE_SECONDS = 5.0  # of the run's time, to make the probe's ends
 STEP_SECONDS = 2.0  # of the run's time, for one step
 SETTLE_SECONDS = 3.0  # of the run's time, within which a spinning node gives its first answer
 RECEIVED = ("publish", "call", "goal", "set")  # what a node must be there to receive
@@ -47,15 +43,6 @@ LOOK_SECONDS = 2.0  # of the run's time, to read the graph, and the parameters o
 MOST_MESSAGES = 20_000  # of a run
 MOST_FEEDBACK = 1_000  # of a goal
 MOST_POSES = 20_000  # of a turtle in a run: the 16 ms steps of five minutes
-
-
-def command_of(assignment: Assignment, begin: Start, distro: Distro) -> str:
-    """Return the `ros2 run` command that starts a node of a plan; "" if it has no executable."""
-    node = assignment.nodes[begin.node]
-    package = node.package or assignment.package
-    if not node.executable:
-        return ""
-    return ros2_run(distro, package, node.executable, *begin.words(package))
 
 
 def conduct(
@@ -80,16 +67,15 @@ def conduct(
     others = [Program(one.node, line) for one, line in zip(plan.start, commands)][1:]
     run = Run(command=commands[0], name=plan.name, seen=seen, others=others)
     probe.until = until - limits.stop_seconds - END_SECONDS
-    probe.ready()
-    probe.extend([in_probe(name) for name in MODULES])
-    seen.unusable.update(_prepare(probe, assignment, plan))
+    seen.unusable.update(prepare(probe, assignment, plan))
+    run.began = probe.now()
     run_clock = sandbox.run_clock
     begin = run_clock.now()
     terminals: list[Terminal] = []
     try:
         terminals += [start(sandbox, command or NOTHING, probe.pipe) for command in commands]
         observer = Observer(terminals[0], probe, assignment.output, terminals[1:])
-        scene = _Scene(assignment, plan, probe, observer, terminals, run, on_event)
+        scene = Scene(assignment, plan, probe, observer, terminals, run, on_event)
         scene.deadline = min(begin + limits.run_seconds, probe.until)
         scene.grid = _grid(plan, timers)
         scene.play(begin, limits.start_seconds)
@@ -110,30 +96,6 @@ def conduct(
     return run
 
 
-def _prepare(probe: ProbeLink, assignment: Assignment, plan: RunPlan) -> dict[str, str]:
-    """Make the ends that the plan needs; UsageError for what ROS does not have.
-
-    Return the types of the submission's packages that cannot be used, and why.
-    """
-    said = probe.said(
-        "prepare",
-        seconds=PREPARE_SECONDS,
-        watch=list(plan.topics.items()),
-        publish=[[one.publish.topic, one.publish.type] for one in plan.do if one.publish],
-        call=[[one.call.service, one.call.type] for one in plan.do if one.call],
-        goal=[[one.goal.action, one.goal.type] for one in plan.do if one.goal],
-        periods={topic: round(seconds * SECOND) for topic, seconds in plan.periods.items()},
-        world=in_probe(plan.world) if plan.world else None,
-        students=assignment.interface_packages,
-    )
-    for kind in said.get("unknown", ()):
-        raise UsageError(
-            say("there is no interface {type} in this ROS", type=kind),
-            remedy=say("Correct the run '{name}' of the assignment.", name=plan.name),
-        )
-    return {str(kind): str(why) for kind, why in said.get("unusable", {}).items()}
-
-
 def _grid(plan: RunPlan, timers: TimerPeriods) -> int:
     """Return the steps (ns) in which the clock goes on between two instants; 0 for one step.
 
@@ -149,7 +111,7 @@ def _grid(plan: RunPlan, timers: TimerPeriods) -> int:
     return round(period / steps * SECOND) if steps > 1 else 0
 
 
-class _Scene:
+class Scene:
     """A run that goes on."""
 
     def __init__(
@@ -188,7 +150,7 @@ class _Scene:
         """Wait for the nodes, then go through all instants of the plan."""
         run, watch = self.run, self.run.watch
         self.observer.lossy = True
-        self._wait_for_nodes(begin, most)
+        self.wait_for_nodes(begin, most)
         if run.nodes and not self.over:
             watch.clock = "virtual"
             watch.settled = self._settle()
@@ -197,7 +159,8 @@ class _Scene:
             for other, terminal in zip(run.others, self.terminals[1:]):
                 other.started = not terminal.ended
             self._look()
-            self._do_all(0.0)
+            self._look_at_programs()
+            self.do_all(0.0)
             for k in range(1, self.plan.clock.ticks + 1):
                 if self.over:
                     break
@@ -213,12 +176,28 @@ class _Scene:
         watch.events[:] = self.observer.visible(watch.events)
         if run.nodes:
             self._look()
+            self._look_at_programs(last=True)
         run.ended_by_itself = self.terminals[0].ended
         run.flooded, run.logged = self.observer.flooded, self.observer.logged
         run.doubled = self.observer.doubled
         run.started = watch.settled or bool(run.nodes and not run.ended_by_itself)
 
-    def _wait_for_nodes(self, begin: float, most: float) -> None:
+    def _look_at_programs(self, *, last: bool = False) -> None:
+        """Note what runs besides the files of the entry points, once each program has its node."""
+        if len(self.run.nodes) < len(self.terminals):
+            return
+        found: list[Run | Program] = [self.run, *self.run.others]
+        for program, terminal, begin in zip(found, self.terminals, self.plan.start):
+            node = self.assignment.nodes[begin.node]
+            if node.executable:
+                package = node.package or self.assignment.package
+                look_at_programs(program, terminal, package, node.executable, last=last)
+
+    def wait_for_nodes(self, begin: float, most: float, *, plain: bool = False) -> None:
+        """Wait until each program has a node with all its ends, for `most` seconds at most.
+
+        (Without our arguments, in a `plain` run, a node does not listen to /clock.)
+        """
         first_seen: float | None = None
         while not self.over:
             answer = self.probe.ask("wait", seconds=0.02)
@@ -231,7 +210,7 @@ class _Scene:
                 first_seen = first_seen or now
                 self.run.nodes = answer.nodes
                 self.run.node_seconds = first_seen - begin
-                complete = all(node.clock and node.services for node in answer.nodes)
+                complete = all((node.clock or plain) and node.services for node in answer.nodes)
                 alone = len(answer.nodes) >= sum(not one.ended for one in self.terminals)
                 if complete and answer.matched and alone:
                     break
@@ -283,18 +262,19 @@ class _Scene:
             first = (self.at // self.grid + 1) * self.grid
             for step in range(first, at - MILLISECOND, self.grid):
                 if not self.over:
-                    self._show(step)
+                    self.show(step)
         if len(self.seen.instants) < FINE_TICKS:
-            self._show(at - MILLISECOND)
-        self._show(at)
+            self.show(at - MILLISECOND)
+        self.show(at)
         self.seen.instants.append(round(at / SECOND, 6))
         heard, self._unknown = self._unknown, set()
         due = self._waiting and self._waiting[0].at <= at / SECOND + 1e-9
         if (due or heard) and not self.over:  # (what a stimulus changes, and who sent a message)
             self._look_at_ends()
-        self._do_all(at / SECOND)
+        self.do_all(at / SECOND)
 
-    def _show(self, at: int) -> None:
+    def show(self, at: int) -> None:
+        """Move the world and the clock to an instant (ns), and take what the nodes did."""
         barriers = 1 + (at // STEP - self.at // STEP if self.plan.world else 0)
         self.at = at
         self.observer.now = at / SECOND
@@ -327,7 +307,8 @@ class _Scene:
                 break
         self._dying_left -= self._run_clock.now() - began
 
-    def _do_all(self, until: float) -> None:
+    def do_all(self, until: float) -> None:
+        """Do what is due at an instant (s)."""
         while self._waiting and self._waiting[0].at <= until + 1e-9 and not self.over:
             self._do(self._waiting.pop(0))
 
@@ -352,6 +333,18 @@ class _Scene:
             said = self._act(done, "set", name=name, values=values)
             for parameter, accepted, reason in said["set"]:
                 done.accepted[str(parameter)] = "" if accepted else str(reason) or "refused"
+            right = {one: value for one, value in values.items() if done.accepted.get(one) == ""}
+            if right:
+                done.unproven.update(self._unproven(name, right))
+
+    def _unproven(self, name: str, values: Mapping[str, object]) -> dict[str, str]:
+        """Return what does not show of values that a node has accepted, until the run's clock is over."""
+        limit = self._run_clock.limit(LOOK_SECONDS)
+        while True:
+            said = self.probe.said("unproven", seconds=limit.rest, name=name, values=values)
+            self._record(said)
+            if not said["unproven"] or limit.over or self.over:
+                return {str(one): str(what) for one, what in said["unproven"].items()}
 
     def _send(self, done: Done, command: str, what: Publish | Call | SendGoal) -> None:
         """Send something of a type, which may not have the fields that the assignment asks for."""
@@ -377,11 +370,13 @@ class _Scene:
         """Keep what an answer holds, at the present instant."""
         at, seen = round(self.at / SECOND, 6), self.seen
         self._take(self.probe.answer_of(said))
-        for topic, values, before in said.get("messages", ()):
+        seen.keep_graph(said)
+        for topic, values, before, sender in said.get("messages", ()):
             if len(seen.messages) < MOST_MESSAGES:
                 # one that was sent before the clock's first instant can arrive after it, under load
                 sent = min(at, MILLISECOND / SECOND) if before else at
-                seen.messages.append(Message(str(topic), sent, values))
+                seen.messages.append(Message(str(topic), sent, values, str(sender)))
+        seen.name_senders(said.get("senders", {}))
         for topic, count in said.get("counts", {}).items():
             if topic not in seen.counts and not seen.ends_of("publisher", topic):
                 self._unknown.add(topic)
@@ -394,12 +389,12 @@ class _Scene:
             self._record_goal(str(name), str(what), values)
         path = said.get("path", ())
         turtles = len({pose[0] for pose in path}) or 1
-        for n, (turtle, x, y, theta) in enumerate(path):
+        for n, (turtle, x, y, theta, *put) in enumerate(path):
             if len(seen.path) < MOST_POSES * turtles:
                 behind = (len(path) - 1 - n) // turtles
                 now = (self.at // STEP - behind) * STEP / SECOND
-                place = Pose(str(turtle), round(now, 3), round(x, 6), round(y, 6), round(theta, 6))
-                seen.path.append(place)
+                place = (round(x, 6), round(y, 6), round(theta, 6))
+                seen.path.append(Pose(str(turtle), round(now, 3), *place, put=any(put)))
         seen.events += [{**event, "at": at} for event in said.get("events", ())]
 
     def _record_goal(self, name: str, what: str, values: Any) -> None:
@@ -435,7 +430,7 @@ class _Scene:
         for name in self._names.values():
             asked = self._asked(name)
             if asked is not None:
-                found = {one.name: one for one in map(_parameter, asked)}
+                found = {one.name: one for one in map(parameter_from, asked)}
                 found |= {one.name: one for one in self.seen.parameters.get(name, ())}
                 self.seen.parameters[name] = list(found.values())
 
@@ -448,27 +443,11 @@ class _Scene:
                 return said.get("parameters")
 
     def _look_at_ends(self) -> None:
-        """Read the graph. Ends that were there once stay known: some nodes destroy theirs."""
-        known = {(end.node, end.role, end.name, end.type) for end in self.seen.ends}
-        said = self.probe.said("look_closely", seconds=LOOK_SECONDS)
-        for found in said.get("ends", ()):
-            end = End(**found)
-            if (end.node, end.role, end.name, end.type) not in known:
-                self.seen.ends.append(end)
+        """Read the graph."""
+        self.seen.keep_graph(self.probe.said("look_closely", seconds=LOOK_SECONDS))
 
 
-def _parameter(found: Mapping[str, Any]) -> Parameter:
-    bounds = found["range"]
-    return Parameter(
-        name=str(found["name"]),
-        type=str(found["type"]),
-        value=found["value"],
-        read_only=bool(found["read_only"]),
-        range=(float(bounds[0]), float(bounds[1])) if bounds else None,
-    )
-
-
-def _end(run: Run, scene: _Scene, seconds: float) -> None:
+def _end(run: Run, scene: Scene, seconds: float) -> None:
     """Press Ctrl+C on every terminal, and record how each program ends."""
 
     def go_on(passed: float) -> None:

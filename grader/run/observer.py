@@ -16,7 +16,6 @@ from grader.run.terminal import Line, Terminal, without_codes
 SECOND = 1_000_000_000
 GRACE = 0.1  # seconds of wall time within which a log record follows its line on the terminal
 LATE_GRACE = 1.0  # the same for records from before the probe had discovered the node
-STAMP_TOLERANCE = SECOND // 4
 NUMBER = re.compile(r"\d+")
 BELOW_RCLPY = re.compile(r"(?:rcl|rcutils|rmw)(?:[._][\w.]{0,80})?")  # names of their loggers
 FLOOD = 200  # lines per second of the run's time, above which a program does not wait between them
@@ -130,8 +129,7 @@ def _logged_at(record: LogRecord) -> int:
 
     The stamp is the more exact one on a busy machine, but a sender can write anything into it.
     """
-    agrees = 0 <= record.read - record.stamp <= STAMP_TOLERANCE
-    return record.stamp if agrees or not record.read else record.read
+    return record.stamp if record.agrees or not record.read else record.read
 
 
 def _is_of_a_node(line: Line) -> bool:

@@ -16,7 +16,7 @@ Commands (`do`); times are nanoseconds of ROS time, `seconds` is the most wall t
 - `end` ends the probe.
 The answer has `barrier` (true, false or null), `logs`, `nodes`, `clocks` (publishers of /clock),
 `silent` (the number of nodes that were asked and have never answered), `doubled` (the nodes with
-more than one publisher on /rosout).
+more than one publisher on /rosout), `now` (its clock, ns).
 """
 
 from __future__ import annotations
@@ -136,7 +136,7 @@ class Probe:
         self.since: dict[str, float] = {}  # when a node was seen first
         self.ours: set[str] = set()  # the full names of other nodes in this process
         self.added: dict[str, Any] = {}  # the commands of `extend`
-        self.clock = self.node.create_publisher(Clock, "/clock", 10)
+        self.clock: Any = self.node.create_publisher(Clock, "/clock", 10)
         rosout = QoSProfile(
             depth=1000,
             reliability=ReliabilityPolicy.RELIABLE,
@@ -226,6 +226,8 @@ class Probe:
 
     def matched(self, nodes: list[dict[str, Any]]) -> bool:
         """Return whether the nodes' subscriptions have matched our /clock publisher."""
+        if self.clock is None:
+            return True
         wanted = sum(node["clock"] for node in nodes)
         return bool(self.clock.get_subscription_count() >= max(1, wanted))
 
@@ -327,6 +329,7 @@ class Probe:
         answer["silent"] = len(silent)
         answer["doubled"] = self.doubled()
         answer["clocks"] = self.node.count_publishers("/clock")
+        answer["now"] = time.time_ns()
         return answer
 
     def extend(self, modules: list[list[str]]) -> None:
@@ -350,8 +353,15 @@ class Probe:
         answer["clocks"] = self.node.count_publishers("/clock")
         return answer
 
+    def hide_clock(self) -> None:
+        """Leave no trace of a clock on the graph: nodes run on the wall clock."""
+        self.node.destroy_publisher(self.clock)
+        self.clock = None
+
     def show(self, at: int) -> None:
         """Publish an instant (ns)."""
+        if self.clock is None:
+            return
         message = Clock()
         message.clock.sec, message.clock.nanosec = divmod(at, 1_000_000_000)
         self.clock.publish(message)
@@ -372,7 +382,7 @@ def main() -> None:
     answers = os.fdopen(os.dup(1), "w", buffering=1)
     os.dup2(2, 1)
     probe = Probe()
-    answers.write(json.dumps({"ready": True}) + "\n")
+    answers.write(json.dumps({"ready": True, "now": time.time_ns()}) + "\n")
     for line in sys.stdin:
         command = json.loads(line)
         if command["do"] == "end":

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 import math
+import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,6 +25,7 @@ head -c {size} | tar -xf - -C "$place"
 export AMENT_PREFIX_PATH="$place" LD_LIBRARY_PATH="$place/lib"
 export PYTHONPATH=$(echo "$place"/lib/python3*/site-packages)
 """
+STAMP_TOLERANCE = 250_000_000  # ns between a record's stamp and the time of reading, to agree
 PATIENCE = 20.0  # seconds in addition to a command's own, within which the answer must come
 
 
@@ -53,6 +55,23 @@ class LogRecord:
     line: int
     stamp: int
     read: int = 0
+
+    @property
+    def agrees(self) -> bool:
+        """Whether it was read soon after its stamp says that it was logged."""
+        return 0 <= self.read - self.stamp <= STAMP_TOLERANCE
+
+    def is_forged(self, began: int) -> bool:
+        """Whether no logger can have made the stamp: it is of the future, or from before the run.
+
+        The run `began` then (0 if that is unknown), by the clock of the probe. A record can be read
+        late, under load or because it was sent before the probe was known. Of a clock that was set
+        back during the run, nothing is known.
+        """
+        if self.read <= 0:
+            return False
+        early = 0 < began <= self.read and self.stamp < began - STAMP_TOLERANCE
+        return early or self.stamp > self.read + STAMP_TOLERANCE
 
 
 @dataclass(frozen=True)
@@ -119,6 +138,7 @@ class ProbeLink:
                 self.pipe.write(interfaces)
         self._buffer = b""
         self._ready = False
+        self._shown: tuple[int, int] | None = None  # its clock and ours (ns) at its last answer
         self._run_clock = sandbox.run_clock
         self.until = math.inf
         """The time (of the run's clock) until which answers are awaited."""
@@ -128,6 +148,16 @@ class ProbeLink:
         if not self._ready:
             self._read(START_SECONDS)
             self._ready = True
+
+    def now(self) -> int:
+        """Return what the probe's clock shows (ns), as its last answer said it; 0 if unknown.
+
+        It may be a little early: an answer is read later than it was written.
+        """
+        if self._shown is None:
+            return 0
+        theirs, ours = self._shown
+        return theirs + time.monotonic_ns() - ours
 
     def extend(self, modules: Sequence[Module]) -> None:
         """Add the commands of the last of these modules to the probe."""
@@ -180,6 +210,8 @@ class ProbeLink:
             raise self._lost("its answer is not JSON") from error
         if not isinstance(answer, dict):
             raise self._lost("its answer is not a JSON object")
+        if isinstance(answer.get("now"), int):
+            self._shown = (answer["now"], time.monotonic_ns())
         return answer
 
     def _lost(self, why: str) -> ProbeError:

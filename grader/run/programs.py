@@ -8,8 +8,21 @@ from dataclasses import replace
 from grader.base.nearest import nearest
 from grader.course.assignment import Assignment
 from grader.course.scenario import RunPlan, Start
+from grader.ros.distro import Distro
 from grader.run.observer import Event
-from grader.run.run import Program, Run
+from grader.run.run import Program, Run, ros2_run
+
+
+def command_of(assignment: Assignment, begin: Start, distro: Distro, *, plain: bool = False) -> str:
+    """Return the `ros2 run` command that starts a node of a plan; "" if it has no executable.
+
+    With `plain` it has no arguments of ours.
+    """
+    node = assignment.nodes[begin.node]
+    package = node.package or assignment.package
+    if not node.executable:
+        return ""
+    return ros2_run(distro, package, node.executable, *begin.words(package, plain=plain))
 
 
 def full_name(assignment: Assignment, begin: Start) -> str:

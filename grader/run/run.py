@@ -18,6 +18,7 @@ from grader.run.observations import Observations
 from grader.run.observer import Event, Observer, Watch, number_reader
 from grader.run.probe_link import NodeSeen, ProbeError, ProbeLink
 from grader.run.screen import stays
+from grader.run.started_program import programs
 from grader.run.terminal import Terminal
 from grader.sandbox.base import UNRUNNABLE, Pipe, Sandbox
 
@@ -38,6 +39,7 @@ SETTLE_SECONDS = (
     0.1  # of the run's time, in which lines come that were logged before the time stood still
 )
 PASSING_SECONDS = 0.25  # by which ROS time goes on at once while the node ends
+MOST_BESIDE = 3  # programs beside a node that are told
 END_SECONDS = 10.0  # of a run's time, reserved for killing what does not end by itself
 
 
@@ -46,7 +48,7 @@ class Program:
     """A program that a scenario starts beside its first one; `node` is its key in the assignment.
 
     `started` is False if it ended before the clock began, `by_itself` True if it ended before
-    Ctrl+C; `stop_seconds` are counted from there.
+    Ctrl+C; `stop_seconds` are counted from there. `instead` and `beside` are as in a Run.
     """
 
     node: str
@@ -57,6 +59,8 @@ class Program:
     status: int | None = None
     signal: int | None = None
     transcript: str = ""
+    instead: str = ""
+    beside: list[str] = field(default_factory=list)
 
 
 @dataclass
@@ -71,7 +75,10 @@ class Run:
     the count. `held_up` is the median of the seconds for which the node held up its steps in two
     runs, 0 if it was at most a period. `name`, `seen` and `others` are of a run of a scenario, whose
     first program all the rest is about. `exits` is whether the program has to end by itself, `done`
-    whether it did so, with status 0: that is no early end (`ended_by_itself`).
+    whether it did so, with status 0: that is no early end (`ended_by_itself`). `instead` is the
+    command line of a program that had the node without the file of the entry point, `beside` those
+    of the programs that ran beside it. `began` is when the programs were started, by the probe's clock
+    (ns), 0 if that is unknown.
     """
 
     command: str
@@ -101,6 +108,29 @@ class Run:
     others: list[Program] = field(default_factory=list)
     exits: bool = False
     done: bool = False
+    instead: str = ""
+    beside: list[str] = field(default_factory=list)
+    began: int = 0
+
+    @property
+    def is_spun(self) -> bool:
+        """Whether something shows that its node spins: what does not is judged nowhere else."""
+        works = self.confirmed is not False or self.seen is None
+        return works and (self.done or self._answers or self._follows)
+
+    @property
+    def _answers(self) -> bool:
+        """Whether a service of the node that counts has answered; of any node if it is unknown."""
+        node = self.counting_node
+        if node is not None and len(self.nodes) > 1:
+            return node.answers
+        return self.watch.settled or any(each.answers for each in self.nodes)
+
+    @property
+    def _follows(self) -> bool:
+        """Whether lines came at their instants on /clock, which only a node that spins receives."""
+        virtual = self.watch.clock == "virtual"
+        return virtual and any(event.due is not None for event in self.watch.counted)
 
     @property
     def counting_node(self) -> NodeSeen | None:
@@ -164,6 +194,7 @@ def observe(
     )
     probe.until = until - limits.stop_seconds - END_SECONDS
     probe.ready()
+    run.began = probe.now()
     begin = sandbox.run_clock.now()
     longest = limits.run_seconds + limits.stop_seconds
     terminal = start(sandbox, run.command, probe.pipe)
@@ -171,7 +202,9 @@ def observe(
         observer = Observer(terminal, probe, assignment.output)
         clock: VirtualClock | None = None
         follows = _wait_for_node(run, observer, begin, limits.start_seconds)
+        named = (assignment.package, assignment.executable)
         if run.nodes and not terminal.ended:
+            look_at_programs(run, terminal, *named)
             deadline = min(begin + limits.run_seconds, probe.until)
             clock = VirtualClock(
                 observer,
@@ -185,15 +218,9 @@ def observe(
                 stay_until=time.monotonic() + stay_seconds if stay_seconds else 0,
             )
             _watch(run, observer, clock, on_event, follows=follows, deadline=deadline)
-        run.watch.events += observer.settle()
         watch = run.watch
-        can_be_read = stays(terminal.raw)
-        for seen in (watch.events, watch.before_start, watch.early):
-            seen[:] = observer.visible(seen)
-            if can_be_read is not None:
-                kept = [event for event in seen if event.n is None or can_be_read(event.text)]
-                run.erased += len(seen) - len(kept)
-                seen[:] = kept
+        watch.events += observer.settle()
+        _keep_what_can_be_read(run, observer, terminal)
         counted = watch.counted
         if run.nodes and not counted and not watch.settled and not observer.over:
             # one that was destroyed at once may have been seen or not
@@ -204,6 +231,8 @@ def observe(
         run.logged = observer.logged
         run.doubled = observer.doubled
         run.started = run.watch.settled or bool(run.nodes and (counted or not terminal.ended))
+        if run.nodes:
+            look_at_programs(run, terminal, *named, last=True)
         go_on = clock.go_on if clock is not None else None
         press_ctrl_c(run, terminal, go_on, limits.stop_seconds)
         run.watch.events += observer.take_last()
@@ -220,6 +249,18 @@ def observe(
         run.flooded = run.flooded or terminal.flooded
         run.seconds = sandbox.run_clock.now() - begin
     return run
+
+
+def _keep_what_can_be_read(run: Run, observer: Observer, terminal: Terminal) -> None:
+    """Leave out what no person could read: lines that are not, or no longer, on the terminal."""
+    watch = run.watch
+    can_be_read = stays(terminal.raw)
+    for seen in (watch.events, watch.before_start, watch.early):
+        seen[:] = observer.visible(seen)
+        if can_be_read is not None:
+            kept = [event for event in seen if event.n is None or can_be_read(event.text)]
+            run.erased += len(seen) - len(kept)
+            seen[:] = kept
 
 
 def counts_plainly(
@@ -257,9 +298,27 @@ def counts_plainly(
 
 def start(sandbox: Sandbox, command: str, network: Pipe) -> Terminal:
     """Return a terminal with the student's command in their workspace, in the network of a pipe."""
-    script = f'. "{sandbox.ros_path}/setup.bash"; . install/local_setup.bash; exec {command}'
-    console = sandbox.console(["bash", "-c", script], probe=network)
+    console = sandbox.console(["bash", "-c", sandbox.in_workspace(command)], probe=network)
     return Terminal(console, most=int(sandbox.limits.output), run_clock=sandbox.run_clock)
+
+
+def look_at_programs(
+    found: Run | Program, terminal: Terminal, package: str, executable: str, *, last: bool = False
+) -> None:
+    """Note what runs on a terminal whose node is on the graph, besides the file of its entry point.
+
+    What is there at the beginning of the run and at its end runs instead of that file: a program that
+    ends can be seen without it for a moment.
+    """
+    seen = programs(terminal.processes(), package=package, executable=executable)
+    over = terminal.status != (None, None)
+    if seen is None or over or seen.own:
+        found.instead = ""
+    elif not last and seen.others:
+        found.instead = seen.others[0]
+    if seen is not None and not over:
+        more = [one for one in seen.others if one not in (*found.beside, found.instead)]
+        found.beside += more[:MOST_BESIDE]
 
 
 def _wait_for_node(run: Run, observer: Observer, begin: float, most: float) -> bool:

@@ -16,14 +16,18 @@ from grader.course.scenario import RunPlan
 from grader.package.source.command_line import reads_command_line
 from grader.package.source.ends_after import counts_to, ends_after
 from grader.package.source.real_time import reads_real_time
-from grader.package.source.remarks import Remark, remarks_on
+from grader.package.source.remarks import remarks_on
 from grader.package.source.ros_time import waits_for_ros_time
+from grader.package.source.telling import could_tell
 from grader.package.source.timer_periods import TimerPeriods, timer_periods
 from grader.package.submission import Submission
+from grader.run.changed_build import BuiltPackage, changed_modules, with_changes
 from grader.run.clock import GRID
 from grader.run.conduct import conduct
 from grader.run.observer import Event
+from grader.run.plain_run import Early, early, happens
 from grader.run.probe_link import ProbeError, ProbeLink
+from grader.run.programs import full_name
 from grader.run.run import WALL_TOLERANCE, Run, counts_plainly, observe
 from grader.run.student_interfaces import interfaces_of
 from grader.run.unforeseen import Unforeseen, unforeseen
@@ -54,12 +58,20 @@ class Unobserved(Exception):  # noqa: N818 - not an error of the node
     """Our own side failed, so that the node could not be observed."""
 
 
+def _lines(run: Run, plan: RunPlan, named: Assignment) -> list[tuple[str, float]]:
+    """Return the logger and the instant of each line of a plan's own nodes."""
+    own = {full_name(named, one).strip("/").replace("/", ".") for one in plan.start}
+    records = [(one.record.name, one.virtual) for one in run.watch.events if one.record]
+    return [one for one in records if one[0] in own]
+
+
 class Session:
     """Builds and runs one package in an open sandbox; `timing` has the seconds of each stage.
 
     A session may take the limits' `verdict_seconds`, or until `deadline` (of the run's clock); a
     run that does not fit into what is left of them is not started. `note` is told of faults of ours
-    that cost no check.
+    that cost no check. `like` is a built package from which this one may differ in modules only. The
+    package is `built` after a build that is to be kept.
     """
 
     def __init__(
@@ -69,8 +81,12 @@ class Session:
         *,
         deadline: float | None = None,
         note: Callable[[str], None] = unheard,
+        like: BuiltPackage | None = None,
+        is_kept: bool = False,
     ) -> None:
         self._note = note
+        self._like, self._is_kept = like, is_kept
+        self.built: BuiltPackage | None = None
         self.sandbox = sandbox
         self.assignment = assignment
         self.run_clock = sandbox.run_clock
@@ -78,13 +94,14 @@ class Session:
         self.timing = {"build": 0.0, "run": 0.0}
         self._probe: ProbeLink | None = None
         self._interfaces = b""  # those of the submission, for the probe
-        self._remarks: list[Remark] = []
+        self._could_tell = False  # that it is marked
         self._reads_real_time = False
         self._reads_command_line = False
         self._waits_for_ros_time = False
         self._periods = TimerPeriods()
         self._unforeseen = Unforeseen(more_ticks=0, stay_seconds=0, draw=1)
         self._built = b""  # the workspace after the build, for a plain run or another scenario
+        self._run_plainly = set[str]()  # the nodes of a scenario of which there was a plain run
         self._planned = False  # whether a run of a scenario was made
 
     def __enter__(self) -> Session:
@@ -105,24 +122,25 @@ class Session:
         Raises BrokenRosError if colcon itself does not run.
         """
         begin = time.monotonic()
-        if submission.packages:  # before the student's code runs
-            try:
-                self._interfaces = interfaces_of(self.sandbox, submission)
-            except StarvedError:
-                return Build(BUILD, None, "", time.monotonic() - begin, stopped_by=LOAD)
+        try:
+            self._find_interfaces(submission)
+        except StarvedError:
+            return Build(BUILD, None, "", time.monotonic() - begin, stopped_by=LOAD)
         self._probe = self._probe or self._new_probe()
         try:
             self._read_sources(submission)
         except Exception as fault:  # a bug of ours must not lose the build
             self._note(f"the sources were not read because of a fault of ours: {fault!r}")
         try:
-            made = build(self.sandbox, submission, package=self.assignment.package)
-            if made.stopped_by == LOAD:
-                made = build(self.sandbox, submission, package=self.assignment.package)
+            made = self._build(submission)
             if made.doubts_colcon:
                 prove_again(self.sandbox)
-            if made.status == 0 and (self._is_confirmed() or len(self.assignment.runs) > 1):
+            several = self._is_confirmed() or len(self.assignment.runs) > 1
+            if made.status == 0 and (several or self._is_kept):
                 self._built = save(self.sandbox)
+            if self._is_kept:
+                more = (self._built, self.sandbox.overlay, self.sandbox.workspace, self._interfaces)
+                self.built = BuiltPackage(submission, made, *more)
         finally:
             self.timing["build"] += time.monotonic() - begin
         stopped_by = made.stopped_by or self._resource(made.status)
@@ -130,14 +148,31 @@ class Session:
             stopped_by = self._limit_on_a_process(made.log)
         return replace(made, stopped_by=stopped_by)
 
+    def _find_interfaces(self, submission: Submission) -> None:
+        """Make the submission's interfaces for the probe, before the student's code runs."""
+        if self._like is not None and changed_modules(self._like, submission):
+            self._interfaces = self._like.interfaces
+        elif submission.packages:
+            self._interfaces = interfaces_of(self.sandbox, submission)
+
+    def _build(self, submission: Submission) -> Build:
+        package = self.assignment.package
+        if self._like is not None:
+            made = with_changes(self._like, submission, self.sandbox, package=package)
+            if made is not None:
+                return made
+        made = build(self.sandbox, submission, package=package)
+        return build(self.sandbox, submission, package=package) if made.stopped_by == LOAD else made
+
     def _read_sources(self, submission: Submission) -> None:
         """Read from the sources how the node is best observed."""
-        self._remarks = remarks_on(submission.files)
+        others = [file for one in submission.packages for file in one.files]
+        self._could_tell = could_tell([*submission.files, *others])
         self._reads_real_time = reads_real_time(submission.files)
         self._reads_command_line = reads_command_line(submission.files)
         self._waits_for_ros_time = waits_for_ros_time(submission.files)
         self._periods = timer_periods(submission.files)
-        could_end = any(remark.kind in ("ends", "hides") for remark in self._remarks)
+        could_end = any(one.kind in ("ends", "hides") for one in remarks_on(submission.files))
         self._unforeseen = unforeseen(
             submission.sha256,
             could_end=could_end,
@@ -185,9 +220,30 @@ class Session:
             run = self._observed(observed, on_event)
             if run.doubts_ros2:
                 prove_again(self.sandbox)
+            nodes = {begin.node for begin in plan.start}
+            if self._could_tell and run.seen is not None and not nodes <= self._run_plainly:
+                wanted = early(plan, run.seen, _lines(run, plan, named))
+                if wanted is not None:
+                    run.confirmed = self._happens_plainly(plan, named, wanted)
+                    self._run_plainly |= nodes
             return run
         finally:
             self.timing["run"] += time.monotonic() - begin
+
+    def _happens_plainly(self, plan: RunPlan, named: Assignment, wanted: Early) -> bool | None:
+        """Return whether it happens in a plain run too; False only after two that show it."""
+
+        def happened() -> bool:
+            probe = self._new_probe()
+            try:
+                return happens(self.sandbox, named, plan, probe, wanted, until=self._until)
+            finally:
+                probe.close()
+
+        try:
+            return self._works_plainly(happened)
+        except ProbeError:
+            return None
 
     def _compared(self, run: Run, named: Assignment) -> Run:
         """Return a run after another one, if one run does not say enough about the node."""
@@ -318,8 +374,7 @@ class Session:
         """Whether the package is run plainly too, if it counts."""
         if self.assignment.confirm != "sample":
             return self.assignment.confirm == "always"
-        asks = any(remark.kind in ("asks", "hides") for remark in self._remarks)
-        return asks or self._unforeseen.draw < SAMPLE
+        return self._could_tell or self._unforeseen.draw < SAMPLE
 
     def _confirm(self, run: Run, named: Assignment) -> bool | None:
         """Return whether the node counts in a plain run too; False only after two that show it.
@@ -329,11 +384,17 @@ class Session:
         """
         slow = PATIENCE * (run.first_line_seconds or self.sandbox.limits.start_seconds)
         patience = 2 * named.output.period + PLAIN_SECONDS + slow
+        return self._works_plainly(
+            partial(counts_plainly, self.sandbox, named, patience=patience, until=self._until)
+        )
+
+    def _works_plainly(self, works: Callable[[], bool]) -> bool | None:
+        """Return what plain runs show; None if the machine was too busy, or left no time."""
         tries = 0
         while tries < CONFIRMING_RUNS and self._has_time():
             clean = not self._built or restore(self.sandbox, self._built)
             self.run_clock.starved = False
-            if clean and counts_plainly(self.sandbox, named, patience=patience, until=self._until):
+            if clean and works():
                 return True
             if self.run_clock.starved:
                 return None

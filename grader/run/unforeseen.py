@@ -1,4 +1,4 @@
-"""What a submission cannot foresee: how many lines are watched, for how long, and what is sampled.
+"""What a submission cannot foresee: how many lines are watched and for how long, and drawn values.
 
 All is computed from a hash of the submission, keyed with a secret of this installation (HMAC, RFC
 2104): the same submission always gets the same, and nobody can compute it without the secret, which
@@ -13,10 +13,12 @@ import hmac
 import os
 import secrets
 import tempfile
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 
 from grader.base.state import state_folder
+from grader.course.draw import Draw, Plain
 
 KEY_FILE = "observation.key"
 KEY_BYTES = 32
@@ -55,6 +57,20 @@ def unforeseen(
         stay_seconds=seconds,
         draw=draw / 2**64,
     )
+
+
+def drawn_for(sha256: str, draws: Mapping[str, Draw]) -> dict[str, Plain]:
+    """Return the values that the submission with this hash gets on this installation.
+
+    Each name has a draw of its own: another name beside it changes nothing.
+    """
+    found = {}
+    for name, draw in draws.items():
+        text = f"{sha256} draw {name}".encode()
+        digest = hmac.new(installation_key(), text, hashlib.sha256).digest()
+        values = draw.values
+        found[name] = values[int.from_bytes(digest[:16], "big") % len(values)]
+    return found
 
 
 @cache

@@ -13,12 +13,15 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from grader.run.probe_link import Module, in_probe
 from grader.sandbox.base import Sandbox
 
 PROGRAM = Path(__file__).with_name("run_variants.py")
-MOST_BYTES = 4_000_000  # of all answers
+MOST_BYTES = 16_000_000  # of all answers
 EACH_SECONDS = 2.0  # for one variant, without the time in which it waits for a core
-START_SECONDS = 5.0  # in addition, for the import of ROS
+START_SECONDS = 20.0  # in addition, for the import of ROS
+PATIENCE = 3.0
+"""Seconds of the run's clock for each second of processor time, after which something is wrong."""
 MOST_LINES = 40
 JOBS = 2
 MALFORMED = (*(ValueError, TypeError, LookupError, AttributeError, OverflowError, RecursionError),)
@@ -67,6 +70,32 @@ class TracedTimer:
 
 
 @dataclass(frozen=True)
+class TracedCallback:
+    """A callback of a subscription or a service (`how`): its function, and how often it was called."""
+
+    how: str
+    name: str
+    made: tuple[Place, ...]
+    function: str
+    calls: int
+
+
+@dataclass(frozen=True)
+class TracedDone:
+    """A message, an answer or a line of the log: `how` is "published", "answered" or "logged".
+
+    `at` is in nanoseconds, `places` are those of the call, innermost first, and `last` tells for each
+    line that had run when it ran last: the higher, the later.
+    """
+
+    how: str
+    what: str
+    at: int
+    places: tuple[Place, ...]
+    last: Mapping[str, Mapping[int, int]]
+
+
+@dataclass(frozen=True)
 class Trace:
     """What a short run of a node did: how often each line ran, its timers, and what was logged.
 
@@ -81,6 +110,9 @@ class Trace:
     logged: tuple[tuple[tuple[Place, ...], int], ...] = ()
     stand: tuple[tuple[Place, ...], ...] = ()
     values: tuple[tuple[Place, Values], ...] = ()
+    callbacks: tuple[TracedCallback, ...] = ()
+    done: tuple[TracedDone, ...] = ()
+    raised: tuple[str, tuple[Place, ...]] | None = None
 
     def count(self, path: str, line: int) -> int:
         """Return how often a line ran."""
@@ -112,13 +144,13 @@ def run_variants(
 ) -> list[ShortRun | None]:
     """Return what each variant did; None for those that were not run within `seconds`.
 
-    A variant is the new texts of modules by their names; `watched` is of the first variants. The
-    workspace has been built.
+    `seconds` are of processor time, of all variants together. A variant is the new texts of modules
+    by their names; `watched` is of the first variants. The workspace has been built.
     """
     found: list[ShortRun | None] = [None] * len(variants)
     watching = [*map(asdict, watched), *[None] * (len(variants) - len(watched))]
     asked = {"variants": variants, "watched": watching, "traced": [], "conditions": []}
-    for said in _answers(sandbox, module, function, asked, period=period, seconds=seconds):
+    for said in answers(sandbox, module, function, asked, period=period, seconds=seconds):
         _take(said, found)
     return found
 
@@ -143,13 +175,13 @@ def trace_node(
         "traced": files,
         "conditions": [*map(asdict, conditions)],
     }
-    for said in _answers(sandbox, module, function, asked, period=period, seconds=seconds):
+    for said in answers(sandbox, module, function, asked, period=period, seconds=seconds):
         with suppress(*MALFORMED):
-            return _trace(json.loads(said)["seen"], files, conditions)
+            return trace_from(json.loads(said)["seen"], files, conditions)
     return None
 
 
-def _answers(
+def answers(
     sandbox: Sandbox,
     module: str,
     function: str,
@@ -157,9 +189,11 @@ def _answers(
     *,
     period: float,
     seconds: float,
+    modules: Sequence[Module] = (),
 ) -> list[str]:
+    """Return what the program says, a line for each variant; `seconds` are of processor time."""
     asked = {
-        **more,
+        "modules": [in_probe("short_trace"), *modules],
         "module": module,
         "function": function,
         "until": int((MOST_LINES + 5) * period * 1e9),
@@ -167,18 +201,23 @@ def _answers(
         "each": EACH_SECONDS,
         "seconds": seconds,
         "jobs": JOBS,
+        **more,
     }
-    setup = f'. "{sandbox.ros_path}/setup.bash"; . install/local_setup.bash'
     outcome = sandbox.run(
-        ["bash", "-c", f'{setup}; exec python3 -B -c "$0"', PROGRAM.read_text(encoding="utf-8")],
+        [
+            "bash",
+            "-c",
+            sandbox.in_workspace('python3 -B -c "$0"'),
+            PROGRAM.read_text(encoding="utf-8"),
+        ],
         stdin=json.dumps(asked).encode(),
-        seconds=seconds + START_SECONDS,
+        seconds=PATIENCE * seconds + START_SECONDS,
         output=MOST_BYTES,
     )
     return outcome.output.decode("utf-8", "replace").splitlines()
 
 
-def _trace(seen: Any, files: Sequence[str], conditions: Sequence[Watched]) -> Trace:
+def trace_from(seen: Any, files: Sequence[str], conditions: Sequence[Watched]) -> Trace:
     """Read a trace, which may be anything: raises an error of Python if it has another form.
 
     Only places in these files are kept.
@@ -188,6 +227,35 @@ def _trace(seen: Any, files: Sequence[str], conditions: Sequence[Watched]) -> Tr
         return tuple((path, int(line)) for path, line in found if path in files)
 
     found = seen["trace"]
+
+    def last(said: Any) -> dict[str, dict[int, int]]:
+        return {
+            path: {int(row): int(n) for row, n in rows.items()}
+            for path, rows in said.items()
+            if path in files
+        }
+
+    callbacks = [
+        TracedCallback(
+            str(one["how"]),
+            str(one["name"]),
+            places(one["made"]),
+            str(one["function"]),
+            int(one["calls"]),
+        )
+        for one in found["callbacks"]
+    ]
+    done = [
+        TracedDone(
+            str(one["how"]),
+            str(one["what"]),
+            int(one["at"]),
+            places(one["places"]),
+            last(one["last"]),
+        )
+        for one in found["done"]
+    ]
+    raised = found["raised"]
     timers = [
         TracedTimer(
             places(one["made"]), bool(one["spun"]), int(one["calls"]), places(one["stopped"])
@@ -196,11 +264,7 @@ def _trace(seen: Any, files: Sequence[str], conditions: Sequence[Watched]) -> Tr
     ]
     return Trace(
         str(seen["ended"]),
-        {
-            path: {int(line): int(count) for line, count in lines.items()}
-            for path, lines in found["lines"].items()
-            if path in files
-        },
+        last(found["lines"]),
         tuple(timers),
         tuple((places(at), int(timer)) for at, timer in found["logged"]),
         tuple(map(places, found["stand"])),
@@ -211,6 +275,9 @@ def _trace(seen: Any, files: Sequence[str], conditions: Sequence[Watched]) -> Tr
             )
             for one, values in zip(conditions, found["values"])
         ),
+        tuple(callbacks),
+        tuple(done),
+        (str(raised["text"]), places(raised["places"])) if raised else None,
     )
 
 

@@ -14,12 +14,13 @@ import re
 import shlex
 import tarfile
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import joined, say
 from grader.package.submission import SourceFile, Submission
+from grader.run.overlay import Fault, Overlay, read_overlay
 from grader.sandbox.base import UNRUNNABLE, Outcome, Sandbox
 
 BUILD = "colcon build --symlink-install"
@@ -44,7 +45,15 @@ contents() {
 }
 find build install -name entry_points.txt | contents E
 find install/*/lib/* -maxdepth 1 -type f 2>/dev/null | contents S
-printf 'H - '
+for file in install/*/lib/*.so*; do
+  for folder in "$0/lib" /lib/*-linux-* /usr/lib/*-linux-* /usr/local/lib; do
+    [ -e "$folder/${file##*/}" ] && printf 'L %s\n' "$(printf %s "$file" | base64 -w 0)" && break
+  done
+done
+printf 'D - '
+find -L install build \( -name '*.dsv' -o -path '*/colcon-core/packages/*' \) -type f -print0 \
+  2>/dev/null | head -c 200000 | tar -ch --null -T - 2>/dev/null | head -c 400000 | base64 -w 0
+printf '\nH - '
 find src -type f -print0 2>/dev/null | head -c 200000 | xargs -0 sha256sum -z 2>/dev/null | base64 -w 0
 echo
 """
@@ -67,7 +76,8 @@ class Build:
 
     `entry_points` is the text of the entry point metadata, `entry_files` that of each of its files,
     `scripts` the text of each installed executable. `altered` has the Python files of the package
-    that the build changed or removed, `added` those that it made.
+    that the build changed or removed, `added` those that it made. `faults` has what would run, or be
+    found, instead of what the sources say, if a shell took over the environment of the workspace.
     """
 
     command: str
@@ -81,6 +91,7 @@ class Build:
     scripts: dict[str, str] = field(default_factory=dict, repr=False)
     altered: tuple[str, ...] = ()
     added: tuple[str, ...] = ()
+    faults: tuple[Fault, ...] = ()
 
     @property
     def doubts_colcon(self) -> bool:
@@ -129,9 +140,13 @@ def _add(tar: tarfile.TarFile, folder: str, files: Iterable[SourceFile], now: in
             entry.linkname = file.target
             tar.addfile(entry)
         else:
-            entry = _entry(name, tarfile.REGTYPE, file.mode & 0o755 | 0o600, now)
-            entry.size = len(file.data)
-            tar.addfile(entry, io.BytesIO(file.data))
+            _add_file(tar, name, file, now)
+
+
+def _add_file(tar: tarfile.TarFile, name: str, file: SourceFile, now: int) -> None:
+    entry = _entry(name, tarfile.REGTYPE, file.mode & 0o755 | 0o600, now)
+    entry.size = len(file.data)
+    tar.addfile(entry, io.BytesIO(file.data))
 
 
 def _entry(name: str, kind: bytes, mode: int, now: int) -> tarfile.TarInfo:
@@ -153,6 +168,8 @@ def build(sandbox: Sandbox, submission: Submission, *, package: str) -> Build:
     files, contents = _inspect(sandbox)
     entry_files = {path: text for (kind, path), text in contents.items() if kind == "E"}
     altered, added = _changes(submission, package, contents.get(("H", "-"), ""))
+    overlay = _overlay(sandbox, files, contents)
+    sandbox.overlay = overlay.commands()
     return Build(
         command=BUILD,
         status=outcome.status,
@@ -167,6 +184,7 @@ def build(sandbox: Sandbox, submission: Submission, *, package: str) -> Build:
         scripts={path: text for (kind, path), text in contents.items() if kind == "S"},
         altered=altered,
         added=added,
+        faults=overlay.faults,
     )
 
 
@@ -197,6 +215,19 @@ def restore(sandbox: Sandbox, saved: bytes) -> bool:
         f"chmod -R u+rwX {place}/* 2>/dev/null; find {place} -mindepth 1 -delete && exec tar -xpf -"
     )
     return sandbox.run(["sh", "-c", script], stdin=saved, seconds=LAY_OUT_SECONDS).status == 0
+
+
+def put(sandbox: Sandbox, files: Mapping[str, SourceFile]) -> bool:
+    """Write files into the workspace, by their places in it; return whether that worked.
+
+    No code of the student's runs here.
+    """
+    stream = io.BytesIO()
+    with tarfile.open(fileobj=stream, mode="w", format=tarfile.PAX_FORMAT) as tar:
+        for place, file in files.items():
+            _add_file(tar, place, file, int(time.time()))
+    words = ["tar", "-xf", "-", "-C", sandbox.workspace]
+    return sandbox.run(words, stdin=stream.getvalue(), seconds=LAY_OUT_SECONDS).status == 0
 
 
 def _setup(sandbox: Sandbox) -> str:
@@ -234,7 +265,7 @@ def _changes(
 
 def _inspect(sandbox: Sandbox) -> tuple[dict[str, Installed], dict[tuple[str, str], str]]:
     outcome: Outcome = sandbox.run(
-        ["sh", "-c", INSPECT], seconds=INSPECT_SECONDS, output=MOST_LISTED
+        ["sh", "-c", INSPECT, sandbox.ros_path], seconds=INSPECT_SECONDS, output=MOST_LISTED
     )
     if not outcome.stopped_by:  # (only what the build left behind can make it exceed a limit)
         _check_ours(outcome, say("the built files could not be listed"))
@@ -248,10 +279,35 @@ def _inspect(sandbox: Sandbox) -> tuple[dict[str, Installed], dict[tuple[str, st
         if len(parts) == 4 and parts[1].isdigit() and parts[2].isdigit():
             kind, mode, size, path = parts
             files[path] = Installed(kind, int(mode, 8), int(size), target)
-    contents = {}
+    contents: dict[tuple[str, str], str] = {}
     for line in rest.splitlines():
         kind, path, encoded = ([*line.split(" ", 2), "", ""])[:3]
         with contextlib.suppress(ValueError):
-            text = base64.b64decode(encoded).decode("utf-8", errors="replace")
-            contents[kind, path] = text
+            data = base64.b64decode(path if kind == "L" else encoded)
+            if kind == "D":
+                contents |= {(kind, name): text for name, text in _texts_in(data)}
+            elif kind == "L":
+                contents[kind, data.decode("utf-8", errors="replace")] = ""
+            else:
+                contents[kind, path] = data.decode("utf-8", errors="replace")
     return files, contents
+
+
+def _texts_in(archive: bytes) -> Iterator[tuple[str, str]]:
+    """Yield the names and texts of the files in a tar archive, which may be cut."""
+    with contextlib.suppress(tarfile.TarError), tarfile.open(fileobj=io.BytesIO(archive)) as tar:
+        for entry in tar:
+            file = tar.extractfile(entry) if entry.isfile() else None
+            if file is not None:
+                yield entry.name, file.read().decode("utf-8", errors="replace")
+
+
+def _overlay(
+    sandbox: Sandbox, files: Mapping[str, Installed], contents: Mapping[tuple[str, str], str]
+) -> Overlay:
+    return read_overlay(
+        {path: file.kind for path, file in files.items()},
+        {path: text for (kind, path), text in contents.items() if kind == "D"},
+        workspace=sandbox.workspace,
+        hidden=sorted(path for kind, path in contents if kind == "L"),
+    )

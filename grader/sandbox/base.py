@@ -81,6 +81,14 @@ class Console(ABC):
     def interrupt(self) -> None:
         """Send Ctrl+C. Raises OSError if the terminal is closed."""
 
+    def type(self, keys: bytes) -> None:
+        """Send what a person types. Raises OSError if the terminal is closed."""
+        raise NotImplementedError
+
+    def resize(self, rows: int, columns: int) -> None:
+        """Tell the command the size of the person's terminal."""
+        raise NotImplementedError
+
     @abstractmethod
     def poll(self) -> tuple[int | None, int | None] | None:
         """Return the command's exit status and signal, None while it runs."""
@@ -133,6 +141,7 @@ class Sandbox(ABC):
     def __init__(self, ros: Ros, limits: Limits) -> None:
         self.ros = ros
         self.limits = limits
+        self.overlay = ""  # the shell's commands that take over the built workspace's environment
 
     @cached_property
     def run_clock(self) -> RunClock:
@@ -199,6 +208,10 @@ class Sandbox(ABC):
     def ros_path(self) -> str:
         """The path of the ROS prefix inside the sandbox."""
         return self.ros.inside
+
+    def in_workspace(self, command: str) -> str:
+        """Return a script of bash that runs a command in place of itself, with ROS and the overlay."""
+        return f'. "{self.ros_path}/setup.bash"; {self.overlay}exec {command}'
 
     @abstractmethod
     def held_by(self) -> dict[str, str]:

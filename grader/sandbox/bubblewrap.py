@@ -30,13 +30,23 @@ from grader.sandbox.base import DISCOVERY_PROFILE, HOME, WORKSPACE, Console, Pip
 from grader.sandbox.cgroups import Group, open_group
 from grader.sandbox.limits import PROBE_MEMORY, Limits
 from grader.sandbox.local import LocalConsole, LocalPipe, LocalSandbox, require_program
-from grader.sandbox.processes import adopt_orphans, children_of, collect_orphans, descendants
+from grader.sandbox.processes import adopt_orphans, collect_orphans, descendants
 from grader.sandbox.seccomp import filter_path
 from grader.sandbox.user_ids import new_user_ids
 
 PROFILE = "/etc/ros/fastdds.xml"
 SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
 FILES = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/localtime", "/etc/os-release")
+STAGED, EMPTY = "/mnt", "/media"
+HOLD = f"""\
+cd {STAGED} || exit
+mount -t overlay -o ro,nosuid,nodev,lowerdir=.:{EMPTY} overlay "$1" 2> /dev/null ||
+    mount --bind . "$1" || exit
+cd / && umount {STAGED} && echo up && exec cat
+"""
+"""What the holder does: a bind mount names the folder that it shows, and so the grader's; a file
+system with this folder as a layer has the name that the layer was given by, which is relative. Where
+the kernel does not allow that (as a user, before Linux 5.11), it is a bind mount."""
 FILTER = "9"  # the descriptor from which bwrap reads the filter of system calls
 NEW = "new"  # a network namespace that the command makes itself
 END_SECONDS = 10.0
@@ -113,12 +123,12 @@ class Bubblewrap(LocalSandbox):
         command += self._mounts()
         for path, descriptor in descriptors.items():
             command += ["--perms", "0444", "--ro-bind-data", str(descriptor), path]
-        command += ["--remount-ro", "/", "--", "/bin/cat"]
+        command += ["--remount-ro", "/", "--", "/bin/sh", "-c", HOLD, "sh", self.ros.inside]
         try:
             self._holder = subprocess.Popen(
                 command,
                 stdin=subprocess.PIPE,
-                stdout=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,
                 # the reading end too: if the grader has ended, a write would kill the outer bwrap
                 pass_fds=[info_reader, info_writer, *descriptors.values()],
@@ -206,7 +216,7 @@ class Bubblewrap(LocalSandbox):
     def close(self) -> None:
         holder, self._holder = self._holder, None
         if holder is not None:
-            for stream in (holder.stdin, holder.stderr):
+            for stream in (holder.stdin, holder.stdout, holder.stderr):
                 if stream is not None:
                     stream.close()
             if self._init_pid > 0:  # 0 would be the grader's own process group
@@ -249,7 +259,8 @@ class Bubblewrap(LocalSandbox):
             yield from ("--ro-bind-try", path, path)
         if not interpreter.is_relative_to("/usr"):
             yield from ("--ro-bind", str(interpreter), str(interpreter))
-        yield from ("--ro-bind", str(self.ros.path), self.ros.inside)
+        yield from ("--dir", self.ros.inside, "--dir", STAGED, "--dir", EMPTY)
+        yield from ("--ro-bind", str(self.ros.path), STAGED)
         yield from ("--dir", "/run", "--dir", "/tmp", "--proc", "/proc", "--dev", "/dev")  # noqa: S108
         size = str(int(self.limits.workspace))
         yield from ("--perms", "0777", "--size", size, "--tmpfs", WORKSPACE)
@@ -285,17 +296,10 @@ class Bubblewrap(LocalSandbox):
         return words
 
     def _wait_for_mounts(self, holder: subprocess.Popen[bytes]) -> None:
-        """Wait until `cat` runs in the holder: then the mounts are complete."""
-        assert holder.stdin is not None
-        while holder.poll() is None:
-            try:
-                for pid in [self._init_pid, *children_of(self._init_pid)]:
-                    if Path(f"/proc/{pid}/exe").readlink().name != "bwrap":
-                        return
-            except OSError:
-                pass
-            os.sched_yield()
-        raise ValueError
+        """Wait until the holder says that the mounts are complete; ValueError if it ends."""
+        assert holder.stdout is not None
+        if holder.stdout.readline() != b"up\n":
+            raise ValueError
 
     def _refused(self) -> SurroundingsError:
         assert self._holder is not None and self._holder.stderr is not None

@@ -9,7 +9,7 @@ from pathlib import Path
 from grader.base.cache import Notify
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.message import joined, say
-from grader.ros import image_build, images
+from grader.ros import image_base, image_build, images
 from grader.ros.distro import Distro
 from grader.ros.prefix import BrokenRosError, Ros, instead_of_docker
 from grader.sandbox.base import Sandbox
@@ -97,9 +97,11 @@ def _docker(distro: Distro, limits: Limits, notify: Notify, *, required: bool) -
         return None
     image = images.find_image(client, distro)
     if image is None and required:
-        network = image_build.Network()
+        base, network = image_base.choose_base(
+            client, distro, None, image_build.Network(), notify=notify
+        )
         image_build.build_image(
-            client, distro, stage="grade", base="ros", network=network, notify=notify
+            client, distro, stage="grade", base=base, network=network, notify=notify
         )
         image = images.find_image(client, distro)
     if image is None:

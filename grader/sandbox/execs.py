@@ -65,11 +65,12 @@ class Exec:
         self.socket = socket_of(self._reply)
         self._early = already_read(self._reply, self.socket)
         if tty:
-            self._resize()
+            self.resize(ROWS, COLUMNS)
 
-    def _resize(self) -> None:
+    def resize(self, rows: int, columns: int) -> None:
+        """Set the size of its pseudo-terminal."""
         try:
-            self._api.exec_resize(self._id, height=ROWS, width=COLUMNS)
+            self._api.exec_resize(self._id, height=rows, width=columns)
         except docker.errors.APIError:
             if self.status() is None:  # (a command that has ended has no terminal to resize)
                 raise
@@ -241,6 +242,13 @@ class ExecConsole(Console):
     def interrupt(self) -> None:
         self._interrupted = True
         self._spawn.send(b"\x03")
+
+    def type(self, keys: bytes) -> None:
+        self._spawn.send(keys)
+
+    def resize(self, rows: int, columns: int) -> None:
+        with docker_errors("resizing the terminal"):
+            self._command.resize(rows, columns)
 
     def poll(self) -> tuple[int | None, int | None] | None:
         if self._status is None:

@@ -124,6 +124,13 @@ class LocalConsole(Console):
     def interrupt(self) -> None:
         self._spawn.sendintr()
 
+    def type(self, keys: bytes) -> None:
+        while keys:
+            keys = keys[os.write(int(self._spawn.child_fd), keys) :]
+
+    def resize(self, rows: int, columns: int) -> None:
+        self._spawn.setwinsize(rows, columns)
+
     def poll(self) -> tuple[int | None, int | None] | None:
         if self._spawn.isalive():
             return None

@@ -15,6 +15,7 @@ import re
 import secrets
 import shutil
 import signal
+import socket
 import stat
 import subprocess
 import sys
@@ -24,7 +25,6 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from grader.base.errors import SurroundingsError
-from grader.base.lock import HeldError, take_lock
 from grader.ros.prefix import Ros
 from grader.sandbox.base import DISCOVERY_PROFILE, Role
 from grader.sandbox.cgroups import Group, open_group
@@ -261,16 +261,20 @@ class AccountSandbox(NoSandbox):
 
 
 def lock_domain() -> tuple[int, int]:
-    """Return a ROS domain id that no other grader on this machine uses, and its lock.
+    """Return a ROS domain id that no other grader in this network uses, and its lock.
 
-    The lock is a descriptor, which the caller closes. Raises SurroundingsError if all are in use.
+    The lock is a descriptor, which the caller closes: a socket whose name belongs to the network, as
+    the domain does (unix(7), abstract). Each lab has a /tmp of its own: a file there would not be seen
+    by a check in another one. Raises SurroundingsError if all are in use.
     """
     for domain in random.sample(DOMAINS, len(DOMAINS)):
-        place = Path(tempfile.gettempdir()) / f"ros2-grader-domain-{domain}.lock"
+        lock = socket.socket(socket.AF_UNIX)
         try:
-            return domain, take_lock(place, waits=False)
-        except (HeldError, OSError):
-            continue  # (OSError: it belongs to another user)
+            lock.bind(f"\0ros2-grader-domain-{domain}")
+        except OSError:  # it is taken
+            lock.close()
+            continue
+        return domain, lock.detach()
     raise SurroundingsError("other graders use every ROS domain id of this machine")
 
 

@@ -9,8 +9,10 @@ from pathlib import Path
 
 from grader.base.i18n.message import Message, msg, say
 from grader.base.i18n.translator import Translator
+from grader.base.shown import shown
 from grader.course.assignment import Assignment
 from grader.package.source.remarks import remarks_on
+from grader.package.source.telling import telling
 from grader.package.submission import Submission
 from grader.report import model
 from grader.run.run import Program, Run
@@ -22,13 +24,12 @@ from grader.verdict.plots import topic_plots
 
 REMARKS = {
     "asks": msg(
-        "To look at: {place} uses {what}. It has honest uses, but a program can also learn from it "
-        "that it is being marked."
+        "To look at: {place} has {what}. A program can learn from it that it is being marked, and no "
+        "run without our arguments showed that it works."
     ),
     "hides": msg("To look at: {place} has {what}: the source does not show what it does."),
     "rosout": msg("To look at: {place} has {what}: the node may publish log records by hand."),
 }
-ARGUMENTS = ("sys.argv", "sys.orig_argv", "argv")
 MOST_POINTS = 400  # of a turtle's path
 MOST_EVIDENCE = 40_000  # characters, of the build log and of the transcript each
 
@@ -80,7 +81,7 @@ def compose(
             package=_package_name(submission),
             origin=submission.origin,
             modes=submission.modes,
-            notes=[translate(note) for note in (*submission.notes, *_to_look_at(submission, run))],
+            notes=[translate(note) for note in (*submission.notes, *_to_look_at(evidence))],
         ),
         environment=environment,
         status="graded",
@@ -101,18 +102,39 @@ def compose(
     )
 
 
-def _to_look_at(submission: Submission, run: Run | None) -> Iterator[str]:
+def _to_look_at(evidence: Evidence) -> Iterator[str]:
     """Yield what the grader cannot judge for certain, for a person to look at."""
-    for remark in remarks_on(submission.files):
+    submission, run = evidence.submission, evidence.run if evidence.has_run else None
+    remarks = remarks_on(submission.files)
+    if run is not None and not _is_told_plainly(evidence, run):
+        hidden = {(one.path, one.line) for one in remarks if one.kind == "hides"}
+        files = [*submission.files, *(file for one in submission.packages for file in one.files)]
+        remarks += [one for one in telling(files) if (one.path, one.line) not in hidden]
+    for remark in remarks:
         if remark.kind == "ends" or (remark.kind == "rosout" and run is None):
             continue
-        confirmed = run is not None and run.confirmed
-        if remark.kind == "asks" and remark.what in ARGUMENTS and confirmed:
-            continue  # (it did the same without the arguments of the marked run)
         place = remark.path
         if remark.line is not None:
             place = say("{file}, line {line}", file=remark.path, line=remark.line)
         yield Message(REMARKS[remark.kind], {"place": place, "what": remark.what})
+    for program in _programs(run) if run is not None else ():
+        for command in program.beside:
+            yield say(
+                "To look at: the node started another program: {command}", command=shown(command)
+            )
+
+
+def _is_told_plainly(evidence: Evidence, run: Run) -> bool:
+    """Whether plain runs told of each node whether it works without our arguments.
+
+    They tell nothing if the machine was too busy, or if nothing happens that could be waited for.
+    """
+    if not evidence.assignment.runs:
+        return run.confirmed is not None or run.plain
+    plans = evidence.assignment.runs
+    told = {one.name for one in evidence.runs if one.confirmed is not None}
+    known = {begin.node for plan in plans if plan.name in told for begin in plan.start}
+    return {begin.node for plan in plans for begin in plan.start} <= known
 
 
 def _printable(path: Path) -> str:
@@ -177,8 +199,9 @@ def _exit(program: Run | Program) -> model.Exit:
 def _run_info(run: Run, assignment: Assignment) -> model.RunInfo:
     plan, seen = assignment.plan(run.name), run.seen
     observed = _observed(run, plan.clock.period)
+    drawn = {name: assignment.drawn[name] for name in plan.drawn if name in assignment.drawn}
     if seen is None:
-        return model.RunInfo(name=run.name, world=plan.world, observed=observed)
+        return model.RunInfo(name=run.name, drawn=drawn, world=plan.world, observed=observed)
     topics = [
         model.TopicInfo(name=topic, type=kind, count=seen.counts.get(topic, 0))
         for topic, kind in plan.topics.items()
@@ -186,6 +209,7 @@ def _run_info(run: Run, assignment: Assignment) -> model.RunInfo:
     turtles = dict.fromkeys(pose.turtle for pose in seen.path)
     return model.RunInfo(
         name=run.name,
+        drawn=drawn,
         node=plan.start[0].node,
         world=plan.world,
         observed=observed.model_copy(update={"ticks": [], "due": []}),

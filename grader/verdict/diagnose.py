@@ -31,7 +31,8 @@ from grader.verdict.node_files import source_around, source_of_node
 from grader.verdict.node_words import words_for
 from grader.verdict.other_version import other_version
 from grader.verdict.outcome import Failed
-from grader.verdict.own_modules import main_in_copy, own_module
+from grader.verdict.own_modules import own_module
+from grader.verdict.run_facts import fact_of_run
 
 if TYPE_CHECKING:
     from grader.package.source.node import NodeSource
@@ -49,7 +50,8 @@ SHORTEST = 3  # characters of a source line that is worth showing
 class Diagnosis:
     """Why a check failed: the mistakes, the root cause first, with the texts of its entry.
 
-    `consequence_of` is an earlier check that failed because of the same mistake, else "".
+    `consequence_of` is an earlier check that failed because of the same mistake, else "". `of_fact` is
+    whether the root cause is a fact of the run.
     """
 
     mistakes: list[Mistake]
@@ -60,10 +62,19 @@ class Diagnosis:
     where: Where | None
     advice: Sequence[str]
     consequence_of: str = ""
+    of_fact: bool = False
+
+    @property
+    def follows_a_fact(self) -> bool:
+        """Whether a fact of the run that an earlier check tells explains all of it."""
+        return self.of_fact and bool(self.consequence_of)
 
     @classmethod
-    def of(cls, failed: Failed) -> Diagnosis:
-        """Return the check's own diagnosis. KeyError if the catalogue lacks its mistake."""
+    def of(cls, failed: Failed, source: NodeSource | None = None) -> Diagnosis:
+        """Return the check's own diagnosis. KeyError if the catalogue lacks its mistake.
+
+        Advice that the node's source follows already is left out.
+        """
         if failed.mistake.id.startswith(OWN):
             return cls._in_own_words(failed)
         kind = CATALOGUE[failed.mistake.id]
@@ -71,7 +82,7 @@ class Diagnosis:
         return cls(
             mistakes=[failed.mistake],
             rationale=kind.rationale(values, failed.variant),
-            fix=failed.fix or kind.fix_text(values, failed.variant),
+            fix=failed.fix or kind.fix_for(source, values, failed.variant),
             expected=failed.expected,
             actual=failed.actual,
             where=failed.where,
@@ -103,8 +114,14 @@ def diagnose(
     The root cause is none of the kinds `without`: their fixes were tried and did not help. It is
     `found`, if that is given.
     """
-    diagnosis = Diagnosis.of(failed)
     symptom = failed.mistake.id
+    kind = CATALOGUE.get(symptom)
+    source = source_of_node(evidence) if kind is not None and kind.steps else None
+    diagnosis = Diagnosis.of(failed, source)
+    fact = found if evidence.assignment.runs else None
+    fact = fact or fact_of_run(failed, evidence)
+    if fact is not None and fact.kind not in without:
+        return _because(diagnosis, fact, evidence, of_fact=fact is not found)
     if symptom not in SYMPTOMS and symptom not in RAISES and not symptom.startswith("run."):
         return _following(diagnosis, evidence)
     try:
@@ -125,6 +142,16 @@ def diagnose(
         diagnosis.rationale = reworded(diagnosis.rationale, words)
         diagnosis.fix = reworded(diagnosis.fix, words)
     diagnosis.consequence_of = _same_root(diagnosis, evidence)
+    return diagnosis
+
+
+def _because(
+    diagnosis: Diagnosis, fact: RecognisedMistake, evidence: Evidence, *, of_fact: bool
+) -> Diagnosis:
+    """Return the diagnosis of what a fact of the run explains, or a change, with that in front."""
+    _explain(diagnosis, fact, source_around(evidence, fact.where))
+    _show_line(diagnosis, evidence)
+    diagnosis.consequence_of, diagnosis.of_fact = _same_root(diagnosis, evidence), of_fact
     return diagnosis
 
 
@@ -161,7 +188,6 @@ def _root(
                 _not_installed(error, evidence)
                 or own_module(error, where, evidence)
                 or circular_import(error, where, evidence)
-                or main_in_copy(error, evidence)
                 or _cannot_be_read(error, where, evidence)
             )
             if found is not None and found.kind not in without:

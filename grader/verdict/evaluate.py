@@ -17,6 +17,7 @@ from grader.verdict.causes import UNDECIDED, cause_of, says_why
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.checks.declare import Check
 from grader.verdict.evidence import Evidence
+from grader.verdict.explained import explained_by, says_of_world
 from grader.verdict.of_node import NodeEvidence, because_of_another, views
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 from grader.verdict.own_checks import checks_of
@@ -55,19 +56,31 @@ Announce = Callable[[AssignedCheck], None]
 
 
 def assigned_checks(assignment: Assignment) -> list[AssignedCheck]:
-    """Return an assignment's checks, each after those that it depends on."""
+    """Return an assignment's checks, each after those that it depends on.
+
+    Those of a kind are in the order in which the runs start their nodes: what one sends, the next
+    one works on. What a world itself says comes last: it follows from all that the nodes do.
+    """
     uses: dict[str, list[CheckUse]] = {}
     for use in assignment.checks:
         uses.setdefault(use.kind, []).append(use)
-    return [
+    order = [begin.node for plan in assignment.runs for begin in plan.start]
+
+    def started(use: CheckUse) -> int:
+        return order.index(use.of) if use.of in order else 0
+
+    found = [
         AssignedCheck(
             check,
             use,
             tuple(found.id for needed in check.depends for found in uses.get(needed, ())),
         )
         for check in checks_of(assignment).values()
-        for use in uses.get(check.id, ())
+        for use in sorted(uses.get(check.id, ()), key=started)
     ]
+    if not assignment.runs:
+        return found
+    return sorted(found, key=lambda one: says_of_world(one.use, assignment.plan(one.use.run)))
 
 
 def evaluate_checks(
@@ -104,7 +117,13 @@ def evaluate_again(
 ) -> CheckResult:
     """Return a check's result with a diagnosis of none of the kinds `without`, or as `found`."""
     assigned = {one.use.id: one for one in assigned_checks(evidence.assignment)}
-    return _evaluate(assigned[check_id], evidence, translate, without, found)
+    before = evidence.results
+    # (its own failure is no earlier one, because of which it would be skipped)
+    evidence.results = {one: result for one, result in before.items() if one != check_id}
+    try:
+        return _evaluate(assigned[check_id], evidence, translate, without, found)
+    finally:
+        evidence.results = before
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -190,13 +209,15 @@ def _found(
     without: Collection[str],
     cause: RecognisedMistake | None,
 ) -> _Result:
-    blocker = _blocker(assigned, evidence)
+    lacking = evidence.lacking if isinstance(evidence, NodeEvidence) else ""
+    blocker = lacking or _blocker(assigned, evidence)
     outcome = Blocked(by=blocker) if blocker else assigned.check.evaluate(evidence, assigned.use)
     if isinstance(outcome, Blocked):
         reason = _unasked(outcome.by, evidence)
         outcome = outcome if reason is None or isinstance(reason, Passed) else reason
     if isinstance(outcome, Failed) and isinstance(evidence, NodeEvidence):
         other = because_of_another(evidence, assigned.check, assigned.use)
+        other = other or explained_by(evidence, assigned.check, assigned.use, outcome)
         outcome = Blocked(by=other) if other else outcome
     if isinstance(outcome, Passed):
         return _Result(
@@ -209,6 +230,8 @@ def _found(
     if not outcome.blocks:
         evidence.not_blocking.add(assigned.use.id)
     diagnosis, fault = _diagnosis(outcome, evidence, without, cause)
+    if diagnosis.follows_a_fact:
+        return _skipped(assigned, diagnosis.consequence_of, evidence)
     return _Result(
         status="failed",
         fault=fault,

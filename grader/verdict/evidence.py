@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from grader.base.errors import GraderError
 from grader.base.i18n.message import say
 from grader.course.assignment import Assignment
-from grader.course.scenario import RunPlan
+from grader.course.scenario import RunPlan, Start
 from grader.package.submission import Submission
 from grader.report.model import CheckResult
 from grader.ros.distro import Distro
@@ -22,13 +22,15 @@ from grader.verdict.own_names import with_own_executables, with_own_names
 
 if TYPE_CHECKING:
     from grader.run.variants import Trace
-    from grader.verdict.found_change import FoundChange
+    from grader.verdict.found_change import FoundChange, Sought
 
 OUR_FAULT = say("not known, because of a fault of the grader in another check")
 Search = Callable[["Evidence"], "list[FoundChange]"]
 """Looks for small changes of a package after which its node counts."""
 Follow = Callable[["Evidence"], "Trace | None"]
 """Follows a short run of a package's node."""
+Seek = Callable[["Evidence", CheckResult], "Sought"]
+"""Looks for facts of a run that explain a failed check, and for changes with which it passes."""
 WithFix = Callable[[str, Submission], "AbstractContextManager[Evidence | None]"]
 """Opens the evidence of a fixed package; the text is the fix's SHA-256."""
 
@@ -42,12 +44,19 @@ class Evidence:
     the evidence of the package as it is after a fix, or of None; `tried` has what that showed, by
     the fix's SHA-256, and `untried` all results without a fix, once a fix was compared with them.
     `search` looks for small changes after which the node counts; `found_changes` has them (None: not
-    looked for). `follow` follows a short run of the node. `parts` has the results of a check for
+    looked for). `follow` follows a short run of the node. `seek` does both for a check of a scenario's
+    run, and `sought` has what it found, by the check's id. `parts` has the results of a check for
     each node that it covers, by the check's id; see `grader.verdict.of_node`.
     """
 
     node, run_name, start = "", "", 0
     """The node, the run and its program that all is about, if it is about one."""
+
+    @property
+    def begin(self) -> Start | None:
+        """How the run that all is about starts the node; None if it is about no run."""
+        plans = self.assignment.runs if self.run_name else ()
+        return next((p.start[self.start] for p in plans if p.name == self.run_name), None)
 
     def __init__(
         self,
@@ -60,6 +69,7 @@ class Evidence:
         with_fix: WithFix | None = None,
         search: Search | None = None,
         follow: Follow | None = None,
+        seek: Seek | None = None,
     ) -> None:
         self.asked = assignment
         self.assignment = with_own_names(assignment, submission)
@@ -79,6 +89,8 @@ class Evidence:
         self.with_fix = with_fix
         self.search = search
         self.follow = follow
+        self.seek = seek
+        self.sought: dict[str, Sought] = {}
         self.found_changes: list[FoundChange] | None = None
         self.tried: dict[str, Evidence] = {}
         self.untried: dict[str, CheckResult] = {}

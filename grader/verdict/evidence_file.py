@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
@@ -75,6 +75,9 @@ class EvidenceFile(Part):
     lang: str
     checks: tuple[CheckVerdict, ...]
     report: str = Field(description="the SHA-256 of report.json")
+    digest: str = Field(
+        default="", description="the SHA-256 of all of this but itself; none in an earlier file"
+    )
 
     @classmethod
     def of(cls, judged: Judged, assignment: Assignment, report: Report) -> EvidenceFile:
@@ -108,7 +111,8 @@ class EvidenceFile(Part):
 
     def to_bytes(self) -> bytes:
         """Return it as canonical JSON; raise ValueError for a number that JSON does not have."""
-        return canonical_json(self.model_dump(mode="json", by_alias=True))
+        fields = self.model_dump(mode="json", by_alias=True)
+        return canonical_json({**fields, "digest": _digest(fields)})
 
     @classmethod
     def from_bytes(cls, content: bytes, *, name: str = "the evidence") -> EvidenceFile:
@@ -125,6 +129,17 @@ class EvidenceFile(Part):
             ) from None
         except (ValueError, TypeError, LookupError, RecursionError) as error:
             raise EvidenceError(f"{name} is not evidence of schema 1: {error}") from None
+
+
+def is_as_written(content: bytes) -> bool | None:
+    """Return whether evidence that can be read has its own digest; None if it has none."""
+    fields = json.loads(content)
+    return fields["digest"] == _digest(fields) if fields.get("digest") else None
+
+
+def _digest(fields: Mapping[str, object]) -> str:
+    rest = {name: value for name, value in fields.items() if name != "digest"}
+    return hashlib.sha256(canonical_json(rest)).hexdigest()
 
 
 def evidence_bytes(judged: Judged | None, assignment: Assignment, report: Report) -> bytes:

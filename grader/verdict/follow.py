@@ -26,7 +26,7 @@ from grader.verdict.search import one_line
 
 NOT_REACHED, TIMERS = "node.not_reached", "node.several_timers"
 SECONDS = 5.0
-"""The most wall time of the followed run."""
+"""The most processor time of the followed run."""
 MOST_TIMERS = 4
 """The most timers that a text names."""
 MOST_CALLS = 6

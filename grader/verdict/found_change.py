@@ -13,17 +13,17 @@ NEARLY, WHOLE = 8, 9
 """How far a node gets that counts, and that counts in the right period without a sleep."""
 FAR = 2  # lines, from which a change is of another place
 BY_RULE = (
-    *("kept", "asked_for", "yields", "returned", "falsy", "inexact", "unit", "field"),
-    *("bits", "power", "copied", "end_of_list", "digits"),
+    *("returned", "falsy", "inexact", "unit", "field"),
+    *("bits", "power", "digits"),
 )
 """The sorts of changes for each of which one rule of Python is the reason."""
 OWN_REASON = (
     *("emptied", "moved_lines", "renamed", "out", "condition", "loop", "with", "else"),
-    *("once", "once_init", "word", *BY_RULE),
+    *("word", *BY_RULE),
 )
 """The sorts of changes that only their own reason explains."""
 CERTAIN = (
-    *("called", "not_called", "argument", "unkept", "gives_itself", "given_back", "before_spin"),
+    *("called", "not_called", "argument", "unkept", "gives_itself", "before_spin"),
     *BY_RULE,
 )
 """The sorts of changes that hardly help by chance: a rule of Python is their reason."""
@@ -62,7 +62,8 @@ class FoundChange:
     """One or two changes of a node: the new texts of files, by their path.
 
     `level` is how far the node gets with it. If it does not count, the text of its lines is right.
-    `values` are code and the values that it has first at the place of the change, without it.
+    `values` are code and the values that it has first at the place of the change, without it. It only
+    `shows` a place if it could take away what the program is meant to do.
     """
 
     steps: tuple[Step, ...]
@@ -70,6 +71,7 @@ class FoundChange:
     cost: int
     level: int = WHOLE
     values: Values = ()
+    shows: bool = False
 
     @property
     def counts(self) -> bool:
@@ -109,3 +111,25 @@ class FoundChange:
     def is_certain(self) -> bool:
         """Whether it shows by itself where the mistake is, whatever a diagnosis says."""
         return self.level == WHOLE and len(self.steps) == 1 and self.steps[0].sort in CERTAIN
+
+
+@dataclass(frozen=True)
+class Fact:
+    """What a rule (grader/explain/rules.py) tells of a followed run: where, and the values of its texts."""
+
+    rule: str
+    path: str
+    line: int
+    values: Mapping[str, int | float | str]
+
+
+@dataclass(frozen=True)
+class Sought:
+    """What short runs show of a failed check: a fact, and changes with which it passes, the best first.
+
+    `runs` is how many changes were run.
+    """
+
+    fact: Fact | None = None
+    changes: tuple[FoundChange, ...] = ()
+    runs: int = 0

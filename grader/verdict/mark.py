@@ -22,11 +22,12 @@ from grader.ros.distro import distros
 from grader.run.known_interfaces import require_interfaces
 from grader.run.observer import Event
 from grader.run.session import Session
+from grader.run.unforeseen import drawn_for
 from grader.sandbox.base import Sandbox
 from grader.sandbox.choose import open_sandbox
 from grader.verdict.compose import compose
 from grader.verdict.evaluate import AssignedCheck, evaluate_checks
-from grader.verdict.evidence import Evidence, Follow, Search, WithFix
+from grader.verdict.evidence import Evidence, Follow, Search, Seek, WithFix
 from grader.verdict.follows import without_repeated
 from grader.verdict.order import Order
 from grader.verdict.take_in import take_in_for
@@ -34,7 +35,7 @@ from grader.verdict.take_in import take_in_for
 if TYPE_CHECKING:
     from grader.run.variants import Trace
     from grader.verdict.evidence_file import Judged
-    from grader.verdict.found_change import FoundChange
+    from grader.verdict.found_change import FoundChange, Sought
     from grader.verdict.recording import Recording
 
 ISOLATING = ("bubblewrap", "docker")
@@ -70,7 +71,7 @@ def mark(
     """Mark a submission whose intake took `intake` seconds; see `grade`."""
     started = datetime.now(timezone.utc)
     begin = time.monotonic() - intake
-    assignment = order.assignment.on(order.distro)
+    assignment = _with_drawn(order, submission).on(order.distro)
     translate = Translator(order.lang)
     opening = say("opening the sandbox for ROS {distro}", distro=order.distro.name)
     listener(events.StageStarted("setup", translate(opening)))
@@ -81,7 +82,7 @@ def mark(
     sandbox = _open(order, assignment, note)
     setup = time.monotonic() - begin - intake
     listener(events.StageFinished("setup", setup))
-    with Session(sandbox, assignment, note=note) as session:
+    with Session(sandbox, assignment, note=note, is_kept=order.tries_fixes) as session:
         require_interfaces(sandbox, assignment)
         evidence = _evidence(session, submission, listener)
         evidence.distro = order.distro
@@ -90,6 +91,7 @@ def mark(
             if sandbox.name in ISOLATING:
                 evidence.search = _search(session, listener, translate)
                 evidence.follow = _follow(session)
+                evidence.seek = _seek(session, listener, translate) if assignment.runs else None
         results = _decide(evidence, listener, translate)
         environment = _environment(sandbox)
     if keep is not None:
@@ -115,6 +117,14 @@ def mark(
     )
 
 
+def _with_drawn(order: Order, submission: Submission) -> Assignment:
+    """Return the assignment with the values that are drawn for a submission."""
+    assignment = order.assignment
+    if not assignment.draw:
+        return assignment
+    return assignment.with_drawn({**drawn_for(submission.sha256, assignment.draw), **order.drawn})
+
+
 def replay(
     recording: Recording,
     submission: Submission,
@@ -128,9 +138,10 @@ def replay(
 
     Raises RecordingError if the recording is not of this submission and assignment.
     """
-    from grader.verdict.recording import evidence_of  # noqa: PLC0415 - slow
+    from grader.verdict.recording import as_drawn, evidence_of  # noqa: PLC0415 - slow
 
     translate = Translator(lang)
+    assignment = as_drawn(recording, assignment)
     known = distros().get(recording.environment.distro)
     if known is not None:
         assignment = assignment.on(known)
@@ -197,7 +208,7 @@ def _with_fix(
         sandbox = _open(order, session.assignment, unheard)
         left = session.deadline - session.run_clock.now()
         until = sandbox.run_clock.now() + left
-        with Session(sandbox, session.assignment, deadline=until) as again:
+        with Session(sandbox, session.assignment, deadline=until, like=session.built) as again:
             evidence = _evidence(again, fixed, unheard)
             evidence.distro = order.distro
             if sandbox.name in ISOLATING:
@@ -217,6 +228,19 @@ def _search(session: Session, listener: events.Listener, translate: Translator) 
         return search_in(session.sandbox, session.deadline)(evidence)
 
     return search
+
+
+def _seek(session: Session, listener: events.Listener, translate: Translator) -> Seek:
+    """Return what looks for facts and changes that explain a failed check of a scenario's run."""
+    from grader.verdict.goal import Seeker  # noqa: PLC0415 - only an assignment with runs needs it
+
+    seeker = Seeker(session.sandbox, session.deadline)
+
+    def seek(evidence: Evidence, result: model.CheckResult) -> Sought:
+        listener(events.StageStarted("search", translate(say("Trying small changes of the node"))))
+        return seeker(evidence, result)
+
+    return seek
 
 
 def _follow(session: Session) -> Follow:

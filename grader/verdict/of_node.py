@@ -13,14 +13,14 @@ from functools import cached_property
 from grader.course.assignment import Assignment, CheckUse
 from grader.package.submission import Package, Submission
 from grader.report.model import CheckResult, Where
+from grader.run.names_of_ros import TOPICS
 from grader.run.programs import of_program
 from grader.run.run import Run
 from grader.run.workspace import Build
-from grader.verdict.checks.declare import STARTED, Check
+from grader.verdict.checks.declare import INTAKE, STARTED, Check
 from grader.verdict.evidence import Evidence
 
-OF_ROS = ("/rosout", "/parameter_events", "/clock")
-"""The topics that every node has."""
+BESIDE = "package.beside"
 
 
 class NodeEvidence(Evidence):
@@ -37,7 +37,7 @@ class NodeEvidence(Evidence):
         }
         vars(self).update(shared)
         self.whole, self.node, self.run_name, self.start = whole, node, run, start
-        self.assignment = whole.assignment.about(node)
+        self.assignment, self.asked = whole.assignment.about(node), whole.asked.about(node)
         self._main = whole.assignment.package
         self.submission = _submission(whole.submission, self._main, self.assignment)
 
@@ -82,6 +82,16 @@ class NodeEvidence(Evidence):
                 found.setdefault(use.kind, found[use.id])
         return {check: result for check, result in found.items() if result is not None}
 
+    @property
+    def lacking(self) -> str:
+        """The check that says that the node's package is not there; "" if none does."""
+        package = self.assignment.package
+        if package == self._main:
+            return ""
+        there = [use for use in self.assignment.checks if use.with_.get("package") == package]
+        failed = (use.id for use in there if use.kind == BESIDE and self.has_failed(use.id))
+        return next(failed, "")
+
     def about(self, result: CheckResult) -> CheckResult | None:
         """Return what a result says about this node in this run; None if that is nothing."""
         parts = self.whole.parts.get(result.id)
@@ -121,13 +131,18 @@ def _submission(submission: Submission, main: str, about: Assignment) -> Submiss
 
 
 def views(evidence: Evidence, check: Check, use: CheckUse) -> list[NodeEvidence]:
-    """Return the evidence about each node that a use of a check is about; none if it is about no node."""
+    """Return the evidence about each node that a use of a check is about; none if it is about no node.
+
+    A check of a package's files that names a node is about the package of that node.
+    """
     assignment = evidence.assignment
     if not assignment.runs:
         return []
     if check.covers == "files":
         nodes = [use.of] if use.of else _in_order(evidence)
         return [NodeEvidence(evidence, node, "", 0) for node in nodes]
+    if check.stage == INTAKE and use.of:
+        return [NodeEvidence(evidence, use.of, "", 0)]
     starts = [
         NodeEvidence(evidence, begin.node, plan.name, n)
         for plan in assignment.runs
@@ -203,5 +218,5 @@ def _waits(evidence: NodeEvidence, others: Sequence[NodeEvidence]) -> bool:
     return any(
         (wanted[end.role], end.name) not in there
         for end in ends
-        if end.node in own and end.role in wanted and end.name not in OF_ROS
+        if end.node in own and end.role in wanted and end.name not in TOPICS
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from grader.base.i18n.message import say
 from grader.base.i18n.translator import chosen_language
 from grader.base.nearest import meant, nearest_path
 from grader.course.assignment import Assignment
+from grader.course.draw import Plain
 from grader.course.find import assignment_file, own_keys
 from grader.course.load import load_assignment
 from grader.ros.distro import Distro, find_distro
@@ -39,6 +41,8 @@ class Order:
     """False if the exec bits were lost on the way here (see `take_in`)."""
     tries_fixes: bool = True
     """Whether to build and run the package with a fix before the report shows that fix."""
+    drawn: Mapping[str, Plain] = field(default_factory=dict)
+    """Values in place of those that would be drawn for the submission, by their names."""
 
 
 def make_orders(
@@ -52,12 +56,14 @@ def make_orders(
     own_code: bool = False,
     keys: Path | None = None,
     lang: str | None = None,
+    like: Path | None = None,
 ) -> list[Order]:
     """Check all options and return one order for each distro.
 
     `assignment` is an id, a file's path, or None for the default (`course.find.chosen`); `keys` is
     its folder of the instructor (default: the grader's own, if any). `own_code` is for a student's
-    own package: without the hidden checks, and with no sandbox if none is available.
+    own package: without the hidden checks, and with no sandbox if none is available. `like` is a
+    report.json or its folder, whose drawn values are used again.
     """
     check_name(sandbox)
     distros = [find_distro(word.strip()) for word in distro.split(",") if word.strip()]
@@ -65,6 +71,7 @@ def make_orders(
         raise UsageError(say("no distro was named"), remedy=say("For example: --distro jazzy"))
     given = _limit_values(limits)
     wanted = load_visible(assignment) if own_code else load_with_hidden(assignment, keys)
+    drawn = values_of(like, wanted) if like is not None else {}
     bounds = Limits().override(wanted.limits).override(given)
     return [
         Order(
@@ -76,9 +83,47 @@ def make_orders(
             limits=bounds,
             own_code=own_code,
             lang=lang or chosen_language(os.environ),
+            drawn=drawn,
         )
         for found in dict.fromkeys(distros)
     ]
+
+
+def values_of(like: Path, assignment: Assignment) -> dict[str, Plain]:
+    """Return the drawn values in a report (report.json or its folder) for an assignment.
+
+    Raises UsageError if it is of another assignment, or has no value that can be drawn for a name.
+    """
+    from grader.report.files import REPORT, read_report  # noqa: PLC0415 - slow
+
+    file = like / REPORT if like.is_dir() else like
+    report = read_report(file)
+    if report.assignment.id != assignment.id:
+        raise UsageError(
+            say(
+                "{file} is a report of {other}, not of {assignment}",
+                file=str(file),
+                other=report.assignment.id,
+                assignment=assignment.id,
+            )
+        )
+    found = {name: value for run in report.runs for name, value in run.drawn.items()}
+    for name, draw in assignment.draw.items():
+        if name not in found:
+            raise UsageError(
+                say("{file} has no drawn value of '{name}'", file=str(file), name=name),
+                remedy=say("Mark without --like: the values are drawn then."),
+            )
+        if found[name] not in draw.values:
+            raise UsageError(
+                say(
+                    "{name} is {value} in {file}, but it can no longer be drawn",
+                    name=name,
+                    value=str(found[name]),
+                    file=str(file),
+                )
+            )
+    return {name: found[name] for name in assignment.draw}
 
 
 def default_path() -> Path:

@@ -26,6 +26,7 @@ from grader.base.errors import UsageError
 from grader.base.i18n.message import Message, say
 from grader.base.part import Part
 from grader.course.assignment import Assignment, Output
+from grader.course.draw import Plain
 from grader.course.scenario import Node, RunPlan
 from grader.package.submission import Submission
 from grader.report.model import Environment
@@ -35,7 +36,7 @@ from grader.run.session import Unobserved
 from grader.run.variants import Trace
 from grader.run.workspace import Build
 from grader.verdict.evidence import Evidence
-from grader.verdict.found_change import FoundChange
+from grader.verdict.found_change import FoundChange, Sought
 
 EVENT_LISTS = ("events", "before_start", "early")  # of a Watch; they share their events
 
@@ -71,17 +72,30 @@ def _run_as_json(run: Run) -> dict[str, Any]:
     if run.seen is None:  # a run that is no scenario's
         del found["seen"], found["name"]
     else:
-        for name in ("silent", "unusable"):
-            if not found["seen"][name]:
-                del found["seen"][name]
+        _drop_empty(found["seen"], "silent", "unusable", "twins")
+        for message in found["seen"]["messages"]:
+            _drop_empty(message, "sender")
+        for done in found["seen"]["done"]:
+            _drop_empty(done, "unproven")
+        for pose in found["seen"]["path"]:
+            _drop_empty(pose, "put")
     if not run.others:
         del found["others"]
+    for program in (found, *found.get("others", ())):
+        _drop_empty(program, "instead", "beside", "began")
     del found["exits"], found["done"]  # (what the plan says of a program is not recorded)
     if not run.watch.silent:  # of no watch on the wall clock
         del found["watch"]["silent"]
     if run.watch.still_answers is None:
         del found["watch"]["still_answers"]
     return found
+
+
+def _drop_empty(found: dict[str, Any], *names: str) -> None:
+    """Leave out fields without a value: recordings of an earlier grader do not have them."""
+    for name in names:
+        if not found[name]:
+            del found[name]
 
 
 def _run_from_json(value: Any) -> Run:
@@ -102,7 +116,7 @@ RecordedRun = Annotated[Run, PlainValidator(_run_from_json), PlainSerializer(_ru
 
 
 class Asked(Part):
-    """What the build and the run depend on in an assignment."""
+    """What the build and the run depend on in an assignment, with the values that were drawn."""
 
     id: str
     package: str
@@ -110,6 +124,7 @@ class Asked(Part):
     output: Output
     nodes: dict[str, Node] = Field(default_factory=dict)
     runs: tuple[RunPlan, ...] = ()
+    drawn: dict[str, Plain] = Field(default_factory=dict, exclude_if=lambda drawn: not drawn)
 
     @model_serializer(mode="wrap")
     def _without_scenarios(self, handler: Any) -> dict[str, Any]:
@@ -127,7 +142,8 @@ class Recording(Part):
     tried and could not be observed. In JSON, `run` lists its events once (see `_run_as_json`).
     `scenarios` are the runs of an assignment of schema 2, and `unobserved_runs` the reasons by name.
     `fixed` has the recordings of the package with the fixes that were tried, by the fix's SHA-256,
-    `found_changes` the small changes after which the node counts, `trace` what a followed run showed.
+    `found_changes` the small changes after which the node counts, `trace` what a followed run showed,
+    `sought` what short runs of a scenario showed of each failed check, by its id.
     """
 
     schema_: Literal[1] = Field(default=1, alias="schema")
@@ -142,15 +158,20 @@ class Recording(Part):
     fixed: dict[str, Recording] = Field(default_factory=dict)
     found_changes: tuple[FoundChange, ...] = ()
     trace: Trace | None = None
+    sought: dict[str, Sought] = Field(default_factory=dict)
 
     @model_serializer(mode="wrap")
     def _without_scenarios(self, handler: Any) -> dict[str, Any]:
         """Leave out the keys of schema 2 in a recording of schema 1, and fixes if there are none."""
         found: dict[str, Any] = handler(self)
         left_out = [] if self.asked.runs else ["scenarios", "unobserved_runs"]
-        left_out += [key for key in ("fixed", "found_changes", "trace") if not getattr(self, key)]
+        left_out += [
+            key for key in ("fixed", "found_changes", "trace", "sought") if not getattr(self, key)
+        ]
         for key in left_out:
             found.pop(key, None)  # (pydantic calls this twice for a recording in a recording)
+        if self.build is not None and not self.build.faults:
+            found["build"].pop("faults", None)
         return found
 
     def to_bytes(self) -> bytes:
@@ -183,7 +204,21 @@ def record(evidence: Evidence, environment: Environment) -> Recording:
         fixed={digest: record(tried, environment) for digest, tried in evidence.tried.items()},
         found_changes=tuple(evidence.found_changes or ()),
         trace=evidence.trace if evidence.was_followed else None,
+        sought=dict(evidence.sought),
     )
+
+
+def as_drawn(recording: Recording, assignment: Assignment) -> Assignment:
+    """Return the assignment with the values that were drawn for a recording.
+
+    Raises RecordingError if the recording has no value of a name.
+    """
+    if not assignment.draw:
+        return assignment
+    try:
+        return assignment.with_drawn(recording.asked.drawn)
+    except KeyError as name:
+        raise RecordingError(f"the recording has no drawn value {name}") from None
 
 
 def evidence_of(recording: Recording, submission: Submission, assignment: Assignment) -> Evidence:
@@ -230,6 +265,7 @@ def evidence_of(recording: Recording, submission: Submission, assignment: Assign
         with_fix=with_fix,
         search=lambda _: list(recording.found_changes),
         follow=lambda _: recording.trace,
+        seek=lambda _, result: recording.sought.get(result.id, Sought()),
     )
 
 
@@ -241,4 +277,5 @@ def _asked(assignment: Assignment) -> Asked:
         output=assignment.output,
         nodes=assignment.nodes,
         runs=assignment.runs,
+        drawn=assignment.drawn,
     )

@@ -3,28 +3,29 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from grader.base.i18n.message import say
 from grader.course.assignment import CheckUse
 from grader.course.scenario import RunPlan
+from grader.course.worlds import is_of_world
+from grader.package.source.names import dotted
 from grader.report.model import Where
-from grader.run.observations import End, Message, Observations, Role
-from grader.run.programs import full_name
+from grader.run.names_of_ros import ACTION, TOPICS, is_of_ros
+from grader.run.observations import OURS, UNKNOWN, End, Message, Observations, Role
+from grader.run.programs import full_name, names_of
 from grader.run.run import Run
-from grader.verdict.checks.declare import EDGE, Parameters
-from grader.verdict.checks.faults import node_file
+from grader.verdict.checks.faults import call_in
 from grader.verdict.checks.own_interface import fault_of_type
-from grader.verdict.checks.spinning import is_spun
+from grader.verdict.checks.parameters import EDGE, Parameters
 from grader.verdict.evidence import Evidence
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Inconclusive
 
 P_co = TypeVar("P_co", bound=Parameters, covariant=True)
 T = TypeVar("T")
-SERVICE_TOPICS = ("/rosout", "/parameter_events", "/clock")
 
 
 @dataclass(frozen=True)
@@ -46,22 +47,12 @@ class Use(Generic[P_co]):
         return bool(self.evidence.assignment.runs)
 
     @property
-    def observed(self) -> Run:
-        """The run that is judged, also if its nodes did not start."""
-        if not self.in_scenario:
-            return self.evidence.run
-        package = self.evidence.assignment.package
-        if package != self.evidence.asked.package:
-            self.blocked_by("package.beside", package=package)
-        return self.evidence.run
-
-    @property
     def run(self) -> Run:
         """A scenario's run that is judged. Raises Blocked if its node did not start, or does not spin."""
-        run = self.observed
+        run = self.evidence.run
         if not run.started:
             raise Blocked(by="run.starts")
-        if not run.ended_by_itself and not is_spun(run):
+        if not run.ended_by_itself and not run.is_spun:
             raise Blocked(by="run.spins")
         return run
 
@@ -138,10 +129,14 @@ class Use(Generic[P_co]):
         first, last = self.window
         return [item for item in items if first - EDGE <= at(item) <= last + EDGE]
 
-    def blocked_by(self, *kinds: str, **given: str) -> None:
-        """Raise Blocked if a check of one of these kinds has failed, with the parameters `given`."""
+    def blocked_by(self, *kinds: str, of: str | None = None, **given: str) -> None:
+        """Raise Blocked if a check of one of these kinds has failed, with the parameters `given`.
+
+        `of` is the node that it must name ("" for none), None for any.
+        """
         for other in self.evidence.assignment.checks:
             same = all(other.with_.get(name) == value for name, value in given.items())
+            same = same and of in (None, other.of)
             if same and other.kind in kinds and self.evidence.has_failed(other.id):
                 raise Blocked(by=other.id)
 
@@ -152,17 +147,72 @@ class Use(Generic[P_co]):
             self.blocked_by("service.offers", service=stimulus.call.service)
 
     def messages(self, topic: str) -> list[Message]:
-        """Return the messages of a topic in the window."""
-        return self.in_window(self.seen.of_topic(topic), lambda message: message.at)
+        """Return the messages of a topic that count, in the window."""
+        return self.in_window(self.sent(topic), lambda message: message.at)
 
-    def ends(self, role: Role, *, own: bool = True) -> list[End]:
-        """Return the ends of a role, those of the judged node if `own`; not ROS's own topics."""
+    def sent(self, topic: str) -> list[Message]:
+        """Return the messages of a topic that count: the judged node's, or the world's on its topics."""
+        if is_of_world(self.plan.world, topic):
+            return [one for one in self.seen.of_topic(topic) if one.sender in ("", OURS)]
+        return [one for one in self.seen.of_topic(topic) if self._is_own(one.sender)]
+
+    def _is_own(self, sender: str) -> bool:
+        if not self._is_named:
+            return True
+        gone = self.run.exits or self.run.ended_by_itself  # (its ends left the graph with it)
+        return sender in ("", self.node) or (gone and sender.startswith(UNKNOWN))
+
+    @property
+    def _is_named(self) -> bool:
+        """Whether the judged node is known on the graph; its name is another check's matter."""
+        return any(node.name == self.node for node in self.run.nodes)
+
+    @property
+    def _fellows(self) -> set[str]:
+        """The full names of the nodes of the run's other programs."""
+        names = names_of(
+            self.evidence.assignment, self.plan, [node.name for node in self.whole_run.nodes]
+        )
+        mine = self.evidence.start
+        return {name for n, own in enumerate(names) if n != mine for name in own} - {self.node}
+
+    def foreign_senders(self, topic: str) -> list[str]:
+        """Return who of the submission sent on a topic, and is not the judged node or another program's.
+
+        One begins with UNKNOWN if no node on the graph has the publisher.
+        """
+        if is_of_world(self.plan.world, topic):
+            return []
+        found = {one.sender for one in self.seen.of_topic(topic) if not self._is_own(one.sender)}
+        return sorted(found - self._fellows - {OURS})
+
+    def foreign_owners(self, role: Role, *names: str, inside: str = "") -> list[str]:
+        """Return who of the submission has such an end too, and is not the judged node or a fellow.
+
+        The ends have one of the names, or a name that begins with `inside`.
+        """
+        if not self._is_named:
+            return []
+        found = {
+            end.node
+            for end in self.seen.ends
+            if end.role == role and (end.name in names or (inside and end.name.startswith(inside)))
+        }
+        return sorted(found - self._fellows - {self.node})
+
+    def ends(self, role: Role, *, of_actions: bool = False) -> list[End]:
+        """Return the judged node's ends of a role, without those that rclpy makes by itself.
+
+        One that the check asks for by its name is among them, and, `of_actions`, so are the
+        services of actions.
+        """
+        asked = {getattr(self.given, key, "") for key in ("topic", "service")} - {*TOPICS}
         return [
             end
             for end in self.seen.ends
             if end.role == role
-            and (not own or end.node == self.node)
-            and end.name not in SERVICE_TOPICS
+            and end.node == self.node
+            and (end.name in asked or (of_actions and ACTION in end.name) or not is_of_ros(end))
         ]
 
     def call(self, *names: str, mentions: str = "") -> Where:
@@ -170,15 +220,14 @@ class Use(Generic[P_co]):
 
         A call with the text `mentions` among its arguments comes before the others.
         """
+        return call_in(self.evidence, *names, mentions=mentions)
+
+    def field(self, path: str, *, topic: str) -> Where:
+        """Return the line that sets a field of a message, as `linear.x`, else where it is published."""
         source = source_of_node(self.evidence)
-        found = source.calls_of(*names) if source is not None else []
-        if source is None or not found:
-            return node_file(self.evidence)
-        best = _best(found, mentions)
-        return Where(file=source.module_of(best).path, line=best.lineno)
-
-
-def _best(found: Sequence[ast.Call], mentions: str) -> ast.Call:
-    """Return the call with a text among its arguments, else the first."""
-    wanted = mentions.strip("/")
-    return next((one for one in found if wanted and wanted in ast.unparse(one)), found[0])
+        nodes = source.all_nodes if source is not None else []
+        for each in (one for one in nodes if isinstance(one, ast.Assign)):
+            sets = any(f".{dotted(target)}".endswith(f".{path}") for target in each.targets)
+            if source is not None and sets:
+                return Where(file=source.module_of(each).path, line=each.lineno)
+        return self.call("publish", mentions=topic)

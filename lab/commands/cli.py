@@ -24,6 +24,9 @@ COMMANDS = {
         "lab.commands.doctor:doctor",
         msg("Look for what often goes wrong in a terminal or a build."),
     ),
+    "file": LazyCommand(
+        "lab.commands.file:file", msg("Print the path of the node's file."), hidden=True
+    ),
     "hint": LazyCommand("lab.commands.hint:hint", msg("Say more about the current step.")),
     "notice": LazyCommand(
         "lab.commands.notice:notice", msg("Say which step has just been done, if any."), hidden=True

@@ -37,8 +37,9 @@ class Finding:
 
 @click.command(
     help=msg(
-        "Look for what often goes wrong: ROS not sourced, a wrong folder, an old build, a workspace "
-        "in a workspace, overlays in a wrong order. Exit status 1 if something is wrong."
+        "Look for what often goes wrong: ROS not sourced, a wrong folder, an old build or one for "
+        "another ROS, a workspace in a workspace, overlays in a wrong order. Exit status 1 if "
+        "something is wrong."
     )
 )
 @options.lang
@@ -66,7 +67,7 @@ def _print(console: GatedConsole, mark: str, text: str) -> None:
     from rich.table import Table  # noqa: PLC0415
     from rich.text import Text  # noqa: PLC0415
 
-    from lab.guide.show import is_command  # noqa: PLC0415
+    from grader.report.commands import is_command  # noqa: PLC0415
 
     line = Text(set_cell_size(mark, MARK) + text)
     if not console.is_terminal or is_command(text.removeprefix("→ ")):
@@ -81,6 +82,8 @@ def _print(console: GatedConsole, mark: str, text: str) -> None:
 
 def findings(lab: OpenedLab, environment: dict[str, str], folder: Path) -> Iterator[Finding]:
     """Yield what is right and what is wrong with a terminal in this folder."""
+    from lab.guide.owners import not_yours  # noqa: PLC0415 - keeps --help fast
+    from lab.guide.runs import stopped  # noqa: PLC0415
     from lab.guide.state import StudentState  # noqa: PLC0415
 
     state = StudentState(lab.workspace, lab.assignment, environment, home=lab.home)
@@ -90,6 +93,9 @@ def findings(lab: OpenedLab, environment: dict[str, str], folder: Path) -> Itera
     yield from _builds(state)
     yield from _nested(lab.workspace)
     yield _newest(state)
+    for action in (not_yours(state), stopped(state)):
+        if action is not None:
+            yield Finding(action.found, action.next)
     yield from _network(environment)
     yield _space(lab.workspace)
 
@@ -156,6 +162,8 @@ def _folder(folder: Path, workspace: Path) -> Finding:
 
 def _builds(state: StudentState) -> Iterator[Finding]:
     from lab.guide.builds import built, elsewhere  # noqa: PLC0415
+    from lab.guide.predicates import STEPS  # noqa: PLC0415
+    from lab.other_ros import other_ros  # noqa: PLC0415
 
     wrong = elsewhere(state)
     if wrong is not None:
@@ -163,8 +171,13 @@ def _builds(state: StudentState) -> Iterator[Finding]:
     if not (state.workspace / "install").is_dir():
         yield Finding(say("the workspace is not built yet"))
         return
+    if (other := other_ros(state.workspace, state.environment)) is not None:
+        yield Finding(*other)
+        return
     action = built(state)
-    if action is None:
+    entry = STEPS["entry_point"](state)
+    early = entry is not None and entry.id == "setup.no_entry"
+    if action is None or (early and action.id == "executable" and not action.found):
         yield Finding(say("the build is up to date"))
     elif action.found and action is not wrong:
         yield Finding(action.found, action.next)

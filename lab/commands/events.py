@@ -10,7 +10,7 @@ import sys
 import termios
 import threading
 import tty
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 
 IGNORED = {"build", "log", "__pycache__", ".git", ".vscode"}
@@ -19,6 +19,14 @@ STEP = 50  # ms without a change that end an event
 FIRST = 100  # ms after which the watch says that it runs: what changed before is looked at then
 CHANGED = 0  # no signal has this number
 KEPT = ("terminal", "progress.json")  # of the folder .lab
+
+
+def counts(path: Path, workspace: Path, kept: Collection[str] = KEPT) -> bool:
+    """Whether the guide looks again when this file changes; `kept` are those of the folder .lab."""
+    parts = path.relative_to(workspace).parts
+    if parts[:1] == (".lab",):
+        return parts[-1] in kept and len(parts) == 2
+    return not IGNORED.intersection(parts)
 
 
 class Events:
@@ -90,7 +98,7 @@ class Events:
 
         changes = watch(
             self._workspace,
-            watch_filter=lambda _, path: self._counts(Path(path)),
+            watch_filter=lambda _, path: counts(Path(path), self._workspace),
             debounce=DEBOUNCE,
             step=STEP,
             stop_event=self._stop,
@@ -105,12 +113,6 @@ class Events:
                 if found or is_first:
                     os.write(self._say, bytes([CHANGED]))
                 is_first = False
-
-    def _counts(self, path: Path) -> bool:
-        parts = path.relative_to(self._workspace).parts
-        if parts[:1] == (".lab",):
-            return parts[-1] in KEPT and len(parts) == 2
-        return not IGNORED.intersection(parts)
 
 
 @contextlib.contextmanager

@@ -36,7 +36,8 @@ def notice() -> None:
             step = steps[number - 1]
             text = say("Done: {number}. {title}", number=step.number, title=step.title)
             console.print(Text(lab.translate(text), style="green"))
-    if task.position > before and task.action is not None:
+    is_first = not kept.step and steps[0].optional  # (it does not begin with what the lab gives)
+    if (task.position > before or is_first) and task.action is not None:
         now = steps[task.position - 1]
         text = say("Next: {number}. {title} (guide shows it)", number=now.number, title=now.title)
         console.print(Text(lab.translate(text)))

@@ -10,9 +10,12 @@ from rich.cells import cell_len
 from rich.text import Text
 
 from grader.base.i18n.message import say
-from lab.guide.opened import OpenedLab, Task
-from lab.guide.show import console_for, show_line, show_list, show_next, show_step
+from grader.report.wrap import rows
+from lab.guide.opened import OpenedLab
+from lab.guide.show import console_for, show_current, show_line, show_list, show_step
+from lab.guide.task import Task
 
+KEYS = 4  # lines of the keys below what is shown
 BETWEEN = "   "  # two keys of the last line, which is broken only there
 PLAIN = "LAB_PLAIN"  # set to anything: nothing is cleared, for screen readers
 
@@ -40,10 +43,13 @@ class Screen:
             step = lesson.steps[number - 1]
             text = say("Done: {number}. {title}", number=step.number, title=step.title)
             console.print(Text(translate(text), style="bold green"))
-        show_step(console, lesson.steps[task.position - 1 + ahead], lesson, translate)
-        if not ahead:
-            show_next(console, task.action, translate, passed=self._lab.progress().passed)
-        for line in more:
+        lines = [*more]
+        if ahead:
+            show_step(console, lesson.steps[task.position - 1 + ahead], lesson, translate)
+        else:
+            taken = KEYS + len(done) + sum(rows(line, console.width) for line in lines)
+            show_current(console, lesson, task, translate, taken=taken)
+        for line in lines:
             show_line(console, line)
         self._keys()
 
@@ -51,8 +57,7 @@ class Screen:
         """Show the list of the steps."""
         self.clear()
         console = console_for(sys.stdout)
-        passed = self._lab.progress().passed
-        show_list(console, self._lab.lesson, task.actions, self._lab.translate, passed=passed)
+        show_list(console, self._lab.lesson, task, self._lab.translate)
         self._keys()
 
     def wait_for_key(self) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 import zipfile
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -54,6 +55,7 @@ def submit(name: str | None, wanted: tuple[Path, ...], lang: str | None) -> None
     """Write the archive and print its path on the student's machine."""
     import os  # noqa: PLC0415
 
+    from grader.report.notice import notice  # noqa: PLC0415
     from lab.guide.opened import opened_lab  # noqa: PLC0415 - keeps --help fast
     from lab.guide.progress import now  # noqa: PLC0415
 
@@ -66,16 +68,16 @@ def submit(name: str | None, wanted: tuple[Path, ...], lang: str | None) -> None
         place = Path(outside) / FOLDER / file.name if outside else file
         click.echo(lab.translate(say("Hand in this file: {path}", path=shown(str(place)))))
         for line in packed.said():
-            click.echo(lab.translate(line))
-        kept = lab.progress()
-        if not kept.passed:
-            click.echo(
-                lab.translate(
-                    say("`check` has not passed yet. You can hand it in all the same.")
-                    if kept.checked
-                    else say("`check` has not run yet. Run it first if you can.")
+            notice(lab.translate(line), sys.stdout)
+        task = lab.task(os.environ)
+        if not task.passed:
+            unknown = say("`check` has not run yet. Run it first if you can.")
+            if lab.progress().checked:
+                unknown = say(
+                    "Your files have changed since the last `check`. Run it again if you can."
                 )
-            )
+            failed = say("`check` has not passed yet. You can hand it in all the same.")
+            notice(lab.translate(failed if task.is_checked else unknown), sys.stdout)
 
 
 def write_archive(

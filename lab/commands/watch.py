@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import subprocess
 import sys
 import threading
 from collections.abc import Iterator
@@ -16,12 +17,15 @@ from grader.base.errors import GraderError
 from grader.base.i18n.message import msg, say
 from grader.base.i18n.translator import errors_in
 from grader.cli import options
+from lab.terminal import ignoring_interrupts
 
 if TYPE_CHECKING:
     from lab.commands.screen import Screen
-    from lab.guide.opened import OpenedLab, Task
+    from lab.guide.opened import OpenedLab
+    from lab.guide.task import Task
 
 TICK = 2.0  # seconds after which it looks again, e.g. for files outside of the workspace
+PROGRAMS = "LAB_PROGRAMS"  # the variable with the folder of the lab's programs
 TERMINAL = ".lab/terminal"  # what the last prompt of a terminal wrote: its AMENT_PREFIX_PATH
 
 
@@ -50,9 +54,8 @@ def watch_lesson(lang: str | None) -> int:
             show(
                 None,
                 lab.lesson,
-                lab.task(os.environ, look=True).actions,
+                lab.task(os.environ, look=True),
                 lab.translate,
-                passed=lab.progress().passed,
             )
             return 0
         return _Watch(lab).run()
@@ -114,6 +117,7 @@ class _Watch:
     def _graph_watched(self) -> Iterator[None]:
         """Look at the ROS graph again and again; what is seen changes the file of the progress."""
         from lab.guide.graph import CONDITIONS  # noqa: PLC0415 - keeps --help fast
+        from lab.guide.ran import PROGRAM_RAN  # noqa: PLC0415
 
         ended = threading.Event()
 
@@ -122,7 +126,8 @@ class _Watch:
                 with contextlib.suppress(OSError, GraderError):
                     self._lab.task(environment_of(self._lab.workspace), look=True)
 
-        if any(step.done.partition(" ")[0] in CONDITIONS for step in self._lab.lesson.steps):
+        watched = (*CONDITIONS, PROGRAM_RAN, "ran", "run")
+        if any(step.done.partition(" ")[0] in watched for step in self._lab.lesson.steps):
             threading.Thread(target=look, daemon=True).start()
         try:
             yield
@@ -167,9 +172,8 @@ class _Watch:
         self._screen.step(self._task, more=(text or self._lab.translate(nothing)).split("\n"))
 
     def _window(self) -> None:
-        """Open the window until Ctrl+C."""
-        from lab.commands.cli import main  # noqa: PLC0415
-
+        """Open the window until Ctrl+C: a program of its own, which this one outlives."""
         self._screen.clear()
-        main(["window"])
+        with ignoring_interrupts():
+            subprocess.run([Path(os.environ[PROGRAMS], "window")], check=False)
         self._screen.step(self._task)

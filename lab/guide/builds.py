@@ -8,18 +8,22 @@ from pathlib import Path
 from grader.base.i18n.message import say
 from lab.guide.action import Action
 from lab.guide.state import StudentState
+from lab.other_ros import other_ros
 
 BUILD = "cd ~/ros2_ws && colcon build --symlink-install"
+ENTRIES = say("The build reads the entry points from setup.py and makes a program of each.")
 
 
 def built(state: StudentState) -> Action | None:
     """Done if a build installed the node's executable, and nothing of it is older than the source."""
     name = state.assignment.package
     if not state.installed(f"lib/{name}/{state.assignment.executable}"):
-        return elsewhere(state) or Action(BUILD, "executable")
+        return elsewhere(state) or Action(BUILD, "executable", hints=(ENTRIES,))
+    if (misplaced := elsewhere(state)) is not None:
+        return misplaced
     if _other_entry(state):
         found = say("setup.py has changed since the last build")
-        return Action(BUILD, "build.stale", found=found)
+        return Action(BUILD, "build.stale", found=found, hints=(ENTRIES,))
     if _other_copy(state):
         found = say("the build has an older copy of {file}", file=state.assignment.node_file)
         why = say("With --symlink-install the build links to your file instead of copying it.")
@@ -28,20 +32,41 @@ def built(state: StudentState) -> Action | None:
 
 
 def elsewhere(state: StudentState) -> Action | None:
-    """Return the action for a build in another folder than the workspace."""
+    """Return the action for a build in another folder than the workspace.
+
+    Beside a good one it does harm too: colcon finds a package's copy in it, and its overlay may be
+    the one that is sourced.
+    """
+    built_well = state.program.exists() or state.installed(
+        f"share/ament_index/resource_index/packages/{state.assignment.package}"
+    )
     folders = {"~/ros2_ws/src": state.workspace / "src"}
     folders[f"~/ros2_ws/src/{state.assignment.package}"] = state.package
-    if state.home is not None:
+    if state.home is not None and not built_well:
         folders["~"] = state.home
     for name, folder in folders.items():
         if (folder / "install").is_dir() and (folder / "build").is_dir():
+            made = [each for each in ("build", "install", "log") if (folder / each).is_dir()]
+            delete = f"cd {name} && rm -r {' '.join(made)}"
             return Action(
-                f"cd {name} && rm -r build install log; {BUILD}",
+                delete if built_well else f"{delete}; {BUILD}",
                 "build.elsewhere",
                 found=say("you built in {folder}", folder=name),
                 hints=(say("colcon builds in the folder in which it is called."),),
             )
     return None
+
+
+def for_other_ros(state: StudentState) -> Action | None:
+    """Return the action for a build whose programs cannot start with the ROS that is here."""
+    found = other_ros(state.workspace, state.environment)
+    if found is None:
+        return None
+    why = say(
+        "A build belongs to one release of ROS and one Python: it writes their paths into the programs "
+        "that it installs. Your files in src stay as they are."
+    )
+    return Action(found[1], "build.other_ros", found=found[0], hints=(why,))
 
 
 def _other_entry(state: StudentState) -> bool:

@@ -47,7 +47,6 @@ def command(workspace: Path, assignment: str | None, lang: str | None, what: str
         show(
             what,
             lab.lesson,
-            lab.task(os.environ, look=what is None or what == "list").actions,
+            lab.task(os.environ, look=what is None or what == "list"),
             lab.translate,
-            passed=lab.progress().passed,
         )

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from grader.base.i18n.message import Message, say
 from grader.course.assignment import CheckUse
-from grader.package.source.names import called_name
+from grader.package.source.names import called_name, last_part
 from grader.package.source.node_class import derives_from_node
 from grader.package.source.python import SHEBANG, PythonFault, parse_python
 from lab.guide.action import Action
+from lab.guide.changes import code
 from lab.guide.found import mistake
 from lab.guide.state import StudentState
+from lab.guide.sure import sure_mistake
 
 
 @dataclass(frozen=True)
@@ -95,8 +98,8 @@ def code_action(state: StudentState) -> Action | None:
         elsewhere = state.submission.newer_copy if state.workspace.is_dir() else ""
         copy = say("a newer copy of {file} is {path}", file=name, path=f"~/ros2_ws/{elsewhere}")
         write = say("Write the node in {file}.", file=name)
-        return Action(write, "node.write", found=copy if elsewhere else "")
-    return _unreadable(state, text) or _lacking(state)
+        return Action(write, "node.write", found=copy if elsewhere else "", place=_path(state))
+    return _unreadable(state, text) or _lacking(state) or sure_mistake(state)
 
 
 def _unreadable(state: StudentState, text: bytes) -> Action | None:
@@ -108,11 +111,23 @@ def _unreadable(state: StudentState, text: bytes) -> Action | None:
         if known is not None:
             return known
         found = say("Python cannot read {file}: {reason}.", file=name, reason=fault.text)
-        look = say("Look at line {line}.", line=fault.line) if fault.line else ""
-        return Action(look, "source.syntax_error", found=found)
+        where = _path(state)
+        look = say("Correct {place}.", place=where)
+        if fault.line:
+            look = say(
+                "Correct {place}.",
+                place=say("{file}, line {line}", file=where, line=fault.line),
+            )
+            where = f"{where}:{fault.line}"
+        return Action(look, "source.syntax_error", found=found, place=where)
     if not text.startswith(b"#!"):
-        first = say("The first line of {file} must name its interpreter.", file=name)
-        return Action(first, "source.no_shebang", hints=(SHEBANG,))
+        found = say("the first line of {file} does not name its interpreter", file=name)
+        write = say("Write as the first line of {file}: {line}", file=name, line=SHEBANG)
+        why = say(
+            "The first line names the program that runs a file: without it, ./{file} fails.",
+            file=name,
+        )
+        return Action(write, "source.no_shebang", found, (why,), place=f"{_path(state)}:1")
     return None
 
 
@@ -121,27 +136,46 @@ def _lacking(state: StudentState) -> Action | None:
     node = state.source
     if node is None:
         return None  # (only if the file is too large; the checks test whether it works)
-    if not any(derives_from_node(each) for each in node.module.classes):
-        none = say("{file} has no class that inherits from Node yet.", file=name)
-        return Action(none, "node.class", hints=("class MyNode(Node):",))
+    makes_node = any(last_part(name) == "create_node" for _, name in node.calls)
+    if not makes_node and not any(derives_from_node(each) for each in node.module.classes):
+        found = say("{file} has no class that inherits from Node yet", file=name)
+        write = say("Write the class in {file}.", file=name)
+        why = say("A class gets from Node what makes it a node: timers, topics, the logger.")
+        line = code("class MyNode(Node):", place=name)
+        return Action(write, "node.class", found, (why, line), place=_path(state))
     calls = {called_name(call) for call, _ in node.calls}
     for need, use in _needs(state):
         if need.call not in calls:
-            lacks = say("The node in {file} does not call {call} yet.", file=name, call=need.call)
+            found = say("the node in {file} does not call {call} yet", file=name, call=need.call)
+            add = say("Call {call} in {file}.", file=name, call=need.call)
             if need is TIMER:
-                lacks = say("The node in {file} has no timer yet.", file=name)
+                found = say("the node in {file} has no timer yet", file=name)
+                add = say("Add a timer in {file}.", file=name)
             where = say("Write it in __init__, after the line with super().__init__.")
-            return Action(lacks, f"node.{need.call}", hints=(need.why, where, need.line_for(use)))
+            hints = (need.why, where, code(need.line_for(use), place=name))
+            return Action(add, f"node.{need.call}", found, hints)
     function = state.assignment.function
     if node.main is None:
-        none = say("{file} has no function {function} yet.", file=name, function=function)
+        found = say("{file} has no function {function} yet", file=name, function=function)
+        write = say("Write the function {function} in {file}.", file=name, function=function)
         why = say("The entry point names the function that starts the node.")
-        return Action(none, "node.main", hints=(why, f"def {function}(args=None):"))
-    if not any(call.startswith("spin") for call in calls):
-        ends = say("{file} does not spin the node yet, so the node would end at once.", file=name)
+        line = code(f"def {function}(args=None):", place=name)
+        return Action(write, "node.main", found, (why, line), place=_path(state))
+    named = {n.attr for n in node.all_nodes if isinstance(n, ast.Attribute)}
+    if not any(name.startswith("spin") for name in calls | named):
+        found = say("{file} does not spin the node yet, so the node would end at once", file=name)
+        add = say("Call rclpy.spin in {file}.", file=name)
         why = say("spin waits and calls your callbacks until you press Ctrl+C.")
-        return Action(ends, "node.spin", hints=(why, "rclpy.spin(node)"))
+        where = say(
+            "Write it in {function}, behind the line that makes the node.", function=function
+        )
+        return Action(add, "node.spin", found, (why, where, code("rclpy.spin(node)", place=name)))
     return None
+
+
+def _path(state: StudentState) -> str:
+    """Return the node's file below the package's folder."""
+    return f"{state.assignment.package}/{state.assignment.node_file}"
 
 
 def _needs(state: StudentState) -> Iterator[tuple[Need, CheckUse | None]]:

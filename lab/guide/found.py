@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Iterator
+from difflib import unified_diff
 from pathlib import Path
 
 from grader.base.i18n.message import joined, say
 from grader.base.nearest import nearest
 from grader.base.shown import shown
+from grader.mistakes.catalogue import CATALOGUE
+from grader.mistakes.slips import description
+from grader.package.source.broken_python import Slip
 from grader.package.source.manifest import name_in
-from grader.report.model import CheckResult
+from grader.package.source.python import PythonFault, can_parse, parse_python
+from grader.package.source.slips import slip_of
+from grader.report.model import CheckResult, Where
+from grader.verdict.checks.build import unreadable_setup as unreadable_setup_py
+from grader.verdict.checks.not_python import without_guess
 from lab.guide.action import Action
+from lab.guide.changes import changes_in
 from lab.guide.state import StudentState
 
 NOT_STARTED = {
@@ -23,37 +31,102 @@ NOT_STARTED = {
 COMMANDS = {"package.found", "source.node_file"}
 """The kinds of check whose fix is said at once, not as a hint: a command, or one character."""
 MOST_ENTRIES = 500  # of the home folder, that are looked at
-MOST_LINES = 12  # of a fix, that a hint shows
-CHANGED = re.compile(r"^[-+](?![-+]{2} ).*", re.MULTILINE)
+UNREADABLE = "build.colcon"  # the kind of check that fails if Python cannot read setup.py
 
 
 def mistake(state: StudentState, *kinds: str) -> Action | None:
     """Return the action for the first mistake that these kinds of check find in the files."""
     for kind in kinds:
         result = state.results.get(kind)
-        if result is None or result.status != "failed" or not result.actual:
-            continue
-        if any(each.id in NOT_STARTED for each in result.mistakes):
-            continue
-        return _action(result, kind, state)
+        found = None if result is None else _mistake_in(result, kind, state)
+        if found is not None:
+            return found
     return None
+
+
+def first_mistake(state: StudentState) -> tuple[str, str, Action] | None:
+    """Return the first mistake that the files show: its kind of check, its file, what to do."""
+    if not state.workspace.is_dir():
+        return None
+    for kind, result in state.each_result:
+        if (found := _mistake_in(result, kind, state)) is not None:
+            return kind, result.where.file if result.where is not None else "", found
+    broken = unreadable_setup(state)
+    return (UNREADABLE, "setup.py", broken) if broken is not None else None
+
+
+def unreadable_setup(state: StudentState) -> Action | None:
+    """Return the action for a setup.py that Python cannot read, in the words of the build's check."""
+    text = state.read(state.package / "setup.py")
+    try:
+        parse_python(text)
+    except PythonFault as fault:
+        error, stops = f"{fault.text}", fault.line
+    else:
+        return None
+    failed = unreadable_setup_py(text, error, Where(file="setup.py", line=stops))
+    kind, values = CATALOGUE[failed.mistake.id], {**failed.mistake.params, **failed.words}
+    line = failed.where.line if failed.where is not None else None
+    place: str = "setup.py"
+    if line:
+        place = say("{file}, line {line}", file=place, line=line)
+    slip = slip_of(text)
+    reason: str = error
+    if slip is not None:
+        reason = joined(without_guess(error), description(slip), by=", ")
+    found: str = say("{file} cannot be read: {reason}", file="setup.py", reason=reason)
+    if stops and stops != line:
+        found = joined(found, say("(Python stops at line {line}.)", line=stops))
+    return Action(
+        say("Correct {place}.", place=place),
+        failed.mistake.id,
+        found,
+        _texts(
+            kind.rationale(values, failed.variant),
+            kind.fix_text(values, failed.variant),
+            _corrected(text, slip),
+        ),
+        place=f"setup.py:{line}" if line else "setup.py",
+    )
+
+
+def _corrected(text: bytes, slip: Slip | None) -> str:
+    """Return the change that corrects a file which Python cannot read; "" if none is certain."""
+    if slip is None or not slip.fixed or not can_parse(slip.fixed):
+        return ""
+    old, new = (t.decode("utf-8", "replace").splitlines(keepends=True) for t in (text, slip.fixed))
+    return changes_in("".join(unified_diff(old, new, "a/setup.py", "b/setup.py", n=0)))
+
+
+def _mistake_in(result: CheckResult, kind: str, state: StudentState) -> Action | None:
+    if result.status != "failed" or not result.actual or result.consequence_of:
+        return None
+    if any(each.id in NOT_STARTED for each in result.mistakes):
+        return None
+    return _action(result, kind, state)
 
 
 def _action(result: CheckResult, kind: str, state: StudentState) -> Action:
     file = result.where.file if result.where is not None else ""
     line = result.where.line if result.where is not None else None
     place = say("{file}, line {line}", file=file, line=line) if line else file
+    spot = f"{file}:{line}" if line else file
     found = result.actual.partition("\n")[0]
     name = result.mistakes[0].id if result.mistakes else result.id
     if kind in COMMANDS or not (file and (state.package / file).exists()):
         found = joined(found, " (", place, ")", by="") if line else found
-        return Action(result.fix, name, found, _texts(result.rationale), _difference(result))
-    changed = CHANGED.findall(result.patch)[:MOST_LINES]
-    hints = _texts(result.rationale, result.fix, "\n".join(changed))
-    return Action(say("Correct {place}.", place=place), name, found, hints, _difference(result))
+        return Action(result.fix, name, found, _texts(result.rationale), difference(result), spot)
+    correct = say("Correct {place}.", place=place)
+    return Action(correct, name, found, hints_in(result), difference(result), spot)
 
 
-def _difference(result: CheckResult) -> str:
+def hints_in(result: CheckResult) -> tuple[str, ...]:
+    """Return what a failed check tells, hint by hint: why, what kind of change, the change."""
+    return _texts(result.rationale, result.fix, changes_in(result.patch))
+
+
+def difference(result: CheckResult) -> str:
+    """Return what a failed check found, and what it expected."""
     wanted = say("expected: {text}", text=result.expected) if result.expected else ""
     return joined(result.actual, wanted, by="\n")
 
@@ -79,6 +152,26 @@ def package_elsewhere(state: StudentState) -> Action | None:
     return None
 
 
+def nested_package(state: StudentState) -> Action | None:
+    """Return the action for a package that lies in a folder of its own name."""
+    root = state.submission.root if state.workspace.is_dir() else None
+    name = state.assignment.package
+    inner = None if root is None else state.workspace / root
+    if inner is None or inner.parent != state.package or _own_name(inner) != name:
+        return None
+    wanted, outer = f"~/ros2_ws/src/{name}", f"{name}_outer"
+    place = f"{wanted}/{inner.name}"
+    command = (
+        f"cd ~/ros2_ws/src && mv {name} {outer} && mv {outer}/{shown(inner.name)} {name} "
+        f"&& rmdir {outer}"
+    )
+    found = say("the package is in {place}; it belongs in {wanted}", place=place, wanted=wanted)
+    why = say(
+        "ros2 pkg create makes the package's folder itself, in the folder in which it is called."
+    )
+    return Action(command, "package.nested", found, (why,))
+
+
 def other_package(state: StudentState) -> Action | None:
     """Return the action for a copy of the package that colcon would find too."""
     for path in state.submission.copies:
@@ -99,7 +192,8 @@ def _misspelt(own: str, place: str, state: StudentState) -> Action:
         ),
         "package.name_mismatch",
         found=say("the package is called {own}; it must be {name}", own=shown(own), name=name),
-        hints=(f"ros2 pkg create --build-type ament_python {name} --dependencies rclpy",),
+        hints=(say("The lesson, ros2 run and the checks ask for the package by its name."),),
+        where=say("In {place}, and in its own folder {own}.", place=shown(place), own=shown(own)),
     )
 
 

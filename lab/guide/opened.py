@@ -4,33 +4,26 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator, chosen_language
 from grader.course.assignment import Assignment
 from grader.course.find import assignment_file
 from grader.course.load import load_assignment
 from grader.ros.distro import DEFAULT, find_distro
-from lab.guide.action import Action
 from lab.guide.graph import sees
 from lab.guide.lesson import Lesson, lesson_file, read_lesson
-from lab.guide.predicates import current, next_actions
-from lab.guide.progress import FailedCheck, LessonProgress, keep_progress, read_progress
+from lab.guide.progress import LessonProgress, keep_progress, read_progress
+from lab.guide.ran import PROGRAM_RAN, ended_well
 from lab.guide.state import StudentState
+from lab.guide.task import Task, find_task
+from lab.ros_packages import OPTIONAL_PACKAGES, has_package
 
 WORKSPACE = "~/ros2_ws"
-
-
-@dataclass(frozen=True)
-class Task:
-    """The current step: `position` from 1, its next `action` (None: everything is done)."""
-
-    position: int
-    action: Action | None
-    actions: tuple[Action | None, ...]
+Sees = Callable[[str, str, Mapping[str, str]], bool]
+"""Whether a condition of the graph holds for a node or topic, in a terminal's environment."""
 
 
 @dataclass(frozen=True)
@@ -44,39 +37,57 @@ class OpenedLab:
     lesson: Lesson
     translate: Translator
 
-    def task(self, environment: Mapping[str, str], *, look: bool = False) -> Task:
+    def task(
+        self, environment: Mapping[str, str], *, look: bool = False, sees: Sees = sees
+    ) -> Task:
         """Return the current step, from the files as they are now and a terminal's environment.
 
         Where the step's condition is about the ROS graph, `look` asks it, which takes a second; what
-        was seen is kept if the workspace can be written to.
+        was seen is kept if the workspace can be written to. `sees` looks for who knows the graph.
         """
         kept = self.progress()
         seen = list(kept.seen)
 
+        def key_of(condition: str, name: str) -> str:
+            key = f"{condition} {name}"
+            if self._is_written_here(name):  # (it holds until the student saves something else)
+                key += f" {state.submission.sha256[:12]}"
+            return key
+
+        def had_seen(condition: str, name: str) -> bool:
+            return key_of(condition, name) in seen
+
         def saw(condition: str, name: str) -> bool:
-            if (key := f"{condition} {name}") in seen:
+            if had_seen(condition, name):
                 return True
-            if not (look and sees(condition, name, environment)):
-                return False
-            seen.append(key)
-            return True
+            if condition == PROGRAM_RAN:
+                holds = ended_well(self.workspace, name)
+            else:
+                holds = look and sees(condition, name, environment)
+            if holds:
+                seen.append(key_of(condition, name))
+            return holds
 
         state = StudentState(
             self.workspace,
             self.assignment,
             environment,
             home=self.home,
-            passed=kept.passed,
             lang=self.translate.lang,
-            failed=_action(kept.failed) if kept.failed is not None else None,
             saw=saw,
+            had_seen=had_seen,
         )
-        actions = next_actions(state, self.lesson.steps)
+        task = find_task(state, self.lesson.steps, kept)
         if seen != kept.seen:
             with contextlib.suppress(OSError):
                 self.keep(seen=seen)
-        position = current(actions)
-        return Task(position, actions[position - 1], actions)
+        return task
+
+    def _is_written_here(self, name: str) -> bool:
+        """Whether a node or topic comes from the student's nodes, as far as the assignment says."""
+        assignment = self.assignment
+        topics = {f"/{str(use.with_.get('topic', '')).lstrip('/')}" for use in assignment.checks}
+        return name.rpartition("/")[2] == assignment.node_name or name in topics - {"/"}
 
     def progress(self) -> LessonProgress:
         """Return what is known of this lesson."""
@@ -85,11 +96,6 @@ class OpenedLab:
     def keep(self, **changes: object) -> LessonProgress:
         """Change what is known of this lesson; see `keep_progress`."""
         return keep_progress(self.workspace, self.assignment.id, **changes)
-
-
-def _action(failed: FailedCheck) -> Action:
-    again = say("Correct it, save, and run: check")
-    return Action(again, failed.id, found=failed.found, hints=tuple(failed.hints))
 
 
 def opened_lab(
@@ -103,6 +109,10 @@ def opened_lab(
     distro = os.environ.get("ROS_DISTRO") or DEFAULT
     file = assignment_file(assignment)
     assigned = load_assignment(file).on(find_distro(distro))
-    lesson = read_lesson(lesson_file(file.parent, translate.lang), distro=distro)
+    lesson = read_lesson(
+        lesson_file(file.parent, translate.lang),
+        distro=distro,
+        packages=[name for name in OPTIONAL_PACKAGES if has_package(name, os.environ)],
+    )
     place = workspace or Path(WORKSPACE)
     return OpenedLab(place.expanduser(), Path.home(), distro, assigned, lesson, translate)

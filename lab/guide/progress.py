@@ -28,17 +28,26 @@ class Open(BaseModel):
 
 
 class FailedCheck(Open):
-    """The failure to look at first: what is wrong, and the hints about it."""
+    """The failure to look at first: what is wrong, where, and the hints about it.
+
+    `kind` is the kind of check, `mistake` what it recognised, `file` the file that is to be changed.
+    """
 
     id: str
     found: str
+    kind: str = ""
+    mistake: str = ""
+    file: str = ""
+    line: int = 0
     hints: list[str] = Field(default_factory=list)
+    difference: str = ""
 
 
 class LessonProgress(Open):
     """What is known of one lesson; `hints` counts those that were shown, by task.
 
-    `failed` is of the last check, None if it passed.
+    `passed` is whether it ever had full marks. `sha256` is of the files that the last check read: what
+    it found holds as long as they are the same. `all_passed` and `failed` are of that check.
     `step` is the position (from 1) that the student was told last, 0 if none. `seen` are the
     conditions about the ROS graph that once held, each with the name of its node or topic. `student`
     is the name for the archive.
@@ -48,6 +57,8 @@ class LessonProgress(Open):
     max_score: float = 0
     passed: bool = False
     checked: str = ""
+    sha256: str = ""
+    all_passed: bool = False
     submitted: str = ""
     student: str = ""
     step: int = 0
@@ -65,6 +76,24 @@ class Progress(Open):
     def of(self, lesson: str) -> LessonProgress:
         """Return what is known of a lesson; something empty that can be changed if it is new."""
         return self.lessons.setdefault(lesson, LessonProgress())
+
+
+def archive_of(kept: LessonProgress, saved: float) -> str:
+    """Return the archive that was made last, if no file was `saved` after it; else "".
+
+    `submitted` has its file and, behind a space, the time in whole seconds.
+    """
+    file, made = submitted(kept)
+    return file if made is not None and int(saved) <= made.timestamp() else ""
+
+
+def submitted(kept: LessonProgress) -> tuple[str, datetime | None]:
+    """Return the archive that was made last, and when, in this machine's time; ("", None) if none."""
+    file, _, time = kept.submitted.rpartition(" ")
+    try:
+        return file, datetime.fromisoformat(time).astimezone()
+    except ValueError:
+        return kept.submitted, None
 
 
 def read_progress(workspace: Path) -> Progress:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -14,9 +15,15 @@ from grader.package.submission import Submission
 from grader.report.model import CheckResult
 from grader.verdict.static import static_results
 from grader.verdict.take_in import take_in_for
-from lab.guide.action import Action
 
 MAX_BYTES = 200_000
+
+
+def _modified(path: Path) -> float:
+    try:
+        return path.stat().st_mtime
+    except OSError:
+        return 0.0
 
 
 def unseen(*_: str) -> bool:
@@ -28,9 +35,9 @@ def unseen(*_: str) -> bool:
 class StudentState:
     """The input of the tests of the steps. `home` is None if only the workspace counts.
 
-    `passed` is whether the package once had full marks, `lang` the student's language, `failed`
-    what the last check found. `saw` tells whether a condition of `graph.CONDITIONS` holds, or once
-    held, for a node or topic. It reads files when they are needed and keeps what it read: make a new
+    `passed` is whether the files as they are had full marks, `lang` the student's language. `saw`
+    tells whether a condition of `graph.CONDITIONS` holds, or once held, for a node or topic;
+    `had_seen` whether it is known already, without a look. It reads files when they are needed and keeps what it read: make a new
     one for each look.
     """
 
@@ -40,9 +47,15 @@ class StudentState:
     home: Path | None = None
     passed: bool = False
     lang: str = SOURCE
-    failed: Action | None = None
     saw: Callable[[str, str], bool] = unseen
+    had_seen: Callable[[str, str], bool] = unseen
     _read: dict[Path, bytes] = field(default_factory=dict, compare=False, repr=False)
+
+    def but(self, **changes: object) -> StudentState:
+        """Return this state with other fields that no result depends on; what was read is kept."""
+        other = copy.copy(self)
+        other.__dict__.update(changes)
+        return other
 
     @property
     def package(self) -> Path:
@@ -69,9 +82,18 @@ class StudentState:
         """The results of the checks that the files decide, by kind of check, in `lang`."""
         if not self.workspace.is_dir():
             return {}
+        found: dict[str, CheckResult] = {}
+        for kind, result in self.each_result:
+            if kind not in found or (result.status, found[kind].status) == ("failed", "passed"):
+                found[kind] = result
+        return found
+
+    @cached_property
+    def each_result(self) -> list[tuple[str, CheckResult]]:
+        """The kind and the result of each check that the files decide, in `lang`."""
         kinds = {use.id: use.kind for use in self.assignment.checks}
         found = static_results(self.submission, self.assignment, lang=self.lang)
-        return {kinds[each]: result for each, result in reversed(found.items())}
+        return [(kinds[each], result) for each, result in found.items()]
 
     @cached_property
     def source(self) -> NodeSource | None:
@@ -81,6 +103,23 @@ class StudentState:
         return read_node(
             lambda path: self.read(self.package / path) or None, path, assignment.function
         )
+
+    @cached_property
+    def saved(self) -> float:
+        """When a file of the packages was saved last; seconds since the epoch, 0 if there is none."""
+        found = self.submission
+        if found.root is None:
+            return 0.0
+        paths = [self.workspace / found.root / file.path for file in found.files]
+        for one in found.packages:
+            paths += [self.workspace / one.root / file.path for file in one.files]
+        return max((_modified(path) for path in paths if path.is_file()), default=0.0)
+
+    @property
+    def program(self) -> Path:
+        """The executable as the isolated layout of a build has it."""
+        name = self.assignment.package
+        return self.workspace / "install" / name / "lib" / name / self.assignment.executable
 
     def installed(self, path: str, package: str = "") -> bool:
         """Whether a build has installed this path (isolated or merged install layout)."""

@@ -1,4 +1,4 @@
-# Sets up ROS and the lab's commands for every shell and every command of the lab.
+# Sets up ROS and the lab's commands for every shell and every command of the lab (any sh can read it).
 # It does not source the overlay, because students learn to do that themselves.
 
 # By default nodes stay on their own machine, so that the nodes of a class do not find each other.
@@ -9,7 +9,16 @@ else
 fi
 
 # in a function, because a sourced file would otherwise see the caller's arguments
-_lab_source_ros() { . "/opt/ros/$ROS_DISTRO/setup.bash"; }
+_lab_source_ros() {
+  if [ -r /opt/ros/image/environment.sh ]; then  # an image has the variables ready
+    . /opt/ros/image/environment.sh
+    case $- in
+      *i*) ;;  # setup.bash adds completion
+      *) return 0 ;;
+    esac
+  fi
+  [ -z "${BASH_VERSION:-}" ] || . "/opt/ros/$ROS_DISTRO/setup.bash"
+}
 _lab_source_ros
 unset -f _lab_source_ros
 

@@ -17,7 +17,7 @@ _lab_restore_home() {
 _lab_own_files() {
   local file
   {
-    find . \( -path ./ros2_ws -o -path ./.cache -o -path ./.ros -o -path ./.vscode-server \) -prune \
+    find . \( -path ./ros2_ws -o -path ./.cache -o -path ./.ros -o -path './.*-server' \) -prune \
       -o -type f -newer .lab_opened -print0
     [ ! -d "$_lab_kept" ] || (cd "$_lab_kept" && find . -type f -print0)
   } | sort -zu | while IFS= read -r -d '' file; do
@@ -25,21 +25,25 @@ _lab_own_files() {
   done
 }
 
+# (one terminal at a time: two that end together would put one's copy into the other's; copies that
+# a killed terminal has not finished are removed)
 _lab_keep_home() {
-  local new names
-  mkdir -p ~/ros2_ws/.lab && new=$(mktemp -d ~/ros2_ws/.lab/home.XXXXXX) || return
+  local new names lock
+  mkdir -p ~/ros2_ws/.lab && exec {lock}> ~/ros2_ws/.lab/home.lock && flock -w 20 "$lock" || return
+  rm -rf ~/ros2_ws/.lab/home.?????? && new=$(mktemp -d ~/ros2_ws/.lab/home.XXXXXX) || return
   if (cd ~ && set -o pipefail && _lab_own_files | tar -c --null -T - | tar -x -C "$new"); then
     rm -rf "$_lab_kept"
-    mv "$new" "$_lab_kept"
+    mv -T "$new" "$_lab_kept"
     names=$(cd "$_lab_kept" && find . -type f -not -path './.*' -printf '%P\n' | sort | head -n 5 |
       paste -sd ' ')
     [ -z "$names" ] || (
       . /opt/ros2_teaching_lab/lab/shell/words/load.sh
-      printf "$lab_home_is_kept" "$names"
+      lab_say "$lab_home_is_kept" "$names"
     )
   else
     rm -rf "$new"
   fi
+  exec {lock}>&-
 }
 
 _lab_restore_home

@@ -12,7 +12,7 @@ done
 unset IFS
 . /opt/ros2_teaching_lab/lab/shell/words/load.sh
 case $lab_text in
-  window) printf "$lab_window_program" "${0##*/}" "$ROS_DISTRO" ;;
-  install) printf "$lab_installs" "${0##*/}" ;;
+  window) lab_say "$lab_window_program" "${0##*/}" "$ROS_DISTRO" ;;
+  install) lab_say "$lab_installs" "${0##*/}" ;;
 esac >&2
 exit 127

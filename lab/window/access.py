@@ -13,6 +13,7 @@ import secrets
 import struct
 from dataclasses import dataclass, field
 from pathlib import Path
+from urllib.parse import urlsplit
 
 ROUTES = Path("/proc/net/route")
 GATEWAY_FLAG = 0x2  # RTF_GATEWAY of <linux/route.h>
@@ -20,28 +21,53 @@ GATEWAY_FLAG = 0x2  # RTF_GATEWAY of <linux/route.h>
 
 @dataclass(frozen=True)
 class Access:
-    """The rules for a window at a port (the same inside and outside of a container)."""
+    """The rules for a window at a port (the same inside and outside of a container).
+
+    `front` is the address of the page where another server passes the requests on, as
+    `https://lab.example.org/user/ada/`; "" if the browser comes to the port itself.
+    """
 
     port: int
     token: str = field(default_factory=lambda: secrets.token_urlsafe(32))
+    front: str = ""
 
     @property
     def address(self) -> str:
         """The address to open, with the token."""
-        return f"http://127.0.0.1:{self.port}/?token={self.token}"
+        return f"{self.front or f'http://127.0.0.1:{self.port}/'}?token={self.token}"
 
     @property
     def cookie(self) -> str:
         """The name of the cookie; a browser shares cookies between ports of a host."""
         return f"lab_window_{self.port}"
 
+    @property
+    def path(self) -> str:
+        """The path of the page, for which the cookie is."""
+        return urlsplit(self.front).path or "/"
+
+    @property
+    def sockets(self) -> list[str]:
+        """The origins of our websockets."""
+        return [
+            f"{'wss' if of.startswith('https:') else 'ws'}:{of.partition(':')[2]}"
+            for of in self._origins
+        ]
+
+    @property
+    def _origins(self) -> list[str]:
+        if self.front:
+            return ["{0.scheme}://{0.netloc}".format(urlsplit(self.front))]
+        return [f"http://127.0.0.1:{self.port}", f"http://localhost:{self.port}"]
+
     def is_host(self, host: str | None) -> bool:
         """Whether a Host header is one of ours."""
-        return host in (f"127.0.0.1:{self.port}", f"localhost:{self.port}")
+        return any(host == origin.partition("//")[2] for origin in self._origins)
 
     def is_origin(self, origin: str | None, host: str | None) -> bool:
         """Whether an Origin header is that of our own page at this host."""
-        return self.is_host(host) and origin == f"http://{host}"
+        own = [each for each in self._origins if each.partition("//")[2] == host]
+        return self.is_host(host) and origin in own
 
     def is_token(self, token: str | None) -> bool:
         """Whether a token is ours; compared in constant time."""

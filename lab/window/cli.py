@@ -1,10 +1,11 @@
-"""The `window` command: serves the page until Ctrl+C."""
+"""The `window` command: serves the page of the lab until Ctrl+C."""
 
 from __future__ import annotations
 
 import os
 import webbrowser
 from collections.abc import Sequence
+from pathlib import Path
 
 import click
 
@@ -12,7 +13,7 @@ from grader.base.i18n.message import msg, say
 from grader.base.i18n.translator import Translator, chosen_language, errors_in
 from grader.cli import options
 from grader.cli.invoke import run
-from lab.window.published import HOST, LOCALHOST, PORT
+from lab.window.published import DESCRIPTOR, HOST, IN_PAGE, LOCALHOST, PORT, has_browser
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -23,7 +24,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 @click.command(
     context_settings={"help_option_names": ["-h", "--help"]},
     help=msg(
-        "Open a page in the browser with the turtle, the graph, the log, plots and parameters.\n\n"
+        "Open the lab in the browser: guide, editor, terminals, turtle, graph, log, plots and "
+        "parameters in one page.\n\n"
         "The page shows the nodes that this terminal sees. Only this machine can open it, and only "
         "with the address that is printed. Ctrl+C ends it."
     ),
@@ -42,29 +44,61 @@ def main(argv: Sequence[str] | None = None) -> int:
     show_default=True,
     help=msg("The address to listen on; a container needs its own, to publish the port."),
 )
+@click.option(
+    "--socket",
+    "unix",
+    type=click.Path(path_type=Path),
+    help=msg("Listen on a Unix socket instead; another server passes the page's requests on."),
+)
+@click.option(
+    "--descriptor",
+    type=click.IntRange(0),
+    envvar=DESCRIPTOR,
+    help=msg("Listen on the open socket with this file descriptor instead."),
+)
+@click.option(
+    "--front",
+    metavar="URL",
+    default="",
+    help=msg("The address of the page as the browser has it, if another server passes it on."),
+)
+@click.option("--served", is_flag=True, hidden=True)
 @click.option("--no-open", is_flag=True, help=msg("Do not open the browser."))
 @options.lang
-def command(port: int, host: str, no_open: bool, lang: str | None) -> int:
+def command(
+    port: int,
+    host: str,
+    unix: Path | None,
+    descriptor: int | None,
+    front: str,
+    served: bool,
+    no_open: bool,
+    lang: str | None,
+) -> int:
     """Serve the page."""
-    from lab.window.serve import serve  # noqa: PLC0415 - keeps --help fast
+    from lab.window.serve import Place, kept, serve  # noqa: PLC0415 - keeps --help fast
 
     translate = Translator(lang or chosen_language(os.environ))
+    if os.environ.get(IN_PAGE):
+        click.echo(translate(say("This page shows it already: turtle, graph, log and plots.")))
+        return 0
+
+    programs = os.environ.get("LAB_PROGRAMS")
 
     def ready(address: str) -> None:
         click.echo(translate(say("The window is open at this address. Ctrl+C ends it.")))
         click.echo(f"\n  {address}\n")
-        if not no_open and _has_browser():
+        if not no_open and has_browser(os.environ):
             webbrowser.open(address)
 
     with errors_in(translate.lang):
         try:
-            serve(host, port, translate.lang, os.environ, ready)
+            place = Place(host, port, unix, descriptor, front)
+            if programs and not served:
+                words = [f"{programs}/window", "--served", "--lang", translate.lang]
+                words += ["--front", front, "--host", host]
+                kept(place, words, ready)
+            serve(place, translate.lang, os.environ, (lambda _: None) if served else ready)
         except KeyboardInterrupt:
             click.echo(translate(say("The window is closed.")))
     return 0
-
-
-def _has_browser() -> bool:
-    """Whether a browser can be opened from here: a desktop, and not in the lab."""
-    desktop = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
-    return bool(desktop) and not os.environ.get("LAB_PROGRAMS")

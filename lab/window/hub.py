@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 from collections import deque
+from collections.abc import Callable
 from typing import Any, Protocol
 
 from lab.window.protocol import Asked, Drive, Restart, Watch
@@ -30,8 +31,9 @@ class Page:
 
     def __init__(self, hub: Hub) -> None:
         self._hub = hub
-        self.view = ""
+        self.views: set[str] = set()
         self.series: list[tuple[str, str]] = []
+        self.seeks = False
         self._states: dict[str, Message] = {}
         self._queue: deque[Message] = deque(maxlen=MOST_QUEUED)
         self._news = asyncio.Event()
@@ -63,6 +65,7 @@ class Hub:
 
     def __init__(self) -> None:
         self.bridge: Bridge | None = None
+        self.on_graph: Callable[[], None] | None = None
         self._pages: set[Page] = set()
         self._states: dict[str, Message] = {}
         self._logs: deque[Message] = deque(maxlen=LOGS_KEPT)
@@ -79,6 +82,10 @@ class Hub:
             page.put({"kind": "log", "records": list(self._logs)})
         return page
 
+    def graph(self) -> Message:
+        """Return the newest graph; empty before the bridge has seen it."""
+        return self._states.get("graph", {})
+
     def close(self, page: Page) -> None:
         """Remove a page."""
         self._pages.discard(page)
@@ -89,7 +96,7 @@ class Hub:
         if self.bridge is None:
             return
         if isinstance(asked, Watch):
-            page.view, page.series = asked.view, asked.series
+            page.views, page.series, page.seeks = set(asked.views), asked.series, asked.seeks
             self._watch()
         elif isinstance(asked, Restart):
             self.bridge.restart()
@@ -109,6 +116,8 @@ class Hub:
             self._watch()
         if message["kind"] in STATES:
             self._states[message["kind"]] = message
+        if kind == "graph" and self.on_graph is not None:
+            self.on_graph()
         if kind == "log":
             self._logs.extend(message["records"])
         if "id" in message:
@@ -120,9 +129,15 @@ class Hub:
             page.put(message)
 
     def _watch(self) -> None:
-        views = {page.view for page in self._pages if page.view}
-        series = {series for page in self._pages if page.view == "plot" for series in page.series}
+        views = {view for page in self._pages for view in page.views}
+        plots = [page for page in self._pages if "plot" in page.views]
+        series = {series for page in plots for series in page.series}
         if self.bridge is not None:
             self.bridge.send(
-                {"do": "watch", "views": sorted(views), "series": sorted(map(list, series))}
+                {
+                    "do": "watch",
+                    "views": sorted(views),
+                    "series": sorted(map(list, series)),
+                    "seeks": any(page.seeks for page in plots),
+                }
             )

@@ -7,7 +7,8 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
 
 Name = Annotated[str, Field(max_length=512)]
-View = Literal["turtle", "graph", "log", "plot", "parameters"]
+View = Literal["turtle", "graph", "log", "plot", "parameters", "guide"]
+"""What a page can show; the guide needs the graph."""
 MOST_SERIES = 12
 
 
@@ -16,11 +17,15 @@ class _Asked(BaseModel):
 
 
 class Watch(_Asked):
-    """The view that is shown, and the series (topic and field) of its plots."""
+    """The views that are shown, and the series (topic and field) of the plots.
+
+    `seeks` is whether the plot begins with a field that moves.
+    """
 
     do: Literal["watch"]
-    view: View
+    views: list[View] = Field(max_length=6)
     series: list[tuple[Name, Name]] = Field(default=[], max_length=MOST_SERIES)
+    seeks: bool = False
 
 
 class Drive(_Asked):

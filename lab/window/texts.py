@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from grader.base.i18n.message import msg
 from grader.base.i18n.translator import translated
+from lab.window.work_texts import WORK_TEXTS
 
 TEXTS = {
     # the frame
-    "title": msg("ROS 2 window"),
+    "title": msg("ROS 2 lab"),
     "views": msg("Views"),
     "connecting": msg("connecting"),
     "connected": msg("connected"),
@@ -115,6 +116,11 @@ TEXTS = {
     "pause": msg("Pause"),
     "chart": msg("Chart of the values over time"),
     "plot_hint": msg("Choose a topic and a field, then Add."),
+    "plot_seeks": msg(
+        "Nothing moves yet. The plot begins with the first number that changes. Or choose a topic and "
+        "a field, then Add."
+    ),
+    "logged_number": msg("number in the lines of {node}"),
     "plot_no_topic": msg("no topic"),
     "no_number": msg("no numeric field"),
     "not_installed": msg(
@@ -140,6 +146,15 @@ TEXTS = {
 }
 
 
-def page_texts(lang: str) -> dict[str, str]:
-    """Return the page's texts in a language, and the language itself as `lang`."""
-    return {"lang": lang, **{name: translated(text, lang) for name, text in TEXTS.items()}}
+def page_texts(lang: str, *, has_turtlesim: bool = True, has_lab: bool = False) -> dict[str, str]:
+    """Return the page's texts in a language, and the language itself as `lang`.
+
+    `has_turtlesim` is "" where there is none to start: the page shows no turtles then. `has_lab` is
+    "" outside of a lab: the page has only what nodes show then.
+    """
+    own = {
+        "lang": lang,
+        "has_turtlesim": "yes" if has_turtlesim else "",
+        "has_lab": "yes" if has_lab else "",
+    }
+    return own | {name: translated(text, lang) for name, text in (TEXTS | WORK_TEXTS).items()}

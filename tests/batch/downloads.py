@@ -114,6 +114,11 @@ class Person:
     group: str = ""
     grade: str = ""
 
+    @property
+    def feedback(self) -> str:
+        """The name of the feedback files, without their endings."""
+        return "_".join([*self.name.split(), self.id_number])
+
 
 def people(count: int, *, first: int = 1000, korean: bool = False) -> list[Person]:
     """Return `count` participants with different names."""

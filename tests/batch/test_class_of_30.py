@@ -87,7 +87,7 @@ def oddities(class_: list[Person]) -> list[str]:
     copied, half = class_[COPIED].name, class_[HALF].name
     return [
         *odd,
-        "Same Name: two students of this name",
+        "Same Name: 2 students of this name",
         f"{copied}: the total of attempt 1 was corrected to 10, because: copied",
         f"{half}: run.output of attempt 1 was corrected to 5, because: half of it",
     ]

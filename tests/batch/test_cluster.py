@@ -102,6 +102,7 @@ def _scores(done: list[Done]) -> dict[str, float]:
     return found
 
 
+@pytest.mark.long
 def test_a_lost_worker_costs_only_the_submission_it_was_marking(
     ros_jazzy: Ros, scheduler: str, start_worker: Callable[..., int], tmp_path: Path
 ) -> None:
@@ -160,6 +161,7 @@ def test_no_verdict_is_lost_if_the_scheduler_ends(ros_jazzy: Ros, tmp_path: Path
         assert ledger.count() == 3
 
 
+@pytest.mark.long
 def test_verdicts_from_the_cluster_are_kept_in_the_local_ledger(
     ros_jazzy: Ros, scheduler: str, start_worker: Callable[..., int], tmp_path: Path
 ) -> None:

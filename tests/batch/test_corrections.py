@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import sqlite3
 import subprocess
+import zlib
 from datetime import datetime, timedelta, timezone
 from pathlib import Path
 
 import pytest
 
 from grader.base.errors import UsageError
-from grader.batch import ledger_chain, ledger_schema
+from grader.batch import ledger_schema
 from grader.batch.correction import counting_verdict, holds
 from grader.batch.ledger import HandedInRow, Ledger
 from grader.batch.model import UNKNOWN, Override
+from grader.report.model import Report
 from tests.batch.archives import write
 from tests.batch.downloads import scored
 from tests.batch.stub_run import Run, grade_all
@@ -85,12 +87,15 @@ NOW = datetime.now(timezone.utc)
 
 def at(ledger: Ledger, key: str, sha256: str, *, lost: bool, assignment: str = "a") -> int:
     """Record a verdict on a submission under a version of the assignment."""
+    return ledger.record("kim", key, submitted(sha256, lost=lost, assignment=assignment))
+
+
+def submitted(sha256: str, *, lost: bool, assignment: str = "a") -> Report:
+    """Return a report on a submission."""
     made = report(check("run.output", "failed" if lost else "passed"))
     submission = made.submission.model_copy(update={"sha256": sha256})
     version = made.assignment.model_copy(update={"sha256": assignment * 64})
-    return ledger.record(
-        "kim", key, made.model_copy(update={"submission": submission, "assignment": version})
-    )
+    return made.model_copy(update={"submission": submission, "assignment": version})
 
 
 @pytest.mark.parametrize("check_id", ["", "run.output"])
@@ -125,20 +130,29 @@ def old_ledger(
     path: Path, monkeypatch: pytest.MonkeyPatch, submissions: str, *corrections: float | None
 ) -> None:
     """Write the ledger of a grader that did not record which verdict a correction is about."""
+    connection = sqlite3.connect(path, isolation_level=None)
     with monkeypatch.context() as patched:
         patched.setattr(ledger_schema, "STEPS", ledger_schema.STEPS[:2])
-        with Ledger(path) as ledger:
-            for key in submissions:
-                at(ledger, key, key * 64, lost=True)
+        ledger_schema.bring_up_to_date(connection)
     then = datetime.now(timezone.utc)
-    with sqlite3.connect(path) as connection:
-        for n, given in enumerate(corrections):
-            row = connection.execute(
-                "INSERT INTO override (student, assignment, check_id, points, because, by, at) "
-                "VALUES ('kim', ?, '', ?, 'x', 'lee', ?)",
-                (HELLO, given, (then + timedelta(minutes=n)).isoformat()),
-            ).lastrowid
-            ledger_chain.append(connection, "override", row or 0, None)
+    columns = (
+        "student, key, round, assignment, submission, distro, score, max_score, report, marked"
+    )
+    for key in submissions:
+        made = submitted(key * 64, lost=True)
+        content = zlib.compress(made.model_dump_json(by_alias=True).encode())
+        row = ("kim", key, 1, made.assignment.id, key * 64, "jazzy", made.score, made.max_score)
+        marks = ", ".join("?" * 10)
+        connection.execute(
+            f"INSERT INTO verdict ({columns}) VALUES ({marks})",
+            (*row, content, (then - timedelta(minutes=1)).isoformat()),
+        )
+    for n, given in enumerate(corrections):
+        connection.execute(
+            "INSERT INTO override (student, assignment, check_id, points, because, by, at) "
+            "VALUES ('kim', ?, '', ?, 'x', 'lee', ?)",
+            (HELLO, given, (then + timedelta(minutes=n)).isoformat()),
+        )
     connection.close()
 
 

@@ -171,7 +171,7 @@ def test_a_folder_without_submissions_lists_what_was_found(tmp_path: Path) -> No
     (tmp_path / "c" / "grades.csv").write_text("a\n")
     with pytest.raises(UsageError, match=r"1 other file \(grades\.csv\)") as error:
         found_in(tmp_path / "c", tmp_path)
-    for name in ("moodle", "canvas", "gradescope", "github_classroom", "folders", "archives"):
+    for name in ("moodle", "canvas", "gradescope", "google_classroom", "folders", "archives"):
         assert name in error.value.remedy
 
 
@@ -238,9 +238,7 @@ NAME = st.one_of(
 ).filter(lambda name: name not in (".", "..") and not set(name) & set("/\0"))
 
 
-@settings(
-    max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+@settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @hypothetical(folders=st.sets(NAME, max_size=6), files=st.sets(NAME, max_size=6))
 def test_no_submission_is_lost_because_of_its_name(
     tmp_path: Path, folders: set[str], files: set[str]

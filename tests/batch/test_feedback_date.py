@@ -42,3 +42,8 @@ def test_the_solution_is_handed_back_after_the_due_date(tmp_path: Path) -> None:
         assert CHANGE in _text(page)  # the instructor's
         with Ledger(out / "ledger.sqlite") as ledger:
             assert ledger.count() == 1
+    # a student who may hand in until later gets no more than before the due date
+    extensions = tmp_path / "extensions.csv"
+    extensions.write_text("student,due\ns0-text_other_capital,2999-01-01T00:00:00Z\n")
+    replay_all(folder, out, "--assignment", str(lesson), "--extensions", str(extensions))
+    assert not any(CHANGE in _text(path) for path in (out / "feedback").iterdir())

@@ -177,9 +177,9 @@ def test_a_correction_survives_a_regrade_and_is_in_every_output(copy: Class) -> 
     row = copy.rows()["s1-entry_missing"]
     assert (row["score"], row["final"], row["run.output"]) == ("52", "52", "7")
     assert "shown in class" in row["notes"]
-    for place in ("students/s1-entry_missing.html", "feedback/s1-entry_missing.html"):
+    for place in ("students/s1-entry_missing.html", "feedback/Bela_Nagy_s1_entry_missing.html"):
         assert "shown in class" in (copy.out / place).read_text(encoding="utf-8"), place
-    assert "shown in class" in (copy.out / "feedback/s1-entry_missing.md").read_text()
+    assert "shown in class" in (copy.out / "feedback/Bela_Nagy_s1_entry_missing.md").read_text()
     assert "shown in class" in (copy.out / "junit.xml").read_text(encoding="utf-8")
     assert "52" in (copy.out / "index.html").read_text(encoding="utf-8")
     listed = copy.override("--list")
@@ -247,7 +247,8 @@ def test_a_dry_run_marks_nothing(marked: Class, tmp_path: Path) -> None:
     done = replay_all(marked.folder, tmp_path / "out", "--dry-run")
     assert done.returncode == 0
     assert "4 to mark" in done.stderr
-    assert "s0-solution" in done.stdout.splitlines()
+    marking = [line.split() for line in done.stdout.splitlines() if line.startswith("s0-solution")]
+    assert [(words[0], words[-2:]) for words in marking] == [("s0-solution", ["to", "mark"])]
     assert not (tmp_path / "out" / "gradebook.csv").exists()
 
 

@@ -285,7 +285,6 @@ def test_pax_headers_with_many_digits_take_bounded_time(tmp_path: Path) -> None:
 
 @settings(
     max_examples=150,
-    deadline=None,
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )
 @given(

@@ -78,7 +78,7 @@ def _compare(ros: Ros, tmp_path: Path, students: int, kills: int, seed: int) -> 
     assert not alive(str(tmp_path)), "something of it still runs"
 
 
-@pytest.mark.full
+@pytest.mark.long  # (an interrupted run that resumes, in test_grade_all.py, is in .ci/run)
 def test_killing_the_coordinator_loses_no_verdict(ros_jazzy: Ros, tmp_path: Path) -> None:
     _compare(ros_jazzy, tmp_path, students=2, kills=2, seed=random.randrange(10**6))
 

@@ -53,6 +53,10 @@ def test_a_class_marked_in_english_and_then_in_korean_is_korean(
     assert rows[0]["status"] == "graded"
     assert "setup.no_entry" in rows[0]["mistakes"]
 
+    page = (out / "index.html").read_text(encoding="utf-8")
+    assert '<html lang="ko"' in page
+    assert "이름을 보고 정한 형식으로 읽었습니다" in page
+
     again = replay_all(folder, out, *words, env={"LC_ALL": "", "LANG": "ko_KR.UTF-8"})
     assert "0 to mark, 1 marked before" in again.stderr
     back = replay_all(folder, out, *words, "--lang", "en")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sqlite3
 import zlib
 from collections.abc import Callable
@@ -11,17 +12,21 @@ from pathlib import Path
 import pytest
 
 from grader.base.errors import SurroundingsError
-from grader.base.signing import PRIVATE_FILE, PublicKey, make_key, own_key
-from grader.batch.ledger import Ledger
+from grader.base.signing import PRIVATE_FILE, PublicKey, make_key, own_key, read_public_key
+from grader.batch.ledger import HandedInRow, Ledger
 from grader.batch.ledger_chain import START, ChainCheck
+from grader.batch.ledger_rows import remove
 from grader.batch.ledger_schema import FIRST
-from grader.batch.model import Override
+from grader.batch.model import Override, Student
+from grader.batch.verify import verify_ledger
 from tests import processes
 from tests.batch.classes import corpus_class, replay_all
 from tests.report.samples import check, report
 
 AT = datetime(2026, 11, 20, 23, 59, tzinfo=timezone.utc)
 HELLO = "hello_time"
+SENT = "a" * 64
+EARLIER = Path(__file__).parent / "ledgers" / "before_salts.sqlite"
 
 
 @pytest.fixture
@@ -40,6 +45,19 @@ def path(tmp_path: Path, key: PublicKey) -> Path:
             ledger.record(student, "k1", report(check("run.output", "failed")), evidence=b"seen")
         ledger.override(HELLO, Override("kim", "run.output", 10, "seen", "lee", AT))
     return place
+
+
+@pytest.fixture
+def full(path: Path) -> Path:
+    """The same with a row in every other table that the chain covers."""
+    with Ledger(path) as ledger:
+        ledger.enrol(HELLO, [Student("ann", "Ann A."), Student("kim", "Kim K.")])
+        for late in (False, True):
+            ledger.record_handed_in(HELLO, [HandedInRow("kim", SENT, AT, late, "kim.zip", AT)])
+        ledger.request_regrades(row for row in ledger.verdicts().values() if row.student == "ann")
+        ledger.record_fault("bob", "k2", "no Docker")
+        ledger.note("begun", "{}")
+    return path
 
 
 def found(path: Path, key: PublicKey | None) -> ChainCheck:
@@ -92,12 +110,157 @@ def test_any_change_is_noticed(path: Path, key: PublicKey, statement: str) -> No
     assert found(path, key).faults
 
 
+@pytest.mark.parametrize(
+    "statement",
+    [
+        "UPDATE handed_in SET late = 0",
+        "UPDATE handed_in SET first_seen = '2026-11-01T00:00:00+00:00'",
+        "DELETE FROM handed_in",
+        "INSERT INTO handed_in (student, assignment, submission, path, first_seen) "
+        "VALUES ('bob', 'hello_time', 'x', 'x', '2026-11-21T00:00:00+00:00')",
+        "DELETE FROM regrade",
+        "UPDATE regrade SET before = 2",
+        "INSERT INTO regrade (student, key, before, asked) VALUES ('kim', 'k1', 3, 'x')",
+        "UPDATE fault SET message = ''",
+        "DELETE FROM fault",
+        "UPDATE setting SET value = '[]'",
+        "INSERT INTO setting (name, value) VALUES ('corrections', '{}')",
+        "UPDATE student SET name = CASE key WHEN 'ann' THEN 'Kim K.' ELSE 'Ann A.' END",
+        "UPDATE link SET digest = '' WHERE place = 'fault'",
+        "UPDATE link SET digest = NULL WHERE place = 'fault'",
+        "UPDATE link SET salt = NULL WHERE place = 'setting'",
+        "CREATE INDEX more ON fault (message)",
+        "CREATE TABLE more (x)",
+        "DROP INDEX verdict_by_submission",
+        "ALTER TABLE setting ADD COLUMN more DEFAULT 'x'",
+    ],
+)
+def test_any_change_of_the_other_rows_and_of_the_tables_is_noticed(
+    full: Path, key: PublicKey, statement: str
+) -> None:
+    assert found(full, key).faults == []
+    change(full, statement)
+    assert found(full, key).faults
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        "CREATE TRIGGER more AFTER INSERT ON verdict BEGIN "
+        "UPDATE verdict SET score = max_score WHERE student = 'kim'; END",
+        "CREATE VIEW more AS SELECT * FROM verdict",
+    ],
+)
+def test_a_planted_program_is_not_run_and_is_told(full: Path, statement: str) -> None:
+    change(full, statement)
+    before = full.read_bytes()
+    with pytest.raises(SurroundingsError, match="which no grader made"):
+        Ledger(full)
+    assert full.read_bytes() == before
+    status, text = said("verify", full)
+    assert (status, "'more', which no grader made" in text) == (1, True), text
+
+
+@pytest.mark.parametrize("wrong", ["'text'", "7", "1e999", "x'ff'", "CAST(x'ff' AS TEXT)"])
+@pytest.mark.parametrize(
+    "column",
+    ["verdict.report", "verdict.evidence", "verdict.student", "verdict.score", "link.signature",
+     "link.hash", "link.digest", "link.salt", "link.place", "link.row"],
+)  # fmt: skip
+def test_whatever_stands_in_a_column_is_a_fault_and_no_error(
+    full: Path, key: PublicKey, column: str, wrong: str
+) -> None:
+    table, _, name = column.partition(".")
+    change(full, f"UPDATE {table} SET {name} = {wrong} WHERE id = 2")
+    assert found(full, key).faults
+    findings = verify_ledger(full, key, "")
+    assert all(text.isprintable() for _, text in findings.lines)
+
+
+def test_what_changes_nothing_adds_no_link(full: Path, key: PublicKey) -> None:
+    count = found(full, key).head.count
+    with Ledger(full) as ledger:
+        ledger.enrol(HELLO, [Student("ann", "Ann A."), Student("kim", "Kim K.")])
+        later = datetime(2026, 12, 1, tzinfo=timezone.utc)
+        ledger.record_handed_in(HELLO, [HandedInRow("kim", SENT, AT, True, "kim.zip", later)])
+        ledger.request_regrades(ledger.verdicts()["ann", "k1"] for _ in range(2))
+        ledger.note("begun", "{}")
+    assert found(full, key).head.count == count
+
+
+def test_the_chain_stays_whole_without_the_content_of_a_students_rows(
+    full: Path, key: PublicKey
+) -> None:
+    own = own_key()
+    with Ledger(full) as ledger, ledger._file.write() as connection:
+        for table in ("regrade", "verdict", "override", "handed_in"):
+            assert remove(connection, table, {"student": "ann"}, own) in (0, 1)
+        assert remove(connection, "student", {"key": "ann"}, own) == 1
+    chain = found(full, key)
+    assert (chain.faults, chain.removed) == ([], 3)
+    said_first = verify_ledger(full, key, "").lines[0][1]
+    assert "2 verdicts, 1 correction, 4 other rows, 3 removed" in said_first
+    with sqlite3.connect(full) as connection:
+        query = "SELECT count(*) FROM link WHERE salt IS NOT NULL AND (place, row) IN "
+        removed = "(SELECT place, row FROM link WHERE digest = '')"
+        assert connection.execute(query + removed).fetchone() == (0,), "nothing to guess from"
+    connection.close()
+    change(full, "DELETE FROM verdict WHERE student = 'bob'")
+    assert found(full, key).faults, "who has no key cannot remove anything"
+
+
+def test_equal_rows_have_other_digests(tmp_path: Path, key: PublicKey) -> None:
+    digests = set()
+    for name in ("one", "two"):
+        with Ledger(tmp_path / f"{name}.sqlite") as ledger:
+            ledger.note("begun", "{}")
+        with sqlite3.connect(tmp_path / f"{name}.sqlite") as connection:
+            digests |= set(connection.execute("SELECT digest FROM link"))
+        connection.close()
+    assert len(digests) == 2
+
+
+def test_a_ledger_from_before_the_salts_goes_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It was written by that grader, and its links of verdicts and corrections stay as they are."""
+    monkeypatch.setenv("GRADER_STATE", str(tmp_path / "state"))
+    place = tmp_path / "ledger.sqlite"
+    place.write_bytes(EARLIER.read_bytes())
+    public = read_public_key(EARLIER.with_suffix(".pub.pem"))
+    with sqlite3.connect(place) as connection:
+        before = connection.execute("SELECT hash, signature FROM link ORDER BY id").fetchall()
+    connection.close()
+    with Ledger(place) as ledger:
+        ledger.record("ann", "k1", report(), evidence=b"seen")
+        assert ledger.count() == 3
+        assert ledger.students(HELLO) == [Student("ann", "Ann A."), Student("kim", "Kim K.")]
+        assert ledger.setting("begun") == "{}"
+        assert ledger.fault("ann", "k2") == "no Docker"
+    chain = found(place, None)
+    assert (chain.faults, chain.signed) == ([], 3)
+    with sqlite3.connect(place) as connection:
+        after = connection.execute("SELECT hash, signature FROM link ORDER BY id").fetchall()
+    connection.close()
+    assert after[: len(before)] == before
+    assert len(after) == len(before) + 6 + 2, "adopted: six rows; then a verdict, its regrade done"
+    assert all("is not signed" in fault for fault in found(place, public).faults)
+    for statement in (
+        "UPDATE verdict SET score = 99 WHERE id = 1",
+        "DELETE FROM verdict WHERE id = 2",
+    ):
+        change(place, statement)
+        assert found(place, None).faults
+
+
 def test_a_chain_made_anew_needs_the_key(
     path: Path, key: PublicKey, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.setenv("GRADER_STATE", str(tmp_path / "without"))
     change(path, "UPDATE verdict SET score = 100", "DROP TABLE link", "PRAGMA user_version = 1",
-           "ALTER TABLE verdict DROP COLUMN evidence", "ALTER TABLE override DROP COLUMN verdict")  # fmt: skip
+           "ALTER TABLE verdict DROP COLUMN evidence", "ALTER TABLE override DROP COLUMN verdict",
+           "ALTER TABLE handed_in DROP COLUMN late_seconds",
+           "ALTER TABLE handed_in DROP COLUMN extension")  # fmt: skip
     assert found(path, None).faults == [], "without a key it cannot be known"
     assert found(path, key).faults
 
@@ -199,7 +362,7 @@ def test_the_ledger_of_a_class_has_the_evidence_of_every_verdict(marked: Path) -
     status, text = said("verify", marked / "ledger.sqlite")
     assert status == 0, text
     assert "3 of 3 verdicts agree with theirs" in text
-    assert "3 of 3, checked with SHA256:" in text
+    assert re.search(r"signatures +(\d+) of \1, checked with SHA256:", text), text
     (report,) = marked.glob("*spin_missing*/jazzy/report.json")
     for command in ("replay", "verify"):
         status, text = said(command, report)

@@ -31,7 +31,7 @@ id,name,email
 2,Same Name,two@example.org
 3,Other Person,three@example.org
 """
-SAID = "Same Name: two students of this name (1, 2)"
+SAID = "Same Name: 2 students of this name (1, 2)"
 
 
 def class_of(place: Path, roster: str, *folders: str) -> ClassFolder:
@@ -96,7 +96,7 @@ def test_other_ways_to_write_the_name_are_the_same_name(tmp_path: Path, folder: 
 def test_korean_names_with_and_without_a_blank_are_one_name(tmp_path: Path) -> None:
     found = class_of(tmp_path, "id,name\n1,김민지\n2,김 민지\n", "김민지")
     assert [one.student.id_number for one in found.handed_in] == [""]
-    assert "two students of this name (1, 2)" in found.unclear[0]
+    assert "2 students of this name (1, 2)" in found.unclear[0]
 
 
 @pytest.mark.parametrize("folders", [("1", "2"), ("one@example.org", "2"), ("one", "two")])

@@ -47,7 +47,7 @@ def test_each_student_gets_the_verdict_of_their_package(ros_jazzy: Ros, tmp_path
     assert own_workers() == []
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_a_killed_worker_costs_nobody_a_verdict(ros_jazzy: Ros, tmp_path: Path) -> None:
     """Both workers are killed in the middle of a verdict and replaced."""
     killed: list[int] = []

@@ -416,3 +416,33 @@ def test_a_class_zip_of_folders_keeps_its_exec_bits(tmp_path: Path) -> None:
         assert node is not None
         assert node.mode & 0o100
         assert given.modes_kept
+
+
+# Google Classroom
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_google_classrooms_files_have_the_students_names(tmp_path: Path, way: str) -> None:
+    good = zipped(package())
+    found = downloaded(
+        tmp_path,
+        {
+            "김 민지 - my_robot_controller.zip": good,
+            "Zoë Roe - week 2 - robot.zip": good,
+            "Max Ray - notes.pdf": b"%PDF",
+        },
+        way,
+    )
+    assert found.system.name == "google_classroom"
+    given = by_key(found)
+    assert sorted(given) == ["Max Ray", "Zoë Roe", "김 민지"]
+    assert all(is_marked(given[name][0]) for name in ("김 민지", "Zoë Roe"))
+    assert not is_marked(given["Max Ray"][0])
+    assert "no times of submission" in notes_of(found)
+
+
+def test_archives_with_a_dash_in_one_students_name_are_not_google_classrooms(
+    tmp_path: Path,
+) -> None:
+    files = {f"{name}.zip": zipped(package()) for name in ("ann - second try", "bo", "cy")}
+    assert downloaded(tmp_path, files, "folder").system.name == "archives"

@@ -14,10 +14,8 @@ MOST = 200  # MB
 
 
 @pytest.mark.prefix
-@pytest.mark.parametrize(
-    "count",
-    [pytest.param(300, marks=pytest.mark.full), pytest.param(2_000, marks=pytest.mark.long)],
-)
+@pytest.mark.long
+@pytest.mark.parametrize("count", [300, 2_000])
 def test_memory_stays_constant_and_everybody_is_marked(count: int, tmp_path: Path) -> None:
     evidence = {"build_log": "b" * 40_000, "transcript": "t" * 40_000}
     report = samples.report(evidence=evidence)

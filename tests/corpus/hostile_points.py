@@ -62,6 +62,7 @@ BY_HAND = """\
 """
 LEVEL = "Log.INFO"
 PUBLISHER = COUNTER + "        self.records = self.create_publisher(Log, '/rosout', 10)\n"
+KEPT = "QoSProfile(depth=10, durability=1))"  # 1: transient local, as the logger's own
 BURST = """\
     records = node.create_publisher(Log, '/rosout', 20)
     time.sleep(1)
@@ -101,6 +102,31 @@ for path in glob.glob('*.egg-info/entry_points.txt') + glob.glob('*/*.egg-info/e
     text = open(path).read().replace('my_first_node:main', 'other:main')
     open(path, 'w').write(text)
 """
+TO_OTHER = "{'console_scripts': ['test_node = my_robot_controller.other:main']}"
+SUBCLASS = f"""
+from setuptools import Distribution
+
+
+class Other(Distribution):
+    def finalize_options(self):
+        self.entry_points = {TO_OTHER}
+        super().finalize_options()
+
+"""
+PATCHED = f"""
+from setuptools import Distribution
+
+finish = Distribution.finalize_options
+
+
+def other(self):
+    self.entry_points = {TO_OTHER}
+    finish(self)
+
+
+Distribution.finalize_options = other
+"""
+OTHER = Write(f"{INNER}/other.py", "from .my_first_node import main\n")
 DEAF_FOR_A_WHILE = """\
     def dots():
         for _ in range(1500):
@@ -122,6 +148,8 @@ def _after_setup(code: str) -> Edit:
 ONLY_HERE = {"run.output": "run.only_when_marked"}
 NOT_JUDGED = frozenset({"run.spins", "run.logger", "run.period"})
 FLOODED = TICKS | {"run.spins", "run.interrupt"}
+OTHER_INSTALLED = {"entry_point.mapping": "entry_point.other_installed"}
+NEVER_RUN = AFTER_START | {"entry_point.executable", "run.starts"}
 STOPS = {"run.output": None}
 ENDS = {"run.output": None}
 
@@ -136,6 +164,26 @@ POINTS_ATTACKS: tuple[Package, ...] = (
             Replace(NODE, f"        {LINE}\n", BY_HAND.format(level=LEVEL)),
             failed={"run.logger": "run.faked_log"},
             note="a publisher on /rosout beside that of the logger"),
+    hostile("records_of_the_future", IMPORT_LOG,
+            Replace(NODE, "super().__init__('my_first_node')",
+                    "super().__init__('my_first_node', enable_rosout=False)"),
+            Replace(NODE, COUNTER, PUBLISHER.replace("10)", KEPT)),
+            Replace(NODE, "from rclpy.node import Node\n",
+                    "from rclpy.node import Node\nfrom rclpy.qos import QoSProfile\n"),
+            Replace(NODE, f"        {LINE}\n",
+                    BY_HAND.format(level=LEVEL).replace("time_ns()", "time_ns() + 60 * 10**9")),
+            failed={"run.logger": "run.faked_log"},
+            note="a publisher on /rosout instead of that of the logger, a minute ahead"),
+    hostile("records_of_before", IMPORT_LOG,
+            Replace(NODE, "super().__init__('my_first_node')",
+                    "super().__init__('my_first_node', enable_rosout=False)"),
+            Replace(NODE, COUNTER, PUBLISHER.replace("10)", KEPT)),
+            Replace(NODE, "from rclpy.node import Node\n",
+                    "from rclpy.node import Node\nfrom rclpy.qos import QoSProfile\n"),
+            Replace(NODE, f"        {LINE}\n",
+                    BY_HAND.format(level=LEVEL).replace("time_ns()", "time_ns() - 120 * 10**9")),
+            failed={"run.logger": "run.faked_log"},
+            note="a publisher on /rosout instead of that of the logger, two minutes behind"),
     hostile("records_in_a_burst", IMPORT_LOG, made(BURST),
             Replace(NODE, f"        {LINE}\n", ""),
             failed={"run.output": None}, undecided=TICKS | {"run.spins", "run.interrupt"},
@@ -175,16 +223,19 @@ POINTS_ATTACKS: tuple[Package, ...] = (
             Replace(NODE, TIMER, SUBSCRIBER), failed=ONLY_HERE, skipped=NOT_JUDGED,
             note="counts the seconds of /clock, which nobody publishes at home"),
     hostile("other_script_installed", _after_setup(REWRITES_SCRIPT),
-            failed={"entry_point.executable": "entry_point.other_installed"},
-            skipped=AFTER_START | {"run.starts"}),
+            failed=OTHER_INSTALLED, skipped=NEVER_RUN),
     hostile("source_changed_by_setup", in_setup(REWRITES_SOURCE),
             Replace(NODE, "'Hello time: '", "'Hallo time: '"),
-            failed={"entry_point.executable": "entry_point.other_installed"},
-            skipped=AFTER_START | {"run.starts"}),
+            failed=OTHER_INSTALLED, skipped=NEVER_RUN),
     hostile("other_metadata_installed", _after_setup(REWRITES_METADATA),
-            Write(f"{INNER}/other.py", "from .my_first_node import main\n"),
-            failed={"entry_point.executable": "entry_point.other_installed"},
-            skipped=AFTER_START | {"run.starts"}),
+            OTHER,
+            failed=OTHER_INSTALLED, skipped=NEVER_RUN),
+    hostile("other_distribution", in_setup(SUBCLASS),
+            Replace(SETUP, "    name=", "    distclass=Other,\n    name="), OTHER,
+            failed=OTHER_INSTALLED, skipped=NEVER_RUN,
+            note="the class that setup() fills has another entry point"),
+    hostile("setuptools_patched", in_setup(PATCHED), OTHER,
+            failed=OTHER_INSTALLED, skipped=NEVER_RUN),
     hostile("sleeps_twice", imports("time"),
             Replace(NODE, f"        {LINE}\n",
                     f"        nap = 0.9\n        time.sleep(nap)\n        {LINE}\n"
@@ -194,7 +245,7 @@ POINTS_ATTACKS: tuple[Package, ...] = (
     hostile("erases_its_lines",
             Replace(NODE, f"        {STEP}\n",
                     f"        {STEP}\n        print('\\x1b[1A\\x1b[2K', end='', flush=True)\n"),
-            failed={"run.output": "node.clears_terminal"}, skipped=TICKS),
+            failed={"run.output": None}, skipped=TICKS),
     hostile("records_of_ten_megabytes", imports("threading"),
             made("    def flood():\n        while True:\n"
                   "            node.get_logger().info('x' * 10_000_000)\n\n"
@@ -209,6 +260,6 @@ POINTS_ATTACKS: tuple[Package, ...] = (
                   "    threading.Thread(target=flood, daemon=True).start()\n"),
             failed={"run.logger": "run.faked_log"}),
     hostile("deaf_for_fifteen_seconds", imports("os", "signal", "threading", "time"),
-            made(DEAF_FOR_A_WHILE), failed={"run.interrupt": "node.signal_handler"},
+            made(DEAF_FOR_A_WHILE), failed={"run.interrupt": None},
             note="dots after Ctrl+C, then it ends by itself"),
 )  # fmt: skip

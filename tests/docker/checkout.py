@@ -22,7 +22,7 @@ def copy_to(folder: Path) -> Path:
             ignore=shutil.ignore_patterns("__pycache__", "keys", "*.crt"),
         )
     shutil.copy(processes.ROOT / ".dockerignore", folder)
-    certificate = engine.network().extra_ca
+    certificate = engine.network("ros").extra_ca
     if certificate is not None:
         shutil.copy(certificate, folder / "docker" / "ca" / "extra.crt")
     return folder

@@ -16,6 +16,8 @@ from grader.course.find import assignment_file
 from grader.course.load import load_assignment
 from grader.explain.explanation import Reader, print_entry
 from grader.explain.from_terminal import ENTRIES
+from grader.explain.rules import BY_MISTAKE
+from grader.mistakes.retired import RETIRED
 from grader.ros.distro import find_distro
 from tests import processes
 
@@ -56,6 +58,15 @@ def test_an_unknown_id_is_a_usage_error_with_a_suggestion() -> None:
     assert done.returncode == 2
     assert "did you mean 'setup.missing_comma'" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_what_a_fact_of_a_run_says_and_an_id_of_before_are_explained() -> None:
+    rule = explain("node.value_from").stdout
+    assert "It was last set in line …" in rule
+    assert "in the place of …" in rule
+    gone = explain("node.timer_again")
+    assert (gone.returncode, "no longer has this mistake" in gone.stdout) == (0, True)
+    assert not RETIRED & {*ENTRIES, *BY_MISTAKE}
 
 
 def test_terminal_output_is_explained_root_cause_first() -> None:

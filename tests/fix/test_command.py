@@ -74,7 +74,7 @@ def test_one_check_alone_can_be_fixed(tmp_path: Path) -> None:
 
 
 def test_an_unreadable_setup_py_is_not_reported_as_right(tmp_path: Path) -> None:
-    root = edited(tmp_path, Replace(SETUP, "setup(\n    name", "setup((\n    name"))
+    root = edited(tmp_path, Replace(SETUP, "setup(\n    name", "setup of the (\n    name"))
     done = processes.run(processes.grader("fix", "--no-run", root))
     assert done.returncode == 1
     assert "left    entry_point.mapping: the files alone do not show it" in done.stderr

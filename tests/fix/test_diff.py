@@ -35,7 +35,7 @@ def made_by(tool: tuple[str, ...], old: dict[str, bytes], patch: bytes) -> dict[
         return {path.name: path.read_bytes() for path in root.iterdir() if path.is_file()}
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(old=DATA, new=DATA)
 @pytest.mark.parametrize("tool", TOOLS, ids=lambda tool: str(tool[0]))
 def test_a_diff_turns_any_bytes_into_any_others(

@@ -14,11 +14,7 @@ from grader.verdict.fix_text import matching_text
 PATH = "a/node.py"
 OLD = "class A:\n    def f(self):\n        self.x = self.y = 0\n        self.log()\n"
 LINE = "        self.x = self.y = 0\n"
-KINDS: tuple[tuple[str, str, dict[str, str]], ...] = (
-    ("node.any_change", "removed", {}),
-    ("node.logs_before_timer", "", {"callback": "tick"}),
-    ("node.calls_itself", "", {"name": "self.f()", "function": "f"}),
-)
+KINDS: tuple[tuple[str, str, dict[str, str]], ...] = (("node.exits", "", {}),)
 
 
 def told(kind: str, variant: str, words: dict[str, str], new: str, lang: str) -> tuple[str, str]:
@@ -64,5 +60,7 @@ def test_delete_this_line_is_said_only_of_a_line_that_the_change_deletes(
 
 def test_a_text_that_deletes_no_line_stays() -> None:
     words = {"name": "a", "written": "b"}
-    fix, fits = told("node.any_change", "", words, OLD.replace(LINE, "        self.y = 0\n"), "en")
+    fix, fits = told(
+        "node.small_change", "", words, OLD.replace(LINE, "        self.y = 0\n"), "en"
+    )
     assert fits == fix

@@ -15,7 +15,7 @@ from grader.package.source.names import calls_in
 from grader.package.source.node import NodeSource, read_node
 from grader.report.model import CheckResult, Report
 from grader.run import variants
-from grader.run.variants import Trace, TracedTimer, trace_node
+from grader.run.variants import Trace, TracedCallback, TracedTimer, trace_node
 from grader.verdict.evidence_file import Judged
 from grader.verdict.follow import Stop, conditions_of, stop_of
 from grader.verdict.mark import mark, replay
@@ -221,6 +221,11 @@ LIE = {
         "logged": [[[AWAY], 0]],
         "stand": [[AWAY, [NODE, 3]]],
         "values": [],
+        "callbacks": [
+            {"how": "timer", "name": "", "made": [AWAY], "function": "tick", "calls": 1},
+        ],
+        "done": [],
+        "raised": None,
     },
 }
 
@@ -230,11 +235,14 @@ def test_a_trace_has_only_places_in_the_files_that_were_asked_for(
 ) -> None:
     """The trace comes from the student's process, which may say what it likes."""
     said = json.dumps({"index": 0, "seen": LIE})
-    monkeypatch.setattr(variants, "_answers", lambda *_args, **_named: [said])
+    monkeypatch.setattr(variants, "answers", lambda *_args, **_named: [said])
     sandbox = cast("Sandbox", None)
     found = trace_node(sandbox, "node", "main", [NODE], period=1.0, seconds=1.0)
     timer = TracedTimer((), spun=True, calls=0)
-    assert found == Trace("time", {NODE: {3: 1}}, (timer,), (((), 0),), (((NODE, 3),),))
+    called = (TracedCallback("timer", "", (), "tick", 1),)
+    assert found == Trace(
+        "time", {NODE: {3: 1}}, (timer,), (((), 0),), (((NODE, 3),),), callbacks=called
+    )
 
 
 @pytest.mark.parametrize(
@@ -248,7 +256,7 @@ def test_a_trace_has_only_places_in_the_files_that_were_asked_for(
     ],
 )
 def test_what_is_no_trace_is_none(said: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(variants, "_answers", lambda *_args, **_named: [said])
+    monkeypatch.setattr(variants, "answers", lambda *_args, **_named: [said])
     sandbox = cast("Sandbox", None)
     assert trace_node(sandbox, "node", "main", [NODE], period=1.0, seconds=1.0) is None
 

@@ -7,22 +7,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from grader.base.errors import SurroundingsError
 from grader.base.i18n.translator import Translator
-from grader.base.unheard import unheard
 from grader.package.submission import Submission
 from grader.report.model import CheckResult
 from grader.verdict.evaluate import evaluate_checks
 from grader.verdict.evidence import Evidence
 from grader.verdict.evidence_file import EvidenceFile, Judged, evidence_bytes
-from grader.verdict.mark import mark, replay
+from grader.verdict.mark import replay
 from grader.verdict.recording import Recording, evidence_of, record
-from grader.verdict.try_fixes import MOST_TRIED, with_tried_fix
+from grader.verdict.trial import MOST_TRIED
+from grader.verdict.try_fixes import with_tried_fix
 from tests import marking, recorded
 from tests.corpus.broken import BROKEN
 from tests.corpus.build import write
@@ -32,8 +31,6 @@ ENGLISH = Translator("en")
 BY_NAME = {package.name: package for package in (*BROKEN, *RIGHT)}
 UNCHANGED = [
     ("counter_not_set", ["run.ended_early"]),
-    ("async_helper_not_awaited", ["run.no_lines"]),
-    ("node_made_in_a_loop_of_main", ["node.two_nodes_count", "run.twice"]),
 ]
 
 
@@ -103,31 +100,6 @@ def test_a_fix_of_what_was_seen_is_left_out_if_it_changes_nothing(tmp_path: Path
     assert before.mistakes == result.mistakes
     assert result.patch == ""
     assert result.fix.startswith("The usual change for this was tried")
-
-
-def test_two_mistakes_with_one_effect_are_followed_to_the_end(tmp_path: Path) -> None:
-    then = ("decorator_without_its_call", "solution")
-    result, found = tried("async_helper_not_awaited", tmp_path, *then)
-    assert ids(result)[0] == "node.never_awaited"
-    assert result.patch
-    assert len(found.tried) == 2
-    assert "A decorator is not called: @" in "\n".join(result.advice)
-
-
-def test_another_mistake_that_words_alone_explain_does_not_refute_the_first(tmp_path: Path) -> None:
-    result, _ = tried("async_helper_not_awaited", tmp_path, "callback_defined_twice")
-    assert ids(result)[0] == "node.never_awaited"
-    assert result.patch
-
-
-def test_the_cause_that_is_left_after_a_fix_is_named_if_nothing_else_has_changed(
-    tmp_path: Path,
-) -> None:
-    name = "asks_after_ctrl_c_and_spins_again"
-    before = first_failure(evidence(name, tmp_path / "before"))
-    result, _ = tried(name, tmp_path, name)
-    assert (ids(before)[0], ids(result)[0]) == ("node.interrupt_swallowed", "node.waits_at_end")
-    assert result.patch == ""
 
 
 def test_a_fix_after_which_an_earlier_check_fails_is_not_shown(tmp_path: Path) -> None:
@@ -221,19 +193,3 @@ def test_a_fix_of_what_prevents_nothing_is_not_tried(tmp_path: Path) -> None:
     result, found = static_failure("exec_bit_missing", tmp_path, "solution")
     assert result.patch
     assert not found.tried
-
-
-@pytest.mark.full
-def test_the_fixes_of_a_real_verdict_are_tried_and_recorded(tmp_path: Path) -> None:
-    package = BY_NAME["asks_after_ctrl_c_and_spins_again"]
-    root = write(package, tmp_path)
-    kept: list[Judged] = []
-    order = replace(marking.order(root), tries_fixes=True)
-    report = mark(marking.taken_in(root), order, unheard, keep=kept.append)
-    check = next(check for check in report.checks if check.status == "failed")
-    assert ids(check)[0] == "node.waits_at_end"
-    assert kept[0].recording.fixed
-    again = replay(kept[0].recording, kept[0].submission, marking.ASSIGNMENT)
-    assert [(c.id, c.mistakes, c.patch) for c in again.checks] == [
-        (c.id, c.mistakes, c.patch) for c in report.checks
-    ]

@@ -54,7 +54,7 @@ def altered(draw: st.DrawFn, seed: bytes) -> bytes:
 
 @pytest.mark.parametrize("name", TARGETS)
 def test_no_crash_no_hang(name: str) -> None:
-    @settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
+    @settings(max_examples=30, suppress_health_check=list(HealthCheck))
     @given(found=st.one_of(altered(SEEDS[name]), st.binary(max_size=200)))
     def run(found: bytes) -> None:
         begin = time.process_time()

@@ -55,38 +55,55 @@ GRADESCOPE = _object(
     },
     "score",
 )
-# autograding-grading-reporter/src
-GITHUB = _object(
+# Classroom 50: schemas/result-v1.schema.json, with the rules that it leaves to code in the tests
+INSTANT = {
+    "type": "string",
+    "pattern": r"^\d{4}-\d{2}-\d{2}T([01]\d|2[0-3]):[0-5]\d:[0-5]\dZ$",
+}
+NAME = {"type": "string", "minLength": 1}
+WHOLE = {"type": "integer", "minimum": 0}
+CLASSROOM50 = _object(
     {
-        "version": {"const": 1},
-        "status": {"enum": ["pass", "fail", "error"]},
-        "max_score": POINTS,
+        "schema": {"const": "classroom50/result/v1"},
+        "classroom": NAME,
+        "assignment": NAME,
+        "assignment_type": {"enum": ["individual", "group"]},
+        "owner": NAME,
+        "submission": {"type": "string", "pattern": "^submit/"},
+        "commit": NAME,
+        "release": NAME,
+        "review": NAME,
+        "datetime": INSTANT,
+        "graded_at": INSTANT,
+        "score": WHOLE,
+        "max-score": WHOLE,
         "tests": {
             "type": "array",
-            "minItems": 1,
-            "items": _object(
-                {
-                    "name": TEXT,
-                    "status": {"enum": ["pass", "fail", "error"]},
-                    "message": TEXT,
-                    "line_no": {"type": "integer"},
-                    "test_code": TEXT,
-                    "execution_time": {"type": "string", "pattern": r"^\d+ms$"},
-                    "score": NUMBER,
+            "items": {
+                "type": "object",
+                "required": ["test-name", "passed", "score", "max-score"],
+                "properties": {
+                    "test-name": NAME,
+                    "passed": {"type": "boolean"},
+                    "score": WHOLE,
+                    "max-score": WHOLE,
                 },
-                "name",
-                "status",
-                "message",
-                "line_no",
-                "test_code",
-                "execution_time",
-                "score",
-            ),
+            },
         },
+        "submitted_by": {"type": "object"},
     },
-    "version",
-    "status",
-    "max_score",
+    "schema",
+    "classroom",
+    "assignment",
+    "assignment_type",
+    "owner",
+    "submission",
+    "commit",
+    "release",
+    "review",
+    "datetime",
+    "score",
+    "max-score",
     "tests",
 )
 # PrairieLearn, docs/externalGrading.md

@@ -135,7 +135,7 @@ def test_an_unusable_gradebook_is_refused(content: bytes, column: str, output: s
     assert output in str(caught.value)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.lists(texts, min_size=1, max_size=3))
 def test_a_new_gradebook_can_be_read_by_canvas(found: list[str]) -> None:
     result = dataclasses.replace(hostile_class(*found), system=SYSTEMS["canvas"], title="Hello")

@@ -88,7 +88,7 @@ def test_a_student_without_a_report_gets_the_reason(
         assert output in text
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(texts)
 def test_no_text_becomes_markup_in_markdown(text: str) -> None:
     written = markdown(hostile_entry(text), text, show_hidden=True)
@@ -117,7 +117,7 @@ class Markup(HTMLParser):
         self.attributes += attrs
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(texts)
 def test_no_text_becomes_markup_in_html(text: str) -> None:
     plain = Markup(html_page(hostile_entry("x"), "x", show_hidden=True).decode())

@@ -49,7 +49,7 @@ def test_corrections_lateness_and_times_are_columns(mixed: ClassResult) -> None:
     assert "in the middle" in rows["1013"]["notes"]
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.lists(texts, min_size=1, max_size=2))
 def test_no_text_becomes_a_formula_or_a_new_row(found: list[str]) -> None:
     content = gradebook_csv(hostile_class(*found))

@@ -91,7 +91,7 @@ def test_a_grader_failure_is_called_one() -> None:
     assert "not your package" in found["output"]
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(texts)
 def test_hostile_texts_are_shown_as_harmless_text(text: str) -> None:
     report = hostile_entry(text).report

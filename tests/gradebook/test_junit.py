@@ -105,7 +105,7 @@ def test_a_check_that_was_corrected_to_all_its_points_passes(broken: Report) -> 
     assert kinds(suite)["run.output"] is None
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(st.lists(texts, min_size=1, max_size=2))
 def test_every_text_gives_readable_xml(found: list[str]) -> None:
     content = class_xml(hostile_class(*found))

@@ -67,7 +67,7 @@ def test_the_field_that_most_students_have_identifies_them() -> None:
     assert "ID number" in rows(moodle_import(classes.result(entries), comment).content)[0]
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.lists(texts, min_size=1, max_size=3))
 def test_hostile_names_stay_in_their_cells(found: list[str]) -> None:
     made = moodle_import(hostile_class(*found), comment)

@@ -156,7 +156,7 @@ def test_a_file_that_is_not_a_worksheet_is_refused(content: bytes, output: str) 
         fill_worksheet(content, class_of_one())
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(texts)
 def test_no_submission_text_breaks_a_cell_in_php_or_html(text: str) -> None:
     worksheet = english(0, 1)

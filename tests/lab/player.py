@@ -15,6 +15,7 @@ from tests.lab.screen import Lab
 
 COMMAND = re.compile(r"^(source|cd|mkdir|ros2|touch|chmod|mv|colcon) ")
 NOTICE = re.compile(r"^\S+: \d+\. ")  # of the prompt: which step is done, which is next
+TURTLE = "ros2 run turtlesim turtlesim_node"
 MOST_ACTIONS = 40
 SLOW = 240  # seconds
 
@@ -53,6 +54,7 @@ class Player:
         _, begins, rest = f"\n{said}".partition(f"\n{self._next}")
         if not begins:
             return None
+        rest = re.sub(r" \\\r?\n +", " ", rest)  # (a shell reads on)
         first, *others = rest.partition(self._more)[0].strip().splitlines()
         if COMMAND.match(first):
             return first.strip()
@@ -63,6 +65,8 @@ class Player:
         assignment = self.assignment
         if action.startswith(f"ros2 run {assignment.package}"):
             self._run(action)
+        elif action.startswith(TURTLE):
+            self._run_until_seen(TURTLE, "/turtlesim")
         elif COMMAND.match(action):
             said = self.lab.type(action)
             assert self.lab.status() == 0, said
@@ -102,12 +106,15 @@ class Player:
 
     def _run(self, action: str) -> None:
         """Run the node, stop it with Ctrl+C, and check the package."""
-        command = re.split(r"\s{2,}", action)[0]
+        self._run_until_seen(re.split(r"\s{2,}", action)[0], f"/{self.assignment.node_name}")
+        output = self.lab.type("check")
+        assert self.lab.status() == 0, output
+
+    def _run_until_seen(self, command: str, node: str) -> None:
+        """Run a program, and stop it with Ctrl+C when its node is on the graph."""
         self.lab.screen.sendline(
-            f"timeout --signal=INT 60 {command} & until ros2 node list | grep -x "
-            f"/{self.assignment.node_name}; do :; done; kill -INT %1; wait %1; echo ended"
+            f"timeout --signal=INT 60 {command} & until ros2 node list | grep -x {node}; do :; done; "
+            "kill -INT %1; wait %1; echo ended"
         )
         self.lab.screen.expect_exact("\r\nended")
         self.lab.wait_for_prompt()
-        output = self.lab.type("check")
-        assert self.lab.status() == 0, output

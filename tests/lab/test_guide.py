@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import os
 import re
+import subprocess
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -16,13 +17,17 @@ from rich.cells import cell_len
 from grader.base.gated_console import GatedConsole
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
-from grader.course.find import lessons_of, own_course
+from grader.course.find import lessons_of
+from grader.course.folder import own_course
 from grader.course.load import load_assignment
+from grader.report.commands import broken
+from grader.report.wrap import rows
 from lab.guide import predicates as steps
 from lab.guide.action import Action
 from lab.guide.lesson import lesson_file, read_lesson
-from lab.guide.show import show_next, show_step
+from lab.guide.show import show_current, show_next, show_step
 from lab.guide.state import StudentState
+from lab.guide.task import Task
 from tests import processes
 from tests.lab.ten_steps import NODE
 from tests.lab.workspaces import PACKAGE, SETUP, after_step, put
@@ -128,7 +133,7 @@ def test_files_in_a_wrong_state_are_reported(tmp_path: Path) -> None:
 
     workspace, environment = after("not executable")
     (workspace / FILE).chmod(0o644)
-    assert found(workspace, environment)[4].startswith("chmod +x ")
+    assert " chmod +x " in found(workspace, environment)[4]
 
     workspace, environment = after("wrong target")
     wrong = "'test_node = my_robot_controller.my_node:main',"
@@ -169,7 +174,9 @@ def test_the_command_shows_the_current_step_and_one_next_action(tmp_path: Path) 
     assert (status, err) == (0, "")
     assert out.startswith("Step 6 of 10: Write the node\n")
     assert "\x1b" not in out  # plain text when piped
-    assert LESSON.steps[5].text in out
+    assert "'super().__init__" not in out  # code that has quotes gets no others
+    assert "inherits from rclpy's 'Node'" in out
+    assert "\n    code ~/ros2_ws\n" in out
     assert re.findall("^Next: .*$", out, re.MULTILINE) == [
         "Next: Write the node in my_first_node.py."
     ]
@@ -182,8 +189,34 @@ def test_one_step_the_list_and_the_whole_lesson_can_be_shown(tmp_path: Path) -> 
     listed = guide("list", workspace=tmp_path / "ws", env=env)[1].splitlines()
     assert [line[:3] for line in listed[:10]] == ["[x]"] * 5 + ["[>]"] + ["[ ]"] * 4
     whole = guide("all", workspace=tmp_path / "ws", env=env)[1]
-    for step in LESSON.steps:
-        assert step.text in whole
+    assert [f"Step {n} of 10: " in whole for n in range(1, 11)] == [True] * 10
+
+
+def letters(text: str) -> set[str]:
+    """Return the words of a text without its marks, and without quotes."""
+    return set(re.findall(r"[^\W\d_]+", re.sub(r"[*`']", "", text)))
+
+
+@pytest.mark.parametrize("columns", ["", "60", "120"])
+@pytest.mark.parametrize("lang", ["en", "ko"])
+@pytest.mark.parametrize("lesson", lessons_of(own_course()))
+def test_a_pipe_gets_plain_text_whose_words_are_whole(
+    lesson: str, lang: str, columns: str, tmp_path: Path
+) -> None:
+    env = {"GRADER_ASSIGNMENT": lesson, "GRADER_LANG": lang, "COLUMNS": columns}
+    status, out, err = guide("all", workspace=tmp_path, env=env)
+    assert (status, err) == (0, "")
+    read = read_lesson(lesson_file(own_course() / lesson, lang), distro="jazzy")
+    text = "\n".join([read.introduction, *(step.text for step in read.steps)])
+    code = "".join(re.findall(r"```\w*\n(.*?)```", text, re.DOTALL))
+    prose = "".join(line for line in out.splitlines(True) if not line.startswith("    "))
+    assert not re.search(r"```|`|\*\*|\|---|^#|<!--", prose, re.MULTILINE)
+    assert {line for line in code.splitlines() if line} <= {
+        line.removeprefix("    ") for line in out.splitlines()
+    }
+    width = int(columns or 80)
+    assert [line for line in prose.splitlines() if cell_len(line) > width] == []
+    assert letters(re.sub(r"```.*?```|<!--.*?-->", "", text, flags=re.DOTALL)) <= letters(out)
 
 
 @pytest.mark.parametrize("word", ["0", "11", "lst", "-1", "²"])
@@ -199,9 +232,10 @@ def test_the_commands_are_those_of_the_labs_distro(tmp_path: Path) -> None:
     assert "jazzy" not in out
 
 
-def test_commands_are_not_wrapped_on_a_terminal(tmp_path: Path) -> None:
-    """A command that is wrapped cannot be copied."""
+def test_commands_are_broken_only_where_a_shell_reads_on(tmp_path: Path) -> None:
+    """A command that is wrapped elsewhere cannot be copied."""
     env = {**os.environ, "TERM": "xterm-256color", "PYTHONPATH": str(processes.ROOT)}
+    env.pop("COLUMNS", None)
     screen = pexpect.spawn(
         sys.executable,
         ["-m", "lab.guide", "3", "--workspace", str(tmp_path)],
@@ -212,9 +246,9 @@ def test_commands_are_not_wrapped_on_a_terminal(tmp_path: Path) -> None:
     screen.expect(pexpect.EOF)
     text = re.sub(r"\x1b\[[\d;]*m", "", screen.before)
     assert (
-        "ros2 pkg create --build-type ament_python my_robot_controller --dependencies rclpy\r\n"
-        in text
-    )
+        "ros2 pkg create --build-type ament_python \\\r\n"
+        "    my_robot_controller --dependencies rclpy\r\n"
+    ) in text
     assert "\x1b[" in screen.before
 
 
@@ -225,19 +259,87 @@ def test_a_line_to_copy_is_not_wrapped_either(lang: str, width: int) -> None:
     text = Translator(lang)(say("Add this line to console_scripts in setup.py: {line}", line=line))
     file = io.StringIO()
     console = GatedConsole(file, width=width, force_terminal=True, color_system=None)
-    show_next(console, Action(text, "setup.no_entry"), Translator(lang))
+    show_next(console, Action(text, "setup.no_entry"), Translator(lang), more=False)
     shown = file.getvalue().splitlines()
     assert any(part.endswith(line) for part in shown)
     assert " ".join(part.strip() for part in shown) == Translator(lang)(say("Next: ")) + text
     assert [part for part in shown if cell_len(part) > width and part != line] == []
 
 
-def test_a_command_that_moves_a_file_is_not_wrapped() -> None:
-    command = f"mv ~/ros2_ws/src/{PACKAGE}/my_first_node.py ~/ros2_ws/{FILE}"
+def test_a_shell_reads_a_broken_command_as_one(tmp_path: Path) -> None:
+    said = "touch 'a  b' && cp 'a  b' c && printf '%s|' one two three four five six 'seven  eight'"
+    for width in (40, 60, 200):
+        shown = broken(said, width)
+        assert all(len(line) <= width for line in shown.splitlines())
+        done = subprocess.run(["bash", "-c", shown], cwd=tmp_path, capture_output=True, check=True)
+        assert done.stdout.decode() == "one|two|three|four|five|six|seven  eight|"
+
+
+@pytest.mark.parametrize("lang", ["en", "ko"])
+@pytest.mark.parametrize("name", lessons_of(own_course()))
+def test_the_current_step_fits_a_terminal_of_24_lines(name: str, lang: str) -> None:
+    lesson = read_lesson(
+        lesson_file(own_course() / name, lang), distro="jazzy", packages=["turtlesim"]
+    )
+    action = Action("touch a", "a", "there is a file that has nothing to do with this " * 3)
+    for position, step in enumerate(lesson.steps, start=1):
+        file = io.StringIO()
+        console = GatedConsole(file, width=80, height=24, force_terminal=True, color_system=None)
+        show_current(console, lesson, Task(position, action, ()), Translator(lang))
+        shown = file.getvalue()
+        assert rows(shown, 80) <= 22, (step.number, shown)
+        assert "touch a" in shown
+        assert all(cell_len(line) <= 80 for line in shown.splitlines()), step.number
+    first = lesson.steps[0]
+    if first.number == 0:  # (it is not cut)
+        file = io.StringIO()
+        console = GatedConsole(file, width=80, height=24, force_terminal=True, color_system=None)
+        turtle = Action(f"{TURTLE}   {LEAVE}", "a")
+        show_current(console, lesson, Task(1, turtle, ()), Translator(lang))
+        assert "guide 1" in " ".join(file.getvalue().split())
+        assert "guide 0" not in file.getvalue()
+        assert rows(file.getvalue(), 80) <= 22
+
+
+CREATE = "ros2 pkg create --build-type ament_python my_robot_controller --dependencies rclpy"
+LEAVE = "(leave it running, and go on in a second terminal)"
+TURTLE = "ros2 run turtlesim turtlesim_node"
+
+
+@pytest.mark.parametrize(
+    ("line", "shown"),
+    [
+        (f"{TURTLE}   {LEAVE}", [f"Next: {TURTLE}", LEAVE]),
+        (
+            f"Delete ~/a, then in ~/ros2_ws/src: {CREATE}",
+            [
+                "Next: Delete ~/a, then in ~/ros2_ws/src:",
+                CREATE.removesuffix(" rclpy") + " \\",
+                "    rclpy",
+            ],
+        ),
+        (
+            "Outside of the lab, run: sudo chown -R $USER /home/student/of/a/long/path/ros2_ws",
+            [
+                "Next: Outside of the lab, run:",
+                "sudo chown -R $USER /home/student/of/a/long/path/ros2_ws",
+            ],
+        ),
+        (
+            "Correct line 3: ros2 run starts the node, and it runs until you press Ctrl+C there",
+            [
+                "Next: Correct line 3: ros2 run starts the node, and it runs until you press",
+                "Ctrl+C there",
+            ],
+        ),
+        (f"fg   {LEAVE}", [f"Next: fg   {LEAVE}"]),
+    ],
+)
+def test_a_command_within_a_line_stays_whole(line: str, shown: list[str]) -> None:
     file = io.StringIO()
-    console = GatedConsole(file, width=40, force_terminal=True, color_system=None)
-    show_next(console, Action(command, "source.node_elsewhere"), Translator("en"))
-    assert file.getvalue() == f"Next: {command}\n"
+    console = GatedConsole(file, width=80, force_terminal=True, color_system=None)
+    show_next(console, Action(line, "a"), Translator("en"), more=False)
+    assert file.getvalue().splitlines() == shown
 
 
 @pytest.mark.parametrize("width", [60, 80, 120])

@@ -35,9 +35,12 @@ def guide(*words: str, workspace: Path, env: dict[str, str]) -> subprocess.Compl
     return processes.run(line, env={"AMENT_PREFIX_PATH": "", "ROS_DISTRO": "", **KOREAN, **env})
 
 
+REMARK = re.compile(r" +# .*$", re.MULTILINE)
+
+
 def code_of(text: str) -> list[str]:
     """Return the texts to be typed, or printed, literally."""
-    return BLOCK.findall(text)
+    return [REMARK.sub("", block) for block in BLOCK.findall(text)]
 
 
 def names_in(text: str) -> set[str]:
@@ -88,13 +91,13 @@ def test_the_guide_names_each_next_action_in_korean(step: int, tmp_path: Path) -
     env = after_step(tmp_path / "ws", step, NODE)
     done = guide(workspace=tmp_path / "ws", env=env)
     assert (done.returncode, done.stderr) == (0, "")
-    first, *_, last = done.stdout.splitlines()
+    first, *_, last, _ = done.stdout.splitlines()  # (the last line names the hint)
     assert first.startswith(f"10단계 중 {step + 1}단계: ")
     assert last.startswith("다음: ")
     assert HANGUL.search(first.partition(": ")[2])
     english = guide("--lang", "en", workspace=tmp_path / "ws", env=env).stdout.splitlines()
     assert english[0].startswith(f"Step {step + 1} of 10: ")
-    action = english[-1].removeprefix("Next: ")
+    action = english[-2].removeprefix("Next: ")
     assert HANGUL.search(last.removeprefix("다음: ")) or last == f"다음: {action}"
     assert PROSE.findall(last.removeprefix("다음: ").replace(action, "")) == []
 
@@ -163,7 +166,7 @@ def test_a_check_in_the_lab_uses_the_language(kind: Kind, tmp_path: Path) -> Non
     there = Kind(kind.sandbox, {**kind.env, **KOREAN})
     done = run(there, tmp_path / "ws", "--", "check")
     assert done.returncode == 1, done.stderr
-    assert "기대값" in done.stdout
+    assert "점수 0 / 100" in done.stdout
     assert "  expected  " not in done.stdout
 
 

@@ -54,12 +54,23 @@ def test_hints_go_from_the_reason_to_the_line(tmp_path: Path) -> None:
     said = [lab(home, "hint").stdout for _ in range(4)]
     assert "line 25" in said[0]
     assert line not in said[0]
-    assert "Hint 1 of 2" in said[0]
+    assert "Hint 1 of 3" in said[0]
     assert "Hint 2" not in said[0]
-    assert line in said[1]
-    assert said[1:] == [said[1]] * 3  # nothing more to say
+    assert "src/my_robot_controller/setup.py, line 25" in said[1]
+    assert line not in said[1]
+    assert line in said[2]
+    assert said[2:] == [said[2]] * 2  # nothing more to say
     kept = read_progress(home / "ros2_ws").of("hello_time")
-    assert kept.hints == {"setup.other_executable": 2}
+    assert kept.hints == {"setup.other_executable": 3}
+
+
+def test_the_archive_is_named_with_the_time_of_the_students_clock(home: Path) -> None:
+    made = "submit/hello_time.zip 2026-11-29T23:30:15+00:00"
+    keep_progress(home / "ros2_ws", "hello_time", submitted=made)
+    line = [sys.executable, "-m", "lab.commands", "status"]
+    env = environment(home, TZ="KST-9")  # (a forked process has the time zone of its parent)
+    said = processes.run(line, env=env, cwd=home, forked=False).stdout
+    assert "Archive: ~/ros2_ws/submit/hello_time.zip, made on 2026-11-30 at 08:30\n" in said
 
 
 def test_the_last_hint_is_the_line_to_write(tmp_path: Path) -> None:

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from grader.course.find import lessons_of, own_course
+from grader.course.find import lessons_of
+from grader.course.folder import own_course
 from grader.course.load import load_assignment
 from grader.verdict.take_in import take_in_for
 from tests import processes

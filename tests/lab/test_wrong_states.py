@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from grader.course.load import load_assignment
+from lab.guide.hints import hints_of
 from lab.guide.lesson import read_lesson
 from lab.guide.predicates import current, next_actions
 from lab.guide.state import StudentState
@@ -25,7 +26,7 @@ def test_a_wrong_state_is_named(wrong: Wrong, lang: str, tmp_path: Path) -> None
     assignment = load_assignment(COURSE / "assignment.yaml")
     state = StudentState(workspace, assignment, ROS, home=tmp_path, lang=lang)
     actions = next_actions(state, LESSON.steps)
-    assert current(actions) == wrong.step
+    assert current(actions, LESSON.steps) == wrong.step
     action = actions[wrong.step - 1]
     assert action is not None
     if lang == "en":
@@ -34,7 +35,10 @@ def test_a_wrong_state_is_named(wrong: Wrong, lang: str, tmp_path: Path) -> None
             assert text in said
         for text in wrong.never:
             assert text not in said
-    assert all(action.hints)
+    step = LESSON.steps[wrong.step - 1]
+    hints = hints_of(action, step, Path("~/ros2_ws/src/my_robot_controller"))
+    assert len(hints) == len(set(hints)) == 3
+    assert all(hints)
 
 
 def test_after_full_marks_the_last_step_is_done(tmp_path: Path) -> None:
@@ -48,5 +52,5 @@ def test_after_full_marks_the_last_step_is_done(tmp_path: Path) -> None:
     for passed, last in ((False, True), (True, False)):
         state = StudentState(workspace, assignment, environment, home=tmp_path, passed=passed)
         actions = next_actions(state, LESSON.steps)
-        assert current(actions) == 10
+        assert current(actions, LESSON.steps) == 10
         assert (actions[9] is not None) == last

@@ -49,13 +49,14 @@ def in_node(old: str, new: str) -> Callable[[Path], object]:
     return lambda workspace: edit(workspace, NODE, old, new)
 
 
-def moved(old: str, new: str) -> Callable[[Path], object]:
-    """Return a move; `..` is the home folder."""
+def moved(*places: str) -> Callable[[Path], object]:
+    """Return a move from place to place; `..` is the home folder."""
 
     def move(workspace: Path) -> None:
-        target = workspace / new
-        target.parent.mkdir(parents=True, exist_ok=True)
-        (workspace / old).rename(target)
+        for old, new in zip(places, places[1:]):
+            target = workspace / new
+            target.parent.mkdir(parents=True, exist_ok=True)
+            (workspace / old).rename(target)
 
     return move
 
@@ -205,6 +206,12 @@ WRONG = {
     ),
     "the package is in src/src": Wrong(
         moved(OWN, f"src/src/{PACKAGE}"), 3, (f"mv ~/ros2_ws/src/src/{PACKAGE}",), (CREATE,)
+    ),
+    "the package is in a folder of its own name": Wrong(
+        moved(OWN, f"src/package/{PACKAGE}", f"{OWN}/{PACKAGE}"),
+        3,
+        (f"the package is in ~/ros2_ws/{OWN}/{PACKAGE};", "mv "),
+        ("Delete", CREATE),
     ),
     "the package is misspelt": Wrong(
         renamed_everywhere("my_robot_conroller"), 3, ("my_robot_conroller", PACKAGE), ("cd ",)

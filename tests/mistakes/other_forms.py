@@ -124,6 +124,7 @@ class Slip:
 
 
 CLOSED = "counter around callback"
+KEPT = ("logger in attribute", "logger of another name", "logger in variable")
 OF_MODULE = "counter of module"
 OF_CLASS = "counter of class"
 DIED, ENDED, COUNTS = "run.died_at_start", "run.ended_early", "run.wrong_step"
@@ -143,7 +144,6 @@ SLIPS = (
          "TypeError: float() argument must be a string or a real number, not 'method'",
          "create_timer", but=(CLOSED,)),
     Slip("node.timer_missing", f"        {TIMER}\n", "", SILENT, but=(CLOSED,)),
-    Slip("node.timer_cancelled", "{callback})\n", "{callback}).cancel()\n", SILENT),
     Slip("node.period_milliseconds", "(1.0,", "(1000.0,", SILENT),
     Slip("run.wrong_period", "(1.0,", "(0.5,", "run.wrong_period"),
     Slip("node.called_by_hand", f"{TIMER}\n", f"{TIMER}\n        self.timer_callback()\n",
@@ -155,7 +155,7 @@ SLIPS = (
     Slip("node.logs_twice", "{log}", "{log}{log}", "run.twice"),
     Slip("node.starts_elsewhere", "{start} = 0\n", "{start} = 1\n", "run.wrong_start"),
     Slip("node.f_prefix", "'Hello time: ' + str({counter})", "'Hello time: {{counter}}'",
-         "run.wrong_text", code="(f'Hello time: {{counter}}')"),
+         "run.wrong_text", code="(f'Hello time: {{counter}}')", but=(OF_CLASS,)),
     Slip("node.text_without_number", "'Hello time: ' + str({counter})", "'Hello time: '",
          "run.wrong_text"),
     Slip("run.wrong_text", "'Hello time: '", "'Helo time: '", "run.wrong_text"),
@@ -168,7 +168,9 @@ SLIPS = (
     Slip("run.wrong_level", ".info(", ".error(", "run.wrong_level"),
     Slip("node.print_used", "{logger}.info(", "print(", "run.print_not_logger", but=(CLOSED,)),
     Slip("node.logger_not_called", "self.get_logger()", "self.get_logger", ENDED,
-         "AttributeError: 'function' object has no attribute 'info'", ".info("),
+         "AttributeError: 'function' object has no attribute 'info'", ".info(", but=KEPT),
+    Slip("node.not_called", "self.get_logger()", "self.get_logger", ENDED,
+         "AttributeError: 'function' object has no attribute 'info'", ".info(", only=KEPT),
     Slip("node.method_misspelt", "self.get_logger()", "self.get_loger()", ENDED,
          "AttributeError: 'MyFirstNode' object has no attribute 'get_loger'", "get_loger"),
     Slip("node.attribute_not_set", START, "", ENDED,

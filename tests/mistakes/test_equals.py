@@ -61,9 +61,6 @@ def told(error: str, text: str, part: str) -> tuple[str, str, str]:
         (OWN.format("t"), TIMER, f"        self.t == {TIMER.lstrip()}",
          f"        self.t = {TIMER.lstrip()}",
          "Write one = in line {line}: self.t = self.create_timer(1.0, self.timer_callback)"),
-        # the class reads the attribute of that name
-        (NO_NAME.format("counter_"), START, "        counter_ == 0\n", START,
-         "Write one = in line {line}, and self. before the name: self.counter_ = 0"),
         (NO_NAME.format("period"), TIMER, f"        period==1.0\n{PERIOD}",
          f"        period=1.0\n{PERIOD}", "Write one = in line {line}: period = 1.0"),
         (UNBOUND.format("period"), TIMER, f"        period == 1.0\n{PERIOD}        period = 2.0\n",
@@ -82,16 +79,6 @@ def test_one_equals_sign_is_written(error: str, old: str, new: str, right: str, 
     kind, said, after = told(error, text, part)
     assert (kind, said) == ("node.compared_not_assigned", fix.format(line=line_of(text, part)))
     assert after == changed(RIGHT, (old, right))
-
-
-def test_a_type_and_two_equals_signs() -> None:
-    text = changed(RIGHT, (START, "        self.counter_: int == 0\n"))
-    kind, fix, after = told(OWN.format("counter_"), text, "str(self.counter_)")
-    line = line_of(text, "int ==")
-    assert (kind, fix) == (
-        "node.compared_not_assigned", f"Write one = in line {line}: self.counter_: int = 0",
-    )  # fmt: skip
-    assert after == changed(RIGHT, (START, "        self.counter_: int = 0\n"))
 
 
 @pytest.mark.parametrize(

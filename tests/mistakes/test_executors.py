@@ -6,23 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from tests.mistakes.test_from_source import line_of, look
+from tests.mistakes.test_from_source import look
 from tests.mistakes.test_named_exactly import changed, fix_of, patched
 
 SPIN = "        rclpy.spin(node)\n"
 MADE = "    node = MyFirstNode()\n"
 EXECUTOR = f"{MADE}    executor = SingleThreadedExecutor()\n"
 ADD, RUN = "        executor.add_node(node)\n", "        executor.spin()\n"
-
-
-@pytest.mark.parametrize("after", [RUN + ADD, RUN + "        print('bye')\n" + ADD])
-def test_a_node_that_the_executor_gets_too_late_is_added_above(after: str, tmp_path: Path) -> None:
-    text = changed((MADE, EXECUTOR), (SPIN, after))
-    found = look("run.never_spins", text)
-    late = line_of(text, "add_node")
-    assert fix_of(found) == f"Move line {late} (executor.add_node) above this line."
-    right = text.replace(ADD, "").replace(RUN, ADD + RUN)
-    assert patched(found, text, tmp_path) == right
 
 
 @pytest.mark.parametrize(

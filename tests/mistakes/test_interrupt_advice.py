@@ -15,7 +15,7 @@ BY_NAME = {package.name: package for package in (*BROKEN, *RIGHT)}
 
 
 @pytest.mark.parametrize(
-    ("name", "line"), [("while_logs_in_constructor", 18), ("sleep_loop", 0), ("period_half", 0)]
+    ("name", "line"), [("while_in_constructor", 17), ("sleep_loop", 0), ("period_half", 0)]
 )
 def test_a_traceback_from_outside_of_the_try_is_explained(
     name: str, line: int, tmp_path: Path

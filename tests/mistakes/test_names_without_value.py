@@ -18,15 +18,9 @@ def not_defined(name: str) -> str:
 @pytest.mark.parametrize(
     ("error", "old", "new", "at", "kind", "written"),
     [
-        (UNBOUND, TIMER, "        period: 1.0\n        self.create_timer(period,", "create_timer",
-         "colon_for_equals", "period = 1.0"),
-        (not_defined("l"), STEP, "self.counter_ += l", "+= l", "letter_for_digit", "1"),
-        (not_defined("O"), "self.counter_ = 0", "self.counter_ = O", "= O", "letter_for_digit", "0"),
         ("TypeError: 'method' object is not subscriptable", TIMER,
          "        self.create_timer[1.0, self.f]\n        self.create_timer(1.0,", "timer[",
          "square_brackets", "self.create_timer(1.0, self.f)"),
-        ("TypeError: super() argument 1 must be a type, not str", "super()", "super(MyFirstNode)",
-         "super(", "super_arguments", "super()"),
         ("TypeError: not all arguments converted during string formatting",
          "'Hello time: ' + str(self.counter_)", "'Hello time: ' % self.counter_", "% self",
          "percent_without_place", "'Hello time: %d' % self.counter_"),
@@ -57,26 +51,11 @@ def test_the_import_of_a_standard_module_is_said(name: str, use: str, statement:
 @pytest.mark.parametrize(
     ("name", "use"), [("l", "l()"), ("string", "string(1)"), ("select", "select"), ("O", "O.x")]
 )
-def test_another_use_of_a_name_is_not_told_as_a_digit_or_a_module(name: str, use: str) -> None:
+def test_another_use_of_a_name_is_not_told_as_a_module(name: str, use: str) -> None:
     text = RIGHT.replace(STEP, f"self.x_ = str({use})")
     found = raised(not_defined(name), text, line_of(text, use))
     assert found is not None
-    assert found.kind not in ("node.letter_for_digit", "node.module_not_imported")
-
-
-def test_a_call_under_a_condition_is_not_told_as_endless() -> None:
-    text = RIGHT.replace(STEP, "if self.counter_ < 3:\n            self.timer_callback()")
-    found = raised("RecursionError: maximum recursion depth exceeded", text, line_of(text, "< 3"))
-    assert found is None or found.kind != "node.calls_itself"
-
-
-def test_an_object_of_the_own_class_in_init_is_found() -> None:
-    text = RIGHT.replace("self.counter_ = 0", "self.me_ = MyFirstNode()\n        self.counter_ = 0")
-    found = raised(
-        "RecursionError: maximum recursion depth exceeded", text, line_of(text, "self.me_")
-    )
-    assert found is not None
-    assert (found.kind, found.variant) == ("node.makes_itself", "")
+    assert found.kind != "node.module_not_imported"
 
 
 INSIDE = RIGHT.replace("import rclpy\nfrom rclpy.node import Node\n", "")

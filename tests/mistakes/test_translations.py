@@ -26,6 +26,7 @@ CODE = (
     "'{entry}': {because}",
     "[develop] script_dir={wanted} and [install] install_scripts={wanted}",
     "What {title}:",
+    "{low} to {high}",
 )
 
 
@@ -50,6 +51,8 @@ def test_every_text_is_translated_with_the_same_placeholders(lang: str) -> None:
         # both forms are filled with the same values
         known = {*placeholders(one), *placeholders(many)}
         assert all(form and set(placeholders(form)) <= known for form in forms), one
+        if "count" in placeholders(many):
+            assert "count" in placeholders(forms[-1]), many
 
 
 def marked() -> Iterator[str]:

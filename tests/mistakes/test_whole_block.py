@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
 from grader.mistakes.whole_block import rest_of_block
-from grader.package.source.one_change import logged_lines
 from grader.report.model import Where
 from tests.mistakes.test_from_source import FILE, line_of, look, node_in
-from tests.mistakes.test_named_exactly import LOG, STEP, changed, fix_of, patched, why_of
+from tests.mistakes.test_named_exactly import LOG, STEP, changed
 
-START = "        self.counter_ = 0\n"
 RESET = "            self.counter_ = 0  # again\n"
-IF = "        if not hasattr(self, 'counter'):\n"
 
 
 @pytest.mark.parametrize(
@@ -40,54 +35,6 @@ def test_what_becomes_of_the_block_is_said(block: str, said: str) -> None:
     said = said.format(*range(first, first + 4))
     assert said in found
     assert bool(said) == bool(found)
-
-
-@pytest.mark.parametrize(
-    "test",
-    [
-        "not hasattr(self, 'counter')",
-        "not hasattr(self, 'self.counter_')",
-        "hasattr(self, 'counter') == False",
-        "getattr(self, 'counter', None) is None",
-        "not getattr(self, 'Counter_', False)",
-    ],
-)
-def test_a_condition_that_asks_for_another_name_is_always_true(test: str, tmp_path: Path) -> None:
-    text = changed(
-        (START, ""),
-        (f"        {LOG}\n", f"        if {test}:\n            self.counter_ = 0\n        {LOG}\n"),
-    )
-    found = look("run.constant_counter", text)
-    assert why_of(found).startswith(f"{test} in line {line_of(text, '  if ' + test)} is always tr")
-    assert fix_of(found) == "Move self.counter_ = 0 to __init__."
-    new = patched(found, text, tmp_path)
-    assert logged_lines(node_in(new)) == [f"Hello time: {n}" for n in range(12)]
-
-
-@pytest.mark.parametrize(
-    "test",
-    [
-        "not hasattr(self, 'counter_')",
-        "not hasattr(self, 'executor')",
-        "not hasattr(self.other, 'counter')",
-        "hasattr(self, 'counter')",
-        "getattr(self, 'counter', 5) is None",
-    ],
-)
-def test_other_conditions_are_not_called_always_true(test: str) -> None:
-    text = changed(
-        (START, ""),
-        (f"        {LOG}\n", f"        if {test}:\n            self.counter_ = 0\n        {LOG}\n"),
-    )
-    assert "always true" not in why_of(look("run.constant_counter", text))
-
-
-def test_a_start_that_is_set_already_is_not_moved_there(tmp_path: Path) -> None:
-    text = changed((f"        {LOG}\n", f"{IF}{RESET}        {LOG}\n"))
-    found = look("run.constant_counter", text)
-    line = line_of(text, "super().__init__") + 1
-    assert fix_of(found) == f"Delete this line: line {line} sets self.counter_ already."
-    assert patched(found, text, tmp_path) == changed()
 
 
 def test_a_reset_that_may_never_run_is_not_why_nothing_counts() -> None:

@@ -132,3 +132,30 @@ def test_without_scripts_everything_is_readable_and_no_control_is_shown(
     expect(page.get_by_role("heading", level=1)).to_have_text("Chidi Lee")
     page.get_by_role("link", name="The class").click()
     expect(page.get_by_role("heading", level=1)).to_have_text("Robotics 1, winter term")
+
+
+def test_a_click_on_the_histogram_shows_the_students_with_these_points(page: Page) -> None:
+    everybody = points(page)
+    button = page.get_by_role("button", name="90 to 100")
+    wanted = [value for value in everybody if value >= 90]
+    assert 0 < len(wanted) < len(everybody)
+    button.click()
+    assert sorted(points(page)) == sorted(wanted)
+    expect(button).to_have_attribute("aria-pressed", "true")
+    page.locator("rect.bar[data-bin='9']").click()
+    assert points(page) == everybody
+
+
+def test_a_section_is_chosen(page: Page) -> None:
+    names = set(column(page, 3)) - {""}
+    assert len(names) > 1
+    for name in names:
+        page.get_by_label("Section", exact=True).select_option(name)
+        assert set(column(page, 3)) == {name}
+
+
+def test_the_table_is_on_the_first_screen(page: Page) -> None:
+    page.set_viewport_size({"width": 1280, "height": 900})
+    box = page.locator("#all").bounding_box()
+    assert box is not None
+    assert box["y"] < 900

@@ -89,7 +89,7 @@ def test_a_mistake_at_two_checks_counts_its_student_once() -> None:
     assert found.id == "run.wrong_text"
     assert [one.student.key for one in found.who] == ["1001", "1002"]
     assert found.checks == ["run.output", "run.logger"]
-    assert found.example == "x"
+    assert [text for _, text in found.examples] == ["x"]
 
 
 def test_the_more_frequent_mistake_is_first() -> None:

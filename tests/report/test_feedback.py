@@ -13,6 +13,7 @@ from grader.batch.model import ClassResult
 from grader.batch.points import single
 from grader.batch.systems.gradescope import write as gradescope
 from grader.batch.systems.known import report_forms
+from grader.cli.called import commands_for
 from grader.course.load import load_assignment
 from grader.publish.gradebooks import FEEDBACK, write_outputs
 from grader.publish.junit import report_xml
@@ -117,12 +118,8 @@ FORMS = [*report_forms()]
 def test_the_forms_of_other_systems_follow_the_rules(
     form: str, word: Feedback, detail: Detail
 ) -> None:
-    from tests.gradebook.test_github import read
-
     report = with_rules(samples.report(failed()), FeedbackRules.model_validate(word))
     text = report_forms()[form](report, False)
-    if form == "github":
-        text = str(read(text.partition("=")[2].strip()))
     assert secrets_in(text) & set(Detail) <= levels(detail)
     assert ("reasonreason" in text, "lineline" in text) == (
         detail >= Detail.WHY,
@@ -204,6 +201,21 @@ def test_the_files_name_comes_before_the_entry_point_that_names_it() -> None:
     assert first.id == "source.node_file"
 
 
+@pytest.mark.parametrize("file", ["no_node_file", "empty_node_file", "misplaced_node_file"])
+def test_the_file_comes_before_an_entry_point_that_is_not_there_yet(file: str) -> None:
+    node = samples.check("source.node_file", "failed")
+    node = node.model_copy(update={"mistakes": [Mistake(id=f"source.{file}")]})
+    entry = samples.check("entry_point.mapping", "failed")
+    place = {"where": Where(file="setup.py", line=23)}
+    entry = entry.model_copy(update={**place, "mistakes": [Mistake(id="setup.no_entry")]})
+    skipped = samples.check("run.starts", "skipped", blocked_by="entry_point.mapping")
+    first = first_failure(samples.report(node, entry, skipped).checks)
+    assert first is not None and first.id == "source.node_file"
+    other = entry.model_copy(update={**place, "mistakes": [Mistake(id="setup.missing_comma")]})
+    first = first_failure(samples.report(node, other, skipped).checks)
+    assert first is not None and first.id == "entry_point.mapping"
+
+
 # --- real verdicts
 
 
@@ -235,13 +247,8 @@ def test_no_file_of_a_student_has_the_line_of_the_fix_before_the_due_date(
             assert found == (detail == Detail.LINE)
 
 
-@pytest.mark.parametrize(
-    "first",
-    [
-        pytest.param(n, marks=pytest.mark.full if n == 0 else pytest.mark.long)
-        for n in range(THIRDS)
-    ],
-)
+@pytest.mark.long
+@pytest.mark.parametrize("first", range(THIRDS))
 def test_no_kind_of_mistake_tells_the_line_of_its_fix(first: int, tmp_path: Path) -> None:
     """Except where the requirement is that line: a heading of setup.cfg, the shebang and so on."""
     judged = 0
@@ -286,7 +293,7 @@ LABELS = {"en": ("why", "fix"), "ko": ("이유", "해결")}
 @pytest.mark.parametrize("hints", range(HINTS + 1))
 def test_check_shows_one_level_after_the_other(hints: int, lang: str, tmp_path: Path) -> None:
     package = text_capital(tmp_path)
-    words = ("--hints", str(hints), "--lang", lang)
+    words = ("--hints", str(hints), "--lang", lang, "--all")
     shown = processes.run(processes.replaying("check", package, *words)).stdout
     why, fix = (f"\n  {label} " for label in LABELS[lang])
     assert "hello time: 0" in shown  # what was found
@@ -300,16 +307,21 @@ def test_check_explains_everything_at_once(tmp_path: Path) -> None:
     assert "--hints" not in shown
 
 
-def test_the_lab_names_its_own_command_for_the_next_hint(tmp_path: Path) -> None:
+def test_a_text_names_only_commands_that_exist_where_it_is_read(tmp_path: Path) -> None:
+    lab = commands_for("check", in_lab=True, environment={})
+    assert lab.next_hint(0) == "lab hint: more about this. check --explain: everything at once."
     package = text_capital(tmp_path)
-    own = {"GRADER_HINT_COMMAND": "hint"}
-    shown = processes.run(processes.replaying("check", package), env=own).stdout
-    assert "hint: more about this" in " ".join(shown.split())
+    for env, named in (({}, "--hints 1"), ({"GRADER_CALLED_BY": "make"}, "make check HINTS=1")):
+        done = processes.run(processes.replaying("check", package), env=env)
+        shown = " ".join(done.stdout.split())
+        assert (f"{named}: more about this" in shown, done.returncode) == (True, 1)
+        assert ("make check EXPLAIN=1" in shown) == ("grader check" not in shown) == bool(env)
+        assert len(done.stdout.splitlines()) <= 22
 
 
 def test_an_instructor_sees_everything(tmp_path: Path) -> None:
     package = text_capital(tmp_path)
-    done = processes.run(processes.replaying("grade", package, "--out", tmp_path / "out"))
+    done = processes.run(processes.replaying("grade", package, "--all", "--out", tmp_path / "out"))
     assert "@@" in done.stdout
     assert "--hints" not in done.stdout
 

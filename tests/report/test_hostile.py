@@ -110,7 +110,7 @@ def test_no_control_character_reaches_the_terminal(name: str, width: int) -> Non
 
 
 @given(text=strategies.text(max_size=80))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_no_text_brings_a_control_character_to_the_terminal(text: str) -> None:
     marked = report_full_of(text.encode("utf-8", "ignore").decode())
     assert forbidden_in(render_report(marked, verbose=True, styled=True)) == set()

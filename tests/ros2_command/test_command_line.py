@@ -30,12 +30,14 @@ Commands:
   grade      Check your own package before you hand it in: the same as the command `check`
   interface  Show information about ROS interfaces
   lab        Take you through the lesson: the same as the command `lab`
+  lifecycle  Various lifecycle related sub-commands
   node       Various node related sub-commands
   param      Various param related sub-commands
   pkg        Various package related sub-commands
   run        Run a package specific executable
   service    Various service related sub-commands
   topic      Various topic related sub-commands
+  wtf        Use `wtf` as alias to `doctor`
 
   Call `ros2 <command> -h` for more detailed usage.
 """
@@ -200,7 +202,13 @@ def test_help_of_the_pkg_verbs(jazzy: Surroundings, verb: str, usage: str) -> No
     assert done.stdout.startswith(usage)
 
 
-@pytest.mark.parametrize("command", ["bag", "launch", "lifecycle", "extensions", "service echo"])
+@pytest.mark.parametrize(
+    "command",
+    [
+        *("bag", "component", "extension_points", "extensions", "launch", "multicast", "security"),
+        *("test", "service echo"),
+    ],
+)
 @pytest.mark.parametrize("rest", [[], ["play", "--rate", "2"]])
 def test_commands_that_need_a_full_ros_say_so(
     jazzy: Surroundings, command: str, rest: list[str]
@@ -210,6 +218,18 @@ def test_commands_that_need_a_full_ros_say_so(
     assert re.fullmatch(
         rf"ros2 {command}: .*; the wheels do not have it, .* `make images`.*\n", done.stderr
     )
+
+
+@pytest.mark.parametrize(
+    ("command", "package"), [("control", "ros2controlcli"), ("trace", "ros2trace")]
+)
+def test_commands_that_are_a_package_of_their_own_say_which(
+    kilted: Surroundings, command: str, package: str
+) -> None:
+    done = kilted.ros2(command, "list")
+    assert (done.status, done.stdout, done.stderr.count("\n")) == (1, "", 1)
+    assert done.stderr.startswith(f"ros2 {command}: ")
+    assert done.stderr.endswith(f": sudo apt-get install ros-kilted-{package}\n")
 
 
 @pytest.mark.parametrize(

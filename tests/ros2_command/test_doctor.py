@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 from pathlib import Path
 
+import pexpect
 import pytest
+from rich.cells import cell_len
 
 from .surroundings import Surroundings, write_script
 
@@ -21,6 +24,17 @@ def test_all_is_well(jazzy: Surroundings) -> None:
         assert f"  {fact}\n" in done.stdout
     assert done.stdout.endswith("\nAll 6 checks passed\n")
     assert jazzy.ros2("doctor").stdout == "\nAll 6 checks passed\n"
+
+
+@pytest.mark.parametrize("environment", [{}, {"ROS_DOMAIN_ID": "abc"}])
+@pytest.mark.parametrize("options", [[], ["--report"], ["-iw"], ["--no"]])
+def test_wtf_is_doctor(
+    jazzy: Surroundings, environment: dict[str, str], options: list[str]
+) -> None:
+    """The real one has a class of its own for it, with this text."""
+    doctor = jazzy.ros2("doctor", *options, environment=environment)
+    assert jazzy.ros2("wtf", *options, environment=environment) == doctor
+    assert "\nUse `wtf` as alias to `doctor`\n" in jazzy.ros2("wtf", "-h").stdout
 
 
 @pytest.mark.parametrize(
@@ -92,6 +106,42 @@ def test_what_the_lab_does_not_have_is_said_in_one_line(
     environment["PATH"] = f"{shell / 'bin'}:{real.parent}"
     done = jazzy.command("/bin/sh", str(shell / "bin" / name), "a b", environment=environment)
     assert (done.status, done.stdout) == (0, "real 1\n")
+
+
+@pytest.mark.parametrize("columns", [40, 80])
+@pytest.mark.parametrize("language", ["en", "ko"])
+@pytest.mark.parametrize("name", ["rqt", "code"])
+def test_the_words_of_the_shell_are_whole_on_a_terminal(
+    tmp_path: Path, jazzy: Surroundings, name: str, language: str, columns: int
+) -> None:
+    shell = _shell(tmp_path / "lab")
+    command = ["/bin/sh", str(shell / "bin" / name)]
+    environment = {
+        "PATH": f"{shell / 'bin'}:/usr/bin:/bin",
+        "GRADER_LANG": language,
+        "LAB_WORKSPACE": "/home/ann/a_folder_that_is_longer_than/a_line/of_forty_columns",
+    }
+    done = jazzy.command(*command, environment=environment)
+    screen: pexpect.spawn[str] = pexpect.spawn(
+        command[0],
+        command[1:],
+        env={**jazzy.environment, **environment},
+        dimensions=(24, columns),
+        encoding="utf-8",
+    )
+    screen.expect(pexpect.EOF)
+    lines = (screen.before or "").splitlines()
+    assert " ".join(lines).split() == (done.stdout + done.stderr).split()
+    too_long = [line for line in lines if cell_len(line) > columns]
+    assert too_long == [line for line in too_long if line.startswith("    /home/ann/")]
+
+
+@pytest.mark.parametrize("language", ["en", "ko"])
+def test_what_the_shell_does_not_break_fits_a_terminal(language: str) -> None:
+    text = (SHELL / "words" / f"{language}.sh").read_text(encoding="utf-8")
+    indented = re.findall(r"(?:\\n|')(    .*?)(?:\\n|'$)", text, re.MULTILINE)
+    assert len(indented) > 5
+    assert [line for line in indented if cell_len(line) > 80] == []
 
 
 def _shell(folder: Path) -> Path:

@@ -54,6 +54,26 @@ def test_an_empty_graph_lists_no_nodes_and_the_default_topics(graph: Graph) -> N
     assert graph.ros2("node", "list", "--spin-time", "0.1") == (0, "", "")
 
 
+SIGNALLED = """\
+import os, signal
+from wheels_ros2 import graph
+try:
+    with graph.own_node() as node:
+        os.kill(os.getpid(), signal.SIGTERM)
+        while node.context.ok():
+            pass
+        node.get_topic_names_and_types()
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+
+
+def test_sigterm_ends_a_command_at_any_moment_as_ctrl_c_does(graph: Graph) -> None:
+    """Every call of rclpy fails once a signal has shut it down: no traceback says so."""
+    done = graph.run("python3", "-c", SIGNALLED)
+    assert done == (0, "interrupted\n", "")
+
+
 @pytest.mark.full
 @pytest.mark.parametrize("range_", ["LOCALHOST", "SUBNET"])
 def test_the_first_answer_is_complete(jazzy_prefix: Path, tmp_path: Path, range_: str) -> None:

@@ -21,6 +21,14 @@ COMP_WORDS=("$@") COMP_CWORD=$(($# - 1))
 _lab_ros2
 printf '%s\\n' "${COMPREPLY[@]}"
 """
+MANAGED = """\
+import rclpy
+from rclpy.lifecycle import LifecycleNode
+rclpy.init()
+node = LifecycleNode("managed")
+print("ready", flush=True)
+rclpy.spin(node)
+"""
 POSE = "geometry_msgs/msg/PoseStamped"
 
 
@@ -28,6 +36,7 @@ POSE = "geometry_msgs/msg/PoseStamped"
 def world(jazzy_prefix: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Graph]:
     graph = Graph(jazzy_prefix, tmp_path_factory.mktemp("verbs"))
     graph.start("python3", str(WORLD))
+    graph.start("python3", "-c", MANAGED)
     yield graph
     graph.stop()
 
@@ -164,6 +173,15 @@ def test_interfaces_are_listed_and_shown(world: Graph) -> None:
     assert (done.status, len(done.stderr.splitlines())) == (1, 1)
 
 
+def test_a_managed_node_is_found_without_a_slash_too(world: Graph) -> None:
+    listed = world.ros2("lifecycle", "list", "managed")
+    assert listed == world.ros2("lifecycle", "list", "/managed")
+    assert world.ros2("lifecycle", "get").stdout == "/managed: unconfigured [1]\n"
+    done = world.ros2("lifecycle", "set", "managed", "configure")
+    assert done == (0, "Transitioning successful\n", "")
+    world.ros2("lifecycle", "set", "managed", "cleanup")
+
+
 @pytest.mark.parametrize(
     ("typed", "found"),
     [
@@ -181,6 +199,11 @@ def test_interfaces_are_listed_and_shown(world: Graph) -> None:
         ("ros2 interface show std_srvs/srv/Se", ["std_srvs/srv/SetBool"]),
         ("ros2 run rosidl_ad", ["rosidl_adapter"]),
         ("ros2 pkg prefix std_sr", ["std_srvs"]),
+        ("ros2 wt", ["wtf"]),
+        ("ros2 lifecycle n", ["nodes"]),
+        ("ros2 lifecycle set /managed con", ["configure"]),
+        ("ros2 lifecycle set /managed cle", []),
+        ("ros2 lifecycle set /world con", []),
         ("ros2 bag pl", []),
     ],
 )

@@ -15,7 +15,7 @@ LICENSES = {
     "BSL-1.0": 1338,
     "BSD-2.0": 1489,
     "BSD-2-Clause": 1245,
-    "BSD-3-Clause": 1443,
+    "BSD-3-Clause": 1459,
     "GPL-3.0-only": 35149,
     "LGPL-3.0-only": 7652,
     "MIT": 1023,

@@ -8,6 +8,8 @@ import sys
 
 import pytest
 
+from grader.explain import from_terminal
+
 from .surroundings import Surroundings, add_marker, write_script
 
 MOST_STARTS = 8  # of Python, that `ros2 run` may cost (measured: 4.5)
@@ -68,6 +70,19 @@ def test_a_bad_prefix_program_is_a_traceback(jazzy: Surroundings) -> None:
     assert done.stderr.endswith(
         "FileNotFoundError: [Errno 2] No such file or directory: 'no_such_program'\n"
     )
+
+
+def test_a_script_whose_python_is_gone_is_told_with_the_remedy(jazzy: Surroundings) -> None:
+    """The workspace was built in another lab: the real command has a traceback of 30 lines."""
+    jazzy.add_executable("moved", "#!/opt/ros/jazzy/bin/python9\n")
+    done = jazzy.ros2("run", "my_robot_controller", "moved")
+    assert (done.status, done.stdout) == (1, "")
+    assert len(done.stderr.splitlines()) == 3
+    assert "lib/my_robot_controller/moved cannot start" in done.stderr
+    assert "/opt/ros/jazzy/bin/python9, which is not here" in done.stderr
+    assert "rm -r build install log && colcon build --symlink-install" in done.stderr
+    seen = from_terminal.seen_in(done.stderr)
+    assert [each.kind.id for each in seen] == ["lab.python_gone"]
 
 
 def test_without_a_sourced_environment_it_names_the_variable(jazzy: Surroundings) -> None:

@@ -6,12 +6,15 @@ It runs under the Python of a ROS prefix. `both` is four nodes at once; `late` c
 from __future__ import annotations
 
 import contextlib
+import itertools
 import math
 import sys
 import time
 
 import rclpy
+from geometry_msgs.msg import PointStamped
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.logging import LoggingSeverity
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Float64, Int32, String
 from std_srvs.srv import Empty
@@ -46,6 +49,19 @@ def sensor(node: rclpy.node.Node) -> None:
     node.create_timer(0.1, lambda: scan.publish(Int32(data=7)))
 
 
+def stamper(node: rclpy.node.Node) -> None:
+    """Says always the same, but when."""
+    points = node.create_publisher(PointStamped, "a_point", 10)
+
+    def say() -> None:
+        message = PointStamped()
+        message.header.stamp = node.get_clock().now().to_msg()
+        message.point.x = 1.5
+        points.publish(message)
+
+    node.create_timer(0.05, say)
+
+
 def reader(node: rclpy.node.Node) -> None:
     node.create_subscription(Int32, "scan", lambda message: None, 10)
     node.create_service(Empty, "reset_reader", lambda request, answer: answer)
@@ -56,11 +72,31 @@ def late(node: rclpy.node.Node) -> None:
     node.create_subscription(Float64, "words", lambda message: None, 10)
 
 
-KINDS = {"talker": talker, "listener": listener, "sensor": sensor, "reader": reader, "late": late}
+def chatter(node: rclpy.node.Node) -> None:
+    """Counts, as fast as the log of a test needs it."""
+    numbers = itertools.count()
+    node.get_logger().set_level(LoggingSeverity.DEBUG)
+
+    def count() -> None:
+        node.get_logger().info(f"line {next(numbers)}")
+        node.get_logger().debug("nothing new")
+
+    node.create_timer(0.01, count)
+
+
+KINDS = {
+    "chatter": chatter,
+    "stamper": stamper,
+    "talker": talker,
+    "listener": listener,
+    "sensor": sensor,
+    "reader": reader,
+    "late": late,
+}
 
 
 def main() -> None:
-    rclpy.init()
+    rclpy.init(args=["--ros-args", "--disable-stdout-logs"])
     executor = SingleThreadedExecutor()
     nodes = []
     for name in sys.argv[1:]:

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import ipaddress
+import json
+import os
 import socket
-from collections.abc import Awaitable, Callable
+from collections.abc import AsyncIterator, Awaitable, Callable
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +17,12 @@ from tornado.httpclient import AsyncHTTPClient, HTTPRequest, HTTPResponse
 from tornado.netutil import bind_sockets
 from tornado.websocket import websocket_connect
 
+from lab.guide.opened import opened_lab
 from lab.window.access import Access, Neighbourhood, neighbourhood
 from lab.window.hub import Hub
 from lab.window.server import FILES, TYPES, make_server
 from lab.window.texts import page_texts
+from lab.window.work import Work
 
 CONTAINER = """\
 Iface\tDestination\tGateway \tFlags\tRefCnt\tUse\tMetric\tMask\t\tMTU\tWindow\tIRTT
@@ -28,6 +33,20 @@ FILE_NAMES = sorted(
     path.relative_to(FILES).as_posix() for path in FILES.rglob("*") if path.suffix in TYPES
 )
 PATHS = ["/texts.json", "/missing", *(f"/{name}" for name in FILE_NAMES if name != "index.html")]
+
+
+@contextlib.asynccontextmanager
+async def work_in(folder: Path) -> AsyncIterator[Work]:
+    """A student's work in a lab without nodes, with one terminal."""
+    (folder / "src").mkdir()
+    (folder / "src" / "mine.py").write_text("mine\n")
+    lab = opened_lab("en", folder)
+    work = Work(lab, {"LAB_PROGRAMS": "/nonexistent", "PATH": os.environ["PATH"]}, dict)
+    try:
+        work.terminals.open()
+        yield work
+    finally:
+        await work.terminals.close_all()
 
 
 class Client:
@@ -42,16 +61,16 @@ class Client:
         request = HTTPRequest(f"{self.origin}{path}", headers=headers, follow_redirects=False)
         return await AsyncHTTPClient(force_instance=True).fetch(request, raise_error=False)
 
-    async def socket(self, **headers: str) -> Any:
-        request = HTTPRequest(f"ws://127.0.0.1:{self.access.port}/socket", headers=headers)
+    async def socket(self, path: str = "/socket", **headers: str) -> Any:
+        request = HTTPRequest(f"ws://127.0.0.1:{self.access.port}{path}", headers=headers)
         return await websocket_connect(request)
 
-    async def socket_status(self, **headers: str) -> int:
+    async def socket_status(self, path: str = "/socket", **headers: str) -> int:
         """Return the status that refuses a websocket; 101 if it opens."""
         from tornado.httpclient import HTTPClientError
 
         try:
-            opened = await self.socket(**headers)
+            opened = await self.socket(path, **headers)
         except HTTPClientError as error:
             return error.code
         opened.close()
@@ -63,19 +82,26 @@ def serving(
     *,
     host: str = "127.0.0.1",
     neighbours: Neighbourhood | None = None,
+    workspace: Path | None = None,
+    front: str = "",
 ) -> None:
-    """Run a check against a server without a bridge."""
+    """Run a check against a server without a bridge, with the work in a workspace if there is one."""
 
     async def run() -> None:
         sockets = bind_sockets(0, host, family=socket.AF_INET)
-        access = Access(sockets[0].getsockname()[1])
-        server = make_server(access, Hub(), page_texts("en"), neighbours or Neighbourhood())
-        server.add_sockets(sockets)
-        try:
-            await check(Client(access))
-        finally:
-            server.stop()
-            await server.close_all_connections()
+        access = Access(sockets[0].getsockname()[1], front=front)
+        async with contextlib.AsyncExitStack() as opened:
+            work = None
+            if workspace is not None:
+                work = await opened.enter_async_context(work_in(workspace))
+            near = neighbours or Neighbourhood()
+            server = make_server(access, Hub(), page_texts("en"), near, work)
+            server.add_sockets(sockets)
+            try:
+                await check(Client(access))
+            finally:
+                server.stop()
+                await server.close_all_connections()
 
     asyncio.run(run())
 
@@ -104,7 +130,7 @@ def test_nothing_is_cached_and_nothing_from_elsewhere_may_run() -> None:
             for rule in page.headers["Content-Security-Policy"].split(";")
         )
         assert rules["default-src"] == "'none'"
-        assert rules["script-src"] == rules["style-src"] == "'self'"
+        assert rules["script-src"] == "'self'"
         assert rules["frame-ancestors"] == rules["base-uri"] == "'none'"
         for path in ("/", *PATHS):
             found = await client.get(path, Cookie=client.cookie)
@@ -143,10 +169,11 @@ def test_a_wrong_host_or_origin_is_refused_even_with_the_token() -> None:
     serving(check)
 
 
-def test_the_websocket_is_refused_by_the_same_rules() -> None:
+@pytest.mark.parametrize("path", ["/socket", "/work", "/terminal/1"])
+def test_each_websocket_is_refused_by_the_same_rules(path: str, tmp_path: Path) -> None:
     async def check(client: Client) -> None:
         right = {"Cookie": client.cookie, "Origin": client.origin}
-        assert await client.socket_status(**right) == 101
+        assert await client.socket_status(path, **right) == 101
         wrong = [
             {"Cookie": f"{client.access.cookie}=x", "Origin": client.origin},
             {"Origin": client.origin},
@@ -163,9 +190,79 @@ def test_the_websocket_is_refused_by_the_same_rules() -> None:
             },
         ]
         for headers in wrong:
-            assert await client.socket_status(**headers) == 403, headers
+            assert await client.socket_status(path, **headers) == 403, headers
+        assert (await client.get(path)).code == 403
+
+    serving(check, workspace=tmp_path)
+
+
+def test_behind_another_server_only_its_address_is_ours(tmp_path: Path) -> None:
+    async def check(client: Client) -> None:
+        name = client.access.cookie
+        page = await client.get(f"/?token={client.access.token}", Host="lab.example.org")
+        assert page.code == 200
+        assert "Path=/user/ada/;" in page.headers["Set-Cookie"] + ";"
+        assert "Secure" in page.headers["Set-Cookie"]
+        assert " wss://lab.example.org;" in page.headers["Content-Security-Policy"]
+        right = {
+            "Cookie": f"{name}={client.access.token}",
+            "Host": "lab.example.org",
+            "Origin": "https://lab.example.org",
+        }
+        for path in ("/work", "/terminal/1", "/socket"):
+            assert await client.socket_status(path, **right) == 101
+            for wrong in (
+                {"Host": f"127.0.0.1:{client.access.port}", "Origin": client.origin},
+                {"Origin": "http://lab.example.org"},
+                {"Origin": "https://lab.example.org.evil.example"},
+                {"Cookie": f"{name}=x"},
+            ):
+                assert await client.socket_status(path, **{**right, **wrong}) == 403, wrong
+
+    serving(check, workspace=tmp_path, front="https://lab.example.org/user/ada/")
+
+
+def test_without_a_lab_there_is_no_work_to_reach() -> None:
+    async def check(client: Client) -> None:
+        right = {"Cookie": client.cookie, "Origin": client.origin}
+        for path in ("/work", "/terminal/1"):
+            assert await client.socket_status(path, **right) == 404
 
     serving(check)
+
+
+def test_a_terminal_that_is_none_ends_the_connection(tmp_path: Path) -> None:
+    async def check(client: Client) -> None:
+        right = {"Cookie": client.cookie, "Origin": client.origin}
+        opened = await client.socket("/terminal/7", **right)
+        assert await opened.read_message() is None
+        assert opened.close_code == 4004
+        for path in ("/terminal/-1", "/terminal/1/2", "/terminal/"):
+            assert await client.socket_status(path, **right) == 404, path
+
+    serving(check, workspace=tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ({"do": "read", "path": "../mine.py"}, "is no file of the workspace"),
+        ({"do": "read", "path": "src/other.py"}, "cannot be opened"),
+        ({"do": "save", "path": "/tmp/x", "text": "", "version": ""}, "is no file"),
+        ({"do": "draft", "path": ".lab/progress.json", "text": "", "version": ""}, "is no file"),
+    ],
+)
+def test_a_wrong_path_is_answered_with_what_to_do(
+    asked: dict[str, str], said: str, tmp_path: Path
+) -> None:
+    async def check(client: Client) -> None:
+        opened = await client.socket("/work", Cookie=client.cookie, Origin=client.origin)
+        await opened.write_message(json.dumps({"id": 1, **asked}))
+        while (answer := json.loads(await opened.read_message())).get("id") != 1:
+            pass
+        assert said in answer["error"]
+
+    serving(check, workspace=tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -174,19 +271,21 @@ def test_the_websocket_is_refused_by_the_same_rules() -> None:
         "no json",
         '{"do": "shout"}',
         '{"do": "drive", "turtle": "/t", "linear": 1e999, "angular": 0}',
-        '{"do": "watch", "view": "kitchen"}',
-        '{"do": "watch", "view": "plot", "series": [["a", "b", "c"]]}',
+        '{"do": "watch", "views": ["kitchen"]}',
+        '{"do": "watch", "views": ["plot"], "series": [["a", "b", "c"]]}',
         '{"do": "set", "id": 1, "node": "/n", "name": "p", "type": "bool", "text": true}',
     ],
 )
-def test_a_message_that_no_page_sends_ends_the_connection(text: str) -> None:
+def test_a_message_that_no_page_sends_ends_the_connection(text: str, tmp_path: Path) -> None:
     async def check(client: Client) -> None:
-        opened = await client.socket(Cookie=client.cookie, Origin=client.origin)
-        await opened.write_message(text)
-        assert await opened.read_message() is None
-        assert opened.close_code == 1008
+        for path in ("/socket", "/work", "/terminal/1"):
+            opened = await client.socket(path, Cookie=client.cookie, Origin=client.origin)
+            await opened.write_message(text)
+            while await opened.read_message() is not None:
+                pass
+            assert opened.close_code == 1008, path
 
-    serving(check)
+    serving(check, workspace=tmp_path)
 
 
 def test_the_outer_address_of_this_machine_does_not_answer() -> None:

@@ -57,6 +57,19 @@ def test_the_graph_names_what_does_not_fit(talk: Talk, ros_env: dict[str, str]) 
         talk.hear("graph", lambda g: "/late" not in names(g))
 
 
+def test_what_moves_is_found_and_a_time_is_not_it(talk: Talk, ros_env: dict[str, str]) -> None:
+    talk.say(do="watch", views=["plot"], series=[["/a_point", "header.stamp.nanosec"]], seeks=True)
+    with nodes(ros_env, "stamper", "sensor"):
+        first = talk.hear("samples")["series"][0][3]
+        talk.hear(
+            "samples", lambda s: s["series"][0][3] != first
+        )  # it comes, and only its time moves
+        with nodes(ros_env, "talker"):
+            found = talk.hear("moving")
+    assert (found["topic"], found["field"]) == ("/wave", "data")
+    talk.say(do="watch", views=[], series=[])
+
+
 def test_a_turtle_moves_by_the_commands(talk: Talk, ros_env: dict[str, str]) -> None:
     talk.say(do="watch", views=["turtle"], series=[])
     with turtles(ros_env, 2):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -18,13 +19,14 @@ import pytest
 from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
 
-from tests import processes
+from lab.window.server import TYPES
 from tests.installed import npm_packages
 from tests.lab.screen import command, environment
 from tests.window.programs import ADDRESS, ROOT, OpenWindow, alive, until, window
 
 START_SECONDS = 60  # for the bridge, on a busy machine
-VENDOR = ROOT / "lab" / "window" / "page" / "vendor"
+PAGE = ROOT / "lab" / "window" / "page"
+VENDOR = PAGE / "vendor"
 
 
 def run(*options: str, env: dict[str, str]) -> subprocess.CompletedProcess[str]:
@@ -126,11 +128,12 @@ def test_in_the_lab_the_printed_address_is_reachable_from_the_host(tmp_path: Pat
         lab.wait(20)
         assert lab.stdout is not None
         lab.stdout.close()
-    assert processes.alive("/opt/ros2_teaching_lab/lab/window/") == []
+    with pytest.raises(ConnectionRefusedError):
+        socket.create_connection(("127.0.0.1", int(match[1])), timeout=10)
 
 
 @pytest.mark.full
-def test_the_vendored_libraries_are_those_of_the_lock_file() -> None:
+def test_the_vendored_libraries_are_those_of_the_lock_file(tmp_path: Path) -> None:
     packages = npm_packages(VENDOR)
     sources = {
         "dagre.esm.js": "@dagrejs/dagre/dist/dagre.esm.js",
@@ -138,8 +141,26 @@ def test_the_vendored_libraries_are_those_of_the_lock_file() -> None:
         "uPlot.iife.min.js": "uplot/dist/uPlot.iife.min.js",
         "uPlot.min.css": "uplot/dist/uPlot.min.css",
         "uPlot.LICENSE": "uplot/LICENSE",
+        "xterm.esm.js": "@xterm/xterm/lib/xterm.mjs",
+        "xterm.css": "@xterm/xterm/css/xterm.css",
+        "xterm.LICENSE": "@xterm/xterm/LICENSE",
+        "xterm-fit.esm.js": "@xterm/addon-fit/lib/addon-fit.mjs",
+        "codemirror.LICENSE": "@codemirror/state/LICENSE",
     }
+    built = {"codemirror.source.mjs", "codemirror.esm.js"}
     ours = {path.name for path in VENDOR.iterdir() if path.suffix != ".json"}
-    assert ours == set(sources)
+    assert ours == set(sources) | built
     for name, source in sources.items():
         assert (VENDOR / name).read_bytes() == (packages / source).read_bytes(), name
+    for name in ("package.json", "codemirror.source.mjs"):
+        shutil.copy(VENDOR / name, tmp_path)
+    (tmp_path / "node_modules").symlink_to(packages)
+    subprocess.run(["npm", "run", "build"], cwd=tmp_path, check=True, capture_output=True)
+    assert (tmp_path / "codemirror.esm.js").read_bytes() == (
+        VENDOR / "codemirror.esm.js"
+    ).read_bytes()
+
+
+def test_the_page_is_small() -> None:
+    files = [path for path in PAGE.rglob("*") if path.suffix in TYPES]
+    assert sum(path.stat().st_size for path in files) < 3_000_000

@@ -11,17 +11,31 @@ from playwright.sync_api import Page, expect
 
 from tests.pages.axe import axe_source, violations
 from tests.pages.browser import Open, PageRecord
-from tests.window.programs import SECONDS, OpenWindow, nodes, turtles, until, window
+from tests.window.programs import SECONDS, OpenWindow, nodes, started, turtles, until, window
 
 pytestmark = [pytest.mark.full, pytest.mark.prefix]
 VIEWS = ("turtle", "graph", "log", "plot", "parameters")
-SIZES = ({"width": 1280, "height": 800}, {"width": 390, "height": 800})
+SIZES = ({"width": 1280, "height": 800}, {"width": 360, "height": 740})
 POSITION = re.compile(r"x ([\d.]+) m, y ([\d.]+) m")
 COUNT_FRAMES = """async seconds => {
     const field = document.getElementById("field");
     const before = Number(field.dataset.frames);
     await new Promise(done => setTimeout(done, 1000 * seconds));
     return (Number(field.dataset.frames) - before) / seconds;
+}"""
+
+WORDS_IN_TWO_LINES = r"""element => {
+    const broken = [];
+    const walker = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
+    while (walker.nextNode()) {
+        for (const word of walker.currentNode.data.matchAll(/\S+/g)) {
+            const range = document.createRange();
+            range.setStart(walker.currentNode, word.index);
+            range.setEnd(walker.currentNode, word.index + word[0].length);
+            if (range.getClientRects().length > 1) broken.push(word[0]);
+        }
+    }
+    return broken;
 }"""
 
 
@@ -187,6 +201,114 @@ def test_the_log_is_filtered_by_level_node_and_text(
         expect(rows.filter(has_text="still here")).not_to_have_count(0)
 
 
+def test_the_log_begins_at_info_with_the_newest_line_in_sight(
+    visit: Open, opened: OpenWindow, ros_env: dict[str, str]
+) -> None:
+    with nodes(ros_env, "chatter"):
+        for size in SIZES:
+            page = visit(viewport=size).page
+            page.goto(opened.address)
+            look_at(page, "log")
+            rows = page.locator("#log-rows > div")
+            expect(page.locator("#log-level option:checked")).to_have_text("INFO")
+            expect(rows).to_have_count(300)
+            last = int(rows.last.inner_text().split()[-1])
+            for count in (last + 1, last + 100):  # while lines come, too
+                until(lambda: newest_in_sight(page) >= count)  # noqa: B023 - at once
+            expect(rows.filter(has_text="DEBUG")).to_have_count(0)
+            expect(rows).to_have_count(300)
+            assert page.evaluate("document.documentElement.scrollHeight") <= size["height"]
+
+
+def newest_in_sight(page: Page) -> int:
+    """Return the number in the newest line of the log; -1 if it is not in sight."""
+    found = page.locator("#log-rows").evaluate(
+        """rows => {
+            const line = rows.lastElementChild.getBoundingClientRect();
+            const room = rows.getBoundingClientRect();
+            const seen = line.top >= room.top && line.bottom <= room.bottom && room.bottom <= innerHeight;
+            return seen ? Number(/\\d+$/.exec(rows.lastElementChild.textContent)[0]) : -1;
+        }"""
+    )
+    return int(found)
+
+
+def test_a_plot_begins_with_the_turtle_that_moves(
+    visited: PageRecord, ros_env: dict[str, str]
+) -> None:
+    page = visited.page
+    look_at(page, "plot")
+    expect(page.locator("#plot-hint")).to_contain_text("Nothing moves yet")
+    series = page.locator("#series li")
+    with turtles(ros_env, 1), nodes(ros_env, "sensor"):
+        page.locator("#plot-topic option[value='/turtle1/pose']").wait_for(state="attached")
+        look_at(page, "turtle")
+        expect(page.locator("#turtle-list button")).to_have_count(1)
+        look_at(page, "plot")
+        expect(series).to_have_count(0)  # it stands, and a sensor says always the same
+    with turtles(ros_env, 1, "move"), nodes(ros_env, "sensor"):
+        expect(series).to_have_count(1, timeout=1000 * SECONDS)
+        expect(series).to_contain_text("/turtle1/pose x")
+        expect(page.locator("#chart")).to_have_attribute("data-points", re.compile("[1-9][0-9]"))
+        expect(page.locator("#plot-topic")).to_have_value("/turtle1/pose")
+        page.get_by_role("button", name="Remove /turtle1/pose x").click()
+        expect(page.locator("#plot-hint")).to_contain_text("Choose a topic")
+
+
+def test_without_a_topic_that_moves_a_plot_begins_with_the_counter_in_the_log(
+    visited: PageRecord, ros_env: dict[str, str]
+) -> None:
+    page = visited.page
+    look_at(page, "plot")
+    with nodes(ros_env, "chatter", "sensor"):
+        series = page.locator("#series li")
+        expect(series).to_contain_text("number in the lines of chatter", timeout=1000 * SECONDS)
+        value = series.locator("output")
+        before = int(value.inner_text())
+        until(lambda: int(value.inner_text()) > before)
+        look_at(page, "graph")
+        look_at(page, "plot")
+        expect(series).to_have_count(1)
+
+
+def test_the_graph_of_a_turtle_fits_a_phone(visit: Open, ros_env: dict[str, str]) -> None:
+    names = ("talker", "listener", "sensor", "reader")
+    node = ["ros2", "run", "turtlesim", "turtlesim_node"]
+    with window(ros_env) as opened, started(node, ros_env), nodes(ros_env, *names):
+        for size in (SIZES[1], {"width": 1024, "height": 768}, SIZES[0]):
+            page = visit(viewport=size).page
+            page.goto(opened.address)
+            look_at(page, "graph")
+            page.locator("g.action[data-id='action /turtle1/rotate_absolute']").wait_for()
+            expect(page.locator("g.topic")).to_have_count(6)
+            found = page.evaluate(FITS)
+            assert found["beside"] == [], size
+            assert found["over"] == [], size
+            assert found["smallest"] >= 9, size  # px
+            assert found["scrolls"] is False, size
+            assert page.evaluate("document.documentElement.scrollWidth") <= size["width"]
+            page.locator("g.topic[data-id='topic /scan']").click()
+            expect(page.locator("#details")).to_contain_text("/sensor (best effort, volatile)")
+
+
+FITS = """() => {
+    const drawing = document.getElementById("drawing");
+    const room = drawing.getBoundingClientRect();
+    const boxes = [...drawing.querySelectorAll("g.box")].map(box => ({
+        id: box.dataset.id, place: box.querySelector(".shape").getBoundingClientRect(),
+        texts: [...box.querySelectorAll("text:not(.kind)")].map(text => text.getBoundingClientRect())}));
+    const inside = (one, other) => one.left >= other.left && one.right <= other.right;
+    const meet = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+    return {
+        beside: boxes.filter(({place, texts}) => !inside(place, room)
+            || texts.some(text => !inside(text, place))).map(box => box.id),
+        over: boxes.filter((a, i) => boxes.some((b, j) => i < j && meet(a.place, b.place))).map(box => box.id),
+        smallest: Math.min(...[...drawing.querySelectorAll("g.box text:not(.kind)")].map(text =>
+            parseFloat(getComputedStyle(text).fontSize) * text.getCTM().a)),
+        scrolls: drawing.scrollWidth > drawing.clientWidth};
+}"""
+
+
 def test_a_plot_shows_the_values_of_two_topics(
     visited: PageRecord, ros_env: dict[str, str]
 ) -> None:
@@ -290,6 +412,10 @@ def test_the_page_is_korean_where_the_reader_is(visit: Open, ros_env: dict[str, 
         for view in VIEWS:
             expect(page.locator(f"nav a[href='#{view}']")).to_have_text(texts[view])
             assert texts[view] != TEXTS[view]
+        page.set_viewport_size({"width": 360, "height": 740})
+        look_at(page, "turtle")
+        words = page.locator("#turtle p").first
+        assert words.evaluate(WORDS_IN_TWO_LINES) == []
 
 
 def test_the_page_says_when_the_window_has_ended(visit: Open, ros_env: dict[str, str]) -> None:

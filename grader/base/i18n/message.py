@@ -7,7 +7,7 @@ it is English, so it can be used like any string.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from string import Formatter
 from typing import Protocol
 
@@ -192,3 +192,10 @@ def reworded(text: str, words: tuple[tuple[str, str], ...]) -> str:
 def joined(*parts: str, by: str = " ") -> Message:
     """Join the texts that are not empty."""
     return Joined(tuple(part for part in parts if part), by)
+
+
+def some_of(names: Sequence[str], most: int) -> Message:
+    """Return the first `most` names, and how many more there are."""
+    left = len(names) - most
+    more = say(" and {count} more", count=left) if left > 0 else ""
+    return joined(", ".join(names[:most]), more, by="")

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from grader.base.errors import GraderError
 from grader.base.i18n.message import Message, must_be_filled
+from grader.base.i18n.particles import with_particles
 
 DOMAIN = "grader"
 FOLDER = Path(__file__).resolve().parent
@@ -34,7 +35,10 @@ class Translator:
         if not isinstance(text, Message):
             must_be_filled(text)
             return text
-        return text.translated(_catalogue(self.lang)) if self.lang != SOURCE else str(text)
+        if self.lang == SOURCE:
+            return str(text)
+        found = text.translated(_catalogue(self.lang))
+        return with_particles(found) if self.lang == "ko" else found
 
 
 def translated(template: str, lang: str) -> str:

@@ -8,6 +8,7 @@ from importlib import import_module
 from types import MappingProxyType
 
 from grader.base.errors import UsageError
+from grader.base.i18n.message import say
 from grader.base.nearest import nearest
 from grader.base.shown import shown
 from grader.batch import systems
@@ -18,14 +19,14 @@ from grader.batch.systems.system import Download, ReportForm, SheetForm, System
 # without a system: named by the students or the instructor
 FOLDERS = System(
     name="folders",
-    title="a folder of folders",
-    download=Download("a folder for each student, named after the student", plain),
+    title=say("a folder of folders"),
+    download=Download(say("a folder for each student, named after the student"), plain),
     group_folders=True,
 )
 ARCHIVES = System(
     name="archives",
-    title="one archive for each student",
-    download=Download("an archive for each student, named after the student", plain),
+    title=say("one archive for each student"),
+    download=Download(say("an archive for each student, named after the student"), plain),
     group_folders=True,
 )
 

@@ -19,9 +19,9 @@ from grader.package.intake.reading import Unread, open_file
 ItemKind = Literal["folder", "archive", "file"]
 
 MOST_NAMES = 100_000
-HIDDEN = "left out: hidden"
-OF_SYSTEM = "left out: files of the operating system, of a tool or of this grader"
-NO_SUBMISSION = "left out: neither a folder nor an archive"
+HIDDEN = say("left out: hidden")
+OF_SYSTEM = say("left out: files of the operating system, of a tool or of this grader")
+NO_SUBMISSION = say("left out: neither a folder nor an archive")
 IS_LINK = say("it is a link, and links are not followed: replace it with what it points to")
 FILES = frozenset(
     [

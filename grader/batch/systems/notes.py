@@ -5,6 +5,7 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Iterable
 
+from grader.base.i18n.message import joined, some_of
 from grader.base.shown import shown
 
 MOST_SHOWN = 50
@@ -57,5 +58,4 @@ class Notes:
 def _line(reason: str, names: list[str] | None) -> str:
     if names is None:
         return reason
-    more = f" and {len(names) - MOST_SHOWN} more" if len(names) > MOST_SHOWN else ""
-    return f"{reason}: {', '.join(names[:MOST_SHOWN])}{more}"
+    return joined(reason, some_of(names, MOST_SHOWN), by=": ")

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
-    from grader.batch.lowered import Lowered
     from grader.batch.match import Match
-    from grader.batch.model import ClassResult, Comment, Elsewhere, Student
+    from grader.batch.model import ClassResult, Comment, Elsewhere, GradebookEntry, Student
     from grader.batch.roster import Roster
     from grader.batch.sheet import Filled, Sheet
+    from grader.batch.systems.feedback_zip import PageOf
     from grader.batch.systems.layout import Layout, Read, Reading
     from grader.batch.times import Times
     from grader.course.assignment import Assignment
@@ -50,8 +50,8 @@ class OpenSheet(Protocol):
     def elsewhere(self, students: Sequence[Student], system: System) -> dict[str, Elsewhere]:
         """Return the students whose submission or grade is in the file, by key."""
 
-    def lowered(self, result: ClassResult) -> list[Lowered]:
-        """Return the grades in the file that would go down."""
+    def existing(self, result: ClassResult) -> list[tuple[GradebookEntry, str]]:
+        """Return the entries that are filled in, each with the cell of its grade as it is."""
 
     def filled(self, result: ClassResult, comment: Comment) -> Filled:
         """Return a copy of the file with the grades filled in."""
@@ -79,6 +79,14 @@ class NewGradebook:
 
     output: str
     write: Callable[[ClassResult, Comment, Columns], Filled]
+
+
+@dataclass(frozen=True, kw_only=True)
+class FeedbackForm:
+    """A zip of feedback files that the system gives to its students."""
+
+    output: str
+    write: Callable[[ClassResult, PageOf], Filled]
 
 
 @dataclass(frozen=True)
@@ -131,7 +139,7 @@ class System:
     taken. `numbered`: the download and the roster have the same
     number for a student. `group_folders`: the download has one folder for each group. `usernames`:
     its folders end with the username. `keeps_modes`: exec bits survive. `sheet` and `gradebook` are
-    the files for grades, `reports` the forms of one report by the word for `grader convert`.
+    the files for grades, `feedback` a zip for the students, `reports` the forms of one report by the word for `grader convert`.
     """
 
     name: str
@@ -145,4 +153,5 @@ class System:
     roster: RosterForm | None = None
     sheet: SheetForm | None = None
     gradebook: NewGradebook | None = None
+    feedback: FeedbackForm | None = None
     reports: Mapping[str, ReportForm] = field(default_factory=dict)

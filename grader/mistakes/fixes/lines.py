@@ -8,12 +8,10 @@ import re
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
-from grader.package.source.code_only import code_only
 from grader.package.source.imported import imports
 from grader.package.source.module import Module, is_text
 from grader.package.source.place import block_of
 
-NOTEBOOK = "get_ipython"  # the function that only a Jupyter notebook has
 BLOCKS = ast.For | ast.While | ast.If
 
 
@@ -57,14 +55,6 @@ def deleted(case: Case) -> Files | None:
     return case.changed(module, *(module.text.without(n) for n in lines))
 
 
-def passed(case: Case) -> Files | None:
-    """Write pass instead of the statement of the finding, if its block has no other."""
-    found = _statement(case)
-    if found is None or len(block_of(*found)) > 1 or own_lines(*found) is None:
-        return None
-    return case.changed(found[0], found[0].text.swap(found[1], "pass"))
-
-
 def deleted_name(case: Case) -> Files | None:
     """Delete the lines that contain only a name that nothing defines."""
     found = _statement(case)
@@ -83,20 +73,6 @@ def rows_with_only(module: Module, name: str) -> list[int]:
     return sorted(
         s.lineno for s in statements if isinstance(s.value, ast.Name) and s.value.id == name
     )
-
-
-def without_notebook(case: Case) -> Files | None:
-    """Delete the commands of a notebook: the lines at the margin that begin with get_ipython()."""
-    module, name = case.module, case.finding.params.get("name")
-    if module is None or name != NOTEBOOK:
-        return None
-    rows = [
-        row
-        for s in module.tree.body
-        if isinstance(s, ast.Expr) and module.text.code(s).startswith(f"{NOTEBOOK}()")
-        for row in range(s.lineno, (s.end_lineno or s.lineno) + 1)
-    ]
-    return case.changed(module, *map(module.text.without, rows)) if rows else None
 
 
 def unwrapped(case: Case) -> Files | None:
@@ -147,17 +123,6 @@ def written(case: Case) -> Files | None:
         return None
     start = module.text.start_of(line)
     return case.changed(module, Splice(start + places[0].start(), start + places[0].end(), new))
-
-
-def written_everywhere(case: Case) -> Files | None:
-    """Write the code that the finding gives instead of the name, in all code of the file."""
-    module = case.module
-    name, new = (str(case.finding.params.get(key, "")) for key in ("name", "written"))
-    if module is None or not name or not new:
-        return None
-    code = code_only(module.text.text)
-    places = [match.span() for match in re.finditer(rf"(?<!\w){re.escape(name)}(?!\w)", code)]
-    return case.changed(module, *(Splice(start, end, new) for start, end in places))
 
 
 def without_import(case: Case, name: str) -> Files:

@@ -6,13 +6,11 @@ import ast
 import re
 
 from grader.mistakes.fixes.case import Case
-from grader.mistakes.fixes.node_classes import has_self
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
-from grader.package.source.names import called_name, dotted
+from grader.package.source.names import dotted
 from grader.package.source.node import NodeSource
 
-LOGS = {"loginfo": "info", "logdebug": "debug", "logwarn": "warning", "logerr": "error"}
 COMMA = re.compile(r"(\d{1,9})[ \t]{0,9},[ \t]{0,9}(\d{1,9})")
 
 
@@ -39,20 +37,6 @@ def decimal_point(case: Case) -> Files | None:
     module = node.module_of(call)
     start, end = module.text.span(call.args[0])[0], module.text.span(call.args[1])[1]
     return case.changed(module, Splice(start, end, found[1]))
-
-
-def third(case: Case) -> Files | None:
-    """Remove self from the end of the arguments of create_timer."""
-    node = case.node
-    call = node.timer_call if node is not None else None
-    if node is None or call is None or len(call.args) != 3 or dotted(call.args[2]) != "self":
-        return None
-    module = node.module_of(call)
-    callback = call.args[1]
-    start, end = module.text.span(callback)[1], module.text.span(call.args[2])[1]
-    owner, _, name = dotted(callback).rpartition(".")
-    bound = [module.text.swap(callback, f"self.{name}")] if owner in node.class_names else []
-    return case.changed(module, *bound, Splice(start, end, ""))
 
 
 def without_names(case: Case) -> Files | None:
@@ -86,41 +70,6 @@ def without_option(case: Case) -> Files | None:
     return case.changed(module, Splice(start, end, ""))
 
 
-def ros_2_log(case: Case) -> Files | None:
-    """Log with the node's logger instead of the functions of ROS 1."""
-    node, module = case.node, case.module
-    if node is None or module is None:
-        return None
-    splices = []
-    for call in node.calls_of(*LOGS):
-        function = node.function_around(call)
-        method = function is not None and function in node.own_methods and has_self(function)
-        if not method or dotted(call.func) != f"rclpy.{called_name(call)}" or len(call.args) != 1:
-            return None
-        splices.append(module.text.swap(call.func, f"self.get_logger().{LOGS[called_name(call)]}"))
-    return case.changed(module, *splices)
-
-
-def ros_2_timer(case: Case) -> Files | None:
-    """Create the node's timer instead of the one of ROS 1."""
-    node, module = case.node, case.module
-    calls = node.calls_of("Timer") if node is not None else []
-    if node is None or module is None or len(calls) != 1 or dotted(calls[0].func) != "rospy.Timer":
-        return None
-    function, given = node.function_around(calls[0]), calls[0].args
-    method = function is not None and function in node.own_methods and has_self(function)
-    period = given[0].args if given and isinstance(given[0], ast.Call) else []
-    if not method or len(given) != 2 or len(period) != 1:
-        return None
-    if dotted(given[0]) != "rospy.Duration()":
-        return None
-    return case.changed(
-        module,
-        module.text.swap(calls[0].func, "self.create_timer"),
-        module.text.swap(given[0], module.text.code(period[0])),
-    )
-
-
 def only_name(case: Case) -> Files | None:
     """Pass only the node's name to super().__init__(), if the error is about a constructor."""
     said = f"{case.finding.actual} {case.finding.params}"
@@ -137,18 +86,3 @@ def only_name(case: Case) -> Files | None:
         module,
         Splice(module.text.span(call.func)[1] + 1, end, repr(case.assignment.node_name)),
     )
-
-
-def without_init_node(case: Case) -> Files | None:
-    """Delete the line that calls init_node."""
-    node, module = case.node, case.module
-    calls = node.calls_of("init_node") if node is not None else []
-    if module is None or len(calls) != 1 or dotted(calls[0].func) != "rclpy.init_node":
-        return None
-    line = calls[0].lineno
-    around = module.parents.get(calls[0])
-    if not isinstance(around, ast.Expr) or calls[0].end_lineno != line:
-        return None
-    if module.line(line) != module.text.code(calls[0]):
-        return None
-    return case.changed(module, module.text.without(line))

@@ -25,21 +25,6 @@ def _statement(case: Case) -> tuple[Module, ast.stmt, range] | None:
     return module, statement, rows
 
 
-def timer_for_loop(case: Case) -> Files | None:
-    """Create the timer instead of the loop that only calls the callback."""
-    found, new = _statement(case), str(case.finding.params.get("written", ""))
-    loop = found[0].parents.get(found[1]) if found is not None else None
-    if found is None or not new or not isinstance(loop, ast.For | ast.While) or loop.orelse:
-        return None
-    module, rows = found[0], lines.own_lines(found[0], loop)
-    if len(loop.body) != 1 or rows is None:
-        return None
-    row = indent_of(module.text.line(loop.lineno)) + new
-    return case.changed(
-        module, module.text.before(loop.lineno, row), *map(module.text.without, rows)
-    )
-
-
 def without_sleeps(case: Case) -> Files | None:
     """Delete the sleeps of the callback that it makes in each call."""
     node = case.node
@@ -85,33 +70,6 @@ def into_constructor(case: Case) -> Files | None:
         text.before((last.end_lineno or last.lineno) + 1, row),
         text.without(statement.lineno),
     )
-
-
-def without_def(case: Case) -> Files | None:
-    """Remove the line `def` of an inner function of the finding, and keep its lines."""
-    module, line = case.module, case.finding.line
-    found = [
-        n
-        for n in (module.nodes if module is not None else ())
-        if isinstance(n, ast.FunctionDef) and n.lineno == line
-    ]
-    if module is None or len(found) != 1 or found[0].args.args or found[0].decorator_list:
-        return None
-    inner, first = found[0], found[0].body[0].lineno
-    parts = list(ast.walk(inner))
-    left = any(isinstance(n, ast.Return | ast.Nonlocal | ast.Yield) for n in parts)
-    text = module.text
-    old, new = indent_of(text.line(first)), indent_of(text.line(inner.lineno))
-    if left or first != inner.lineno + 1:
-        return None
-    splices = [text.without(inner.lineno)]
-    for number in range(first, (inner.end_lineno or first) + 1):
-        row = text.line(number)
-        if row.strip() and not row.startswith(old):
-            return None
-        if row.strip():
-            splices += [text.without(number), text.before(number, new + row[len(old) :])]
-    return case.changed(module, *splices)
 
 
 def without_question(case: Case) -> Files | None:

@@ -8,9 +8,8 @@ from collections.abc import Iterator
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.rename import def_renamed
 from grader.package.edit.files import Files
-from grader.package.edit.text import Splice
 from grader.package.source.module import Function
-from grader.package.source.names import dotted, last_part
+from grader.package.source.names import dotted
 from grader.package.source.node import NodeSource
 from grader.package.source.parameters import needed_besides_self
 
@@ -71,23 +70,6 @@ def second_renamed(case: Case) -> Files | None:
     if head is None or new in text.text:
         return None
     return case.changed(module, head, *(text.swap(c.func, f"self.{new}") for c in with_values))
-
-
-def called_base(found: ast.ClassDef) -> ast.Call | None:
-    """Return the base of a class that is a call of a node's class."""
-    calls = [base for base in found.bases if isinstance(base, ast.Call)]
-    return next((call for call in calls if last_part(dotted(call.func)).endswith("Node")), None)
-
-
-def base(case: Case) -> Files | None:
-    """Remove the () after the base class."""
-    module = case.module
-    for found in module.classes if module is not None else ():
-        call = called_base(found)
-        if module is not None and call is not None and not call.args and not call.keywords:
-            start, end = module.text.span(call.func)[1], module.text.span(call)[1]
-            return case.changed(module, Splice(start, end, ""))
-    return None
 
 
 def own_callback(case: Case) -> Files | None:

@@ -12,7 +12,6 @@ from grader.package.source.counter import (
     adds_to,
     changes_of,
     declares,
-    local_start,
     logged_counter,
     names_given,
     outer_start,
@@ -20,7 +19,7 @@ from grader.package.source.counter import (
     targets_of,
 )
 from grader.package.source.node import NodeSource
-from grader.package.source.place import block_of, function_at, heads_without, statement_at
+from grader.package.source.place import block_of, statement_at
 
 
 def plus(case: Case) -> Files | None:
@@ -198,44 +197,6 @@ def outer(case: Case) -> Files | None:
     return case.changed(node.module, *_declared(node, min(names))) if len(names) == 1 else None
 
 
-def kept(case: Case) -> Files | None:
-    """Remove the line of the callback that resets the counter to its start."""
-    node = case.node
-    call = node.log_call if node else None
-    name = _counted(node, call) if node and call else ""
-    if node is None or call is None:
-        return None
-    if not name:
-        return _kept_in_file(case) or _made_attribute(case, call)
-    changes = changes_of(node, name)
-    resets = [s for s in changes if isinstance(s, ast.Assign)]
-    if len(changes) != 2 or len(resets) != 1:
-        return None
-    value = resets[0].value
-    module = node.module_of(resets[0])
-    plain = isinstance(value, ast.Constant) and value.value == case.assignment.output.start
-    function = node.function_around(resets[0])
-    inside = function is not None and resets[0] in function.body
-    row = module.text.line(resets[0].lineno).strip()
-    if not plain or not inside or row != module.text.code(resets[0]):
-        return None
-    return case.changed(module, module.text.without(resets[0].lineno))
-
-
-def _kept_in_file(case: Case) -> Files | None:
-    """Remove the line that resets a variable of the file, which its function declares."""
-    module, name = case.module, str(case.finding.params.get("name", ""))
-    function = function_at(module, case.finding.line) if module is not None else None
-    if module is None or function is None or not declares(function, name):
-        return None
-    line = case.finding.line or 0
-    first = any(name in targets_of(n) for n in module.tree.body)
-    alone = [s for s in function.body if s.lineno == line and s.end_lineno == line]
-    if not first or len(alone) != 1 or len(function.body) < 2:
-        return None
-    return case.changed(module, module.text.without(line))
-
-
 def moved(case: Case) -> Files | None:
     """Move the line of the callback that resets an attribute to __init__, or delete it.
 
@@ -254,50 +215,11 @@ def moved(case: Case) -> Files | None:
     row = module.text.line(statement.lineno) if statement is not None else ""
     if statement is None or base is None or row.strip() != module.text.code(statement):
         return None
-    if node.module is not module or statement in init.body or len(set(targets_of(statement))) != 1:
-        return None
-    alone = len(block_of(module, statement)) == 1
-    heads = heads_without(module, statement) if alone else []
-    if heads is None:
+    if node.module is not module or len(block_of(module, statement)) == 1:
         return None
     indent = indent_of(module.text.line(base.lineno))
     after = module.text.before((base.end_lineno or base.lineno) + 1, f"{indent}{row.strip()}")
-    gone = [module.text.without(line) for line in (*heads, statement.lineno)]
-    return case.changed(module, after, *gone)
-
-
-def _made_attribute(case: Case, call: ast.Call) -> Files | None:
-    """Make an attribute that __init__ sets of a counter that is a variable of the callback."""
-    node = case.node
-    if node is None:
-        return None
-    callback, init = (
-        node.method(node.callback.name if node.callback else ""),
-        node.method("__init__"),
-    )
-    names = {n for n in names_given(call) if callback is not None and local_start(callback, n)}
-    if callback is None or init is None or len(names) != 1 or callback is init:
-        return None
-    name, text = min(names), node.module.text
-    first = local_start(callback, name)
-    used = [n for n in ast.walk(callback) if isinstance(n, ast.Name) and n.id == name]
-    last = node.super_init
-    if first is None or last is None or name in node.attributes or name in node.methods:
-        return None
-    row = text.line(first.lineno).strip()
-    if row != text.code(first) or text.line(last.lineno).strip() != text.code(last):
-        return None
-    if any(text.code(n) != name for n in used):  # (in an f-string, before Python 3.12)
-        return None
-    indent = indent_of(text.line(last.lineno))
-    set_there = first.targets if isinstance(first, ast.Assign) else [first.target]
-    places = [text.span(n)[0] for n in used if n not in set_there]
-    return case.changed(
-        node.module,
-        text.without(first.lineno),
-        text.before((last.end_lineno or last.lineno) + 1, f"{indent}self.{row}"),
-        *(Splice(at, at, "self.") for at in places),
-    )
+    return case.changed(module, after, module.text.without(statement.lineno))
 
 
 def number_step(case: Case) -> Files | None:

@@ -14,9 +14,9 @@ from grader.package.source.names import dotted
 
 @dataclass(frozen=True)
 class Compared:
-    """A statement `name == value`, or `name: type == value`."""
+    """A statement `name == value`."""
 
-    statement: ast.Expr | ast.AnnAssign
+    statement: ast.Expr
     left: ast.expr
     right: ast.expr
     name: str
@@ -28,64 +28,31 @@ class Compared:
 
     def written(self, module: Module) -> str:
         """Return the code with one `=`; what is longer than a line ends with dots."""
-        start, end = module.text.span(self.statement)
-        left = module.text.text[start : module.text.span(self.left)[1]]
-        right = module.text.code(self.right)
-        return f"{left} = {right}" if "\n" not in right and end - start < 100 else f"{left} = …"
+        left, right = module.text.code(self.left), module.text.code(self.right)
+        return f"{left} = {right}" if "\n" not in right and len(right) < 80 else f"{left} = …"
 
 
 def compared_in(module: Module) -> list[Compared]:
     """Return the statements of a file that only compare two values with `==`, in order."""
     found = []
     for node in module.nodes:
-        value: ast.expr | None = None
-        if isinstance(node, ast.Expr):
-            value = node.value
-        elif isinstance(node, ast.AnnAssign) and node.value is None:
-            value = node.annotation
-        if not isinstance(node, ast.Expr | ast.AnnAssign) or not isinstance(value, ast.Compare):
+        value = node.value if isinstance(node, ast.Expr) else None
+        if not isinstance(node, ast.Expr) or not isinstance(value, ast.Compare):
             continue
         if len(value.ops) == 1 and isinstance(value.ops[0], ast.Eq):
-            name = dotted(value.left if isinstance(node, ast.Expr) else node.target)
+            name = dotted(value.left)
             found += [Compared(node, value.left, value.comparators[0], name)] if name else []
     return sorted(found, key=lambda one: one.statement.lineno)
 
 
-def arrows_in(module: Module) -> list[Compared]:
-    """Return the statements `name <- value`, which compare a value with a negative one."""
-    found = []
-    for node in module.nodes:
-        value = node.value if isinstance(node, ast.Expr) else None
-        if not isinstance(node, ast.Expr) or not isinstance(value, ast.Compare):
-            continue
-        right, name = value.comparators[0], dotted(value.left)
-        less = len(value.ops) == 1 and isinstance(value.ops[0], ast.Lt)
-        if name and less and isinstance(right, ast.UnaryOp) and isinstance(right.op, ast.USub):
-            found.append(Compared(node, value.left, right.operand, name))
-    return found
-
-
 def assigned(case: Case) -> Files | None:
-    """Write = instead of == or <- on the line of the finding, and self. before a name that needs it."""
-    module, name = case.module, str(case.finding.params.get("name", ""))
-    found = (
-        [
-            c
-            for c in (*compared_in(module), *arrows_in(module))
-            if c.statement.lineno == case.finding.line
-        ]
-        if module
-        else []
-    )
-    if module is None or len(found) != 1 or found[0].name != name:
+    """Write = instead of == on the line of the finding."""
+    module, line = case.module, case.finding.line
+    found = [c for c in compared_in(module) if c.statement.lineno == line] if module else []
+    if module is None or len(found) != 1:
         return None
-    text, one = module.text, found[0]
-    start, end = text.span(one.left)[1], text.span(one.right)[0]
-    between = text.text[start:end]
-    sign = between.strip()
-    if sign not in ("==", "<-"):
+    start, end = module.text.span(found[0].left)[1], module.text.span(found[0].right)[0]
+    between = module.text.text[start:end]
+    if between.strip() != "==":
         return None
-    at = text.span(one.statement)[0]
-    own = str(case.finding.params.get("written", "")).startswith(f"self.{name} ")
-    dot = [Splice(at, at, "self.")] if own else []
-    return case.changed(module, *dot, Splice(start, end, between.replace(sign, "=")))
+    return case.changed(module, Splice(start, end, between.replace("==", "=")))

@@ -9,12 +9,8 @@ from grader.mistakes.fixes.lines import own_lines
 from grader.package.edit.files import Files
 from grader.package.edit.text import indent_of
 from grader.package.source.counter import targets_of
-from grader.package.source.guard import is_guard
-from grader.package.source.module import code_of
 from grader.package.source.names import calls_in, dotted
 from grader.package.source.node import NodeSource
-from grader.package.source.own_imports import imports_of
-from grader.package.source.place import block_of
 
 PLAIN = ("Node", "rclpy.node.Node", "rclpy.create_node", "create_node")
 MOST_CODE = 60  # characters of the student's call that a text shows
@@ -24,16 +20,6 @@ def new_call(source: NodeSource) -> str:
     """Return the call for the entry function: with args only if the function has them."""
     given = source.main.args.args if source.main is not None else []
     return f"rclpy.init({'args=args' if 'args' in [a.arg for a in given] else ''})"
-
-
-def guarded_init(source: NodeSource) -> ast.Call | None:
-    """Return the only rclpy.init() of the files, if it is below the guard of the entry's file."""
-    calls = [call for call, name in source.calls if name == "rclpy.init"]
-    if len(calls) != 1 or not source.entry.has(calls[0]):
-        return None
-    around = list(source.entry.around(calls[0]))
-    guards = [a for a in around if isinstance(a, ast.If) and is_guard(a)]
-    return calls[0] if guards and source.function_around(calls[0]) is None else None
 
 
 def moved_call(source: NodeSource, call: ast.Call) -> str:
@@ -84,25 +70,6 @@ def _makers(source: NodeSource) -> set[str]:
     }
 
 
-def made_in_module(source: NodeSource) -> tuple[ast.stmt, ast.stmt] | None:
-    """Return where another file of the package makes the node when it is imported, and the import."""
-    for module in source.known_modules:
-        if module is source.entry:
-            continue
-        outside = [s for s in module.tree.body if isinstance(s, ast.Assign | ast.Expr)]
-        made = [s for s in outside for c, _ in calls_in(s) if source.is_node_class(c.func)]
-        imports = [
-            node
-            for node in source.entry.nodes
-            if isinstance(node, ast.Import | ast.ImportFrom)
-            for imported in imports_of(node, source.entry.path)
-            if module.path in imported.paths
-        ]
-        if len(made) == 1 and imports:
-            return made[0], imports[0]
-    return None
-
-
 def used_elsewhere(source: NodeSource, name: str) -> bool:
     """Return whether another function than the entry function reads a variable of its file."""
     uses = [n for n in source.entry.nodes if isinstance(n, ast.Name) and n.id == name]
@@ -130,23 +97,3 @@ def into_main(case: Case) -> Files | None:
     row = f"{indent_of(module.text.line(init.lineno))}{module.text.code(made)}"
     gone = [module.text.without(n) for n in range(made.lineno, last + 1)]
     return case.changed(module, *gone, module.text.before((init.end_lineno or 0) + 1, row))
-
-
-def out_of_guard(case: Case) -> Files | None:
-    """Move rclpy.init() from below the guard to the first line of the entry function."""
-    node = case.node
-    call = guarded_init(node) if node is not None else None
-    if node is None or call is None or node.main is None or not node.entry.has(node.main):
-        return None
-    module, statement = node.entry, node.entry.parents.get(call)
-    if not isinstance(statement, ast.Expr) or dotted(call.func) != "rclpy.init":
-        return None
-    lines = own_lines(module, statement)
-    body = code_of(node.main)
-    if lines is None or not body or body[0].lineno == node.main.lineno:
-        return None
-    if len(block_of(module, statement)) == 1:
-        return None
-    row = f"{indent_of(module.text.line(body[0].lineno))}{moved_call(node, call)}"
-    gone = [module.text.without(n) for n in lines]
-    return case.changed(module, *gone, module.text.before(body[0].lineno, row))

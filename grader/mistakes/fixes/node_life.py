@@ -15,8 +15,6 @@ from grader.package.source.imported import full_name, name_of_node
 from grader.package.source.module import Function, Module, is_text
 from grader.package.source.names import calls_in, dotted
 from grader.package.source.node import NodeSource
-from grader.package.source.second_node import second_node
-from grader.package.source.spun_object import given_to_spin
 
 IMPORT = "from rclpy.node import Node"
 
@@ -141,21 +139,6 @@ def constructor(case: Case) -> Files | None:
     if len(found) != 1:
         return None
     return _as_init(case, node.module, found[0])
-
-
-def constructor_of_object(case: Case) -> Files | None:
-    """Rename the method of another class to __init__."""
-    node, place = case.node, case.finding.file
-    known = (*node.modules, *node.beside) if node is not None else ()
-    found = [
-        (module, n)
-        for module in known
-        for n in module.nodes
-        if isinstance(n, ast.FunctionDef)
-        and (module.path, n.lineno) == (place, case.finding.line)
-        and n.name == case.finding.params.get("name")
-    ]
-    return _as_init(case, *found[0]) if len(found) == 1 else None
 
 
 def _as_init(case: Case, module: Module, method: ast.FunctionDef) -> Files | None:
@@ -413,27 +396,6 @@ def _makes(statement: ast.stmt, node: NodeSource) -> bool:
     """Whether it is an assignment whose value is a new node."""
     value = statement.value if isinstance(statement, ast.Assign) else None
     return isinstance(value, ast.Call) and node.is_node_class(value.func)
-
-
-def first_node(case: Case) -> Files | None:
-    """Spin the node that is in a variable instead of a second one."""
-    module = case.module
-    found = second_node(module.tree) if module is not None else None
-    if module is None or found is None or found.spin.lineno != case.finding.line:
-        return None
-    return case.changed(module, module.text.swap(found.spin.args[0], found.name))
-
-
-def node_of_object(case: Case) -> Files | None:
-    """Spin the node that an object has, instead of the object."""
-    module, params = case.module, case.finding.params
-    attribute, made_by = str(params.get("attribute", "")), str(params.get("type", ""))
-    if module is None or not attribute:
-        return None
-    spun = given_to_spin(module.tree, case.finding.line, made_by)
-    if spun is None:
-        return None
-    return case.changed(module, module.text.swap(spun, f"{module.text.code(spun)}.{attribute}"))
 
 
 def spin_of_class(case: Case) -> Files | None:

@@ -6,69 +6,17 @@ import ast
 import difflib
 import re
 
-from grader.mistakes.fixes.case import Case, Fix
+from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
-from grader.package.source.counter import starts_of, texts_of
-from grader.package.source.module import Function, Module
+from grader.package.source.counter import starts_of
+from grader.package.source.module import Module
 from grader.package.source.names import called_name, dotted, own_name
-from grader.package.source.node import NodeSource, read_node
-from grader.package.source.number_forms import number_forms
-from grader.package.source.one_change import logged_lines
-from grader.package.source.place import blocks_in, statement_at
-from grader.package.source.played import SHOWN_LEVELS
+from grader.package.source.node import NodeSource
+from grader.package.source.place import statement_at
 
 PLACE = re.compile(r"\{((?:[A-Za-z_]\w*\.)?[A-Za-z_]\w*)\}")
-FORMATTED = re.compile(r"(\{(?:[A-Za-z_]\w*\.)?[A-Za-z_]\w*)(?:![rsa])?:[^{}]*\}")
 ALIKE = 0.7
-
-
-def right_text(fix: Fix) -> Fix:
-    """Return a fix that is None if the changed node logs another text than the required one.
-
-    What it logs is worked out from the code. If that is not possible, the fix stays as it is.
-    """
-
-    def checked(case: Case) -> Files | None:
-        files, output = fix(case), case.assignment.output
-        node = (
-            read_node(files.data, case.node_path, case.assignment.function)
-            if files is not None
-            else None
-        )
-        head, tail = map(re.escape, output.text.split("{n}"))
-        logged = logged_lines(node) if node is not None else None
-        right = all(re.fullmatch(rf"{head}-?\d+{tail}", line) for line in logged or ())
-        return files if right else None
-
-    return checked
-
-
-def named_only(callback: Function) -> tuple[ast.expr, ast.expr] | None:
-    """Return a method of the logger that is only named, and the text in the statement below it."""
-    for block in blocks_in(callback):
-        for first, second in zip(block, block[1:]):
-            if not isinstance(first, ast.Expr) or not isinstance(second, ast.Expr):
-                continue
-            method, text = first.value, second.value
-            is_text = isinstance(text, ast.JoinedStr | ast.BinOp)
-            if isinstance(method, ast.Attribute) and method.attr in SHOWN_LEVELS and is_text:
-                return method, text
-    return None
-
-
-def called_with_next(case: Case) -> Files | None:
-    """Call the method that is only named, with the text below it."""
-    node = case.node
-    callback = node.callback if node is not None else None
-    found = named_only(callback) if callback is not None else None
-    if node is None or callback is None or found is None:
-        return None
-    module = node.module_of(callback)
-    method, text = found
-    code = f"{module.text.code(method)}({module.text.code(text)})"
-    gone = [module.text.without(n) for n in range(text.lineno, (text.end_lineno or 0) + 1)]
-    return case.changed(module, module.text.swap(method, code), *gone)
 
 
 def f_prefix(case: Case) -> Files | None:
@@ -78,21 +26,13 @@ def f_prefix(case: Case) -> Files | None:
     if node is None or call is None:
         return None
     module = node.module_of(call)
-    given = _text_in_variable(node, call) or call.args[0]
+    given = call.args[0]
     logged = module.text.plain_string(given) or ""
     names = PLACE.findall(logged)
     if not names or logged.count("{") != len(names) or not set(names) <= set(starts_of(node)):
         return None
     start = module.text.span(given)[0]
     return case.changed(module, Splice(start, start, "f"))
-
-
-def _text_in_variable(node: NodeSource, call: ast.Call) -> ast.expr | None:
-    """Return what the only line before a log call gives to the variable that it logs."""
-    function = node.function_around(call)
-    texts = texts_of(function, call) if function is not None else []
-    alone = isinstance(call.args[0], ast.Name) and len(texts) == 1
-    return texts[0].value if alone else None
 
 
 def text(case: Case) -> Files | None:
@@ -149,36 +89,6 @@ def logger(case: Case) -> Files | None:
         return None
     logger = kept[0] if kept else "self.get_logger()"
     return case.changed(node.module, node.module.text.swap(prints[0].func, f"{logger}.info"))
-
-
-def printed_to_log(case: Case) -> Files | None:
-    """Write the call of the logger that the finding gives instead of the call that prints."""
-    name, new = (str(case.finding.params.get(key, "")) for key in ("name", "written"))
-    node, module = case.node, case.module
-    if node is None or module is None or not name or not new or node.own_logs:
-        return None
-    calls = [n for n in node.all_nodes if isinstance(n, ast.Call) and module.has(n)]
-    found = [n for n in calls if n.lineno == case.finding.line and module.text.code(n) == name]
-    return case.changed(module, module.text.swap(found[0], new)) if len(found) == 1 else None
-
-
-def called(case: Case) -> Files | None:
-    """Call the logger's method instead of replacing it."""
-    module, line = case.module, case.finding.line
-    found = [
-        n
-        for n in (module.nodes if module is not None else ())
-        if isinstance(n, ast.Assign) and n.lineno == line
-    ]
-    if module is None or len(found) != 1 or len(found[0].targets) != 1:
-        return None
-    target, value = found[0].targets[0], found[0].value
-    if not dotted(target).endswith("get_logger().info"):
-        return None
-    end = module.text.span(found[0])[1]
-    code = module.text.code(value)
-    new = Splice(module.text.span(target)[1], end, f"({code})")
-    return case.changed(module, new)
 
 
 def without_print(case: Case) -> Files | None:
@@ -248,10 +158,6 @@ def in_braces(case: Case) -> Files | None:
         return None
     module = node.module_of(call)
     code = module.text.code(call.args[0])
-    equals = rf"\{{\s*{re.escape(name)}\s*=\s*\}}"
-    if len(re.findall(equals, code)) == 1 and code.count(name) == 1:
-        new = re.sub(equals, f"{{{name}}}", code)
-        return case.changed(module, module.text.swap(call.args[0], new))
     for written in (f"{{{{{name}}}}}", f"({name})", f"[{name}]"):
         if code.count(name) == 1 and code.count(written) == 1:
             new = code.replace(written, f"{{{name}}}")
@@ -275,25 +181,10 @@ def logger_call(case: Case) -> Files | None:
     node = case.node
     if node is None:
         return None
-    kept = [s.value for s in node.loggers.values()]
     used = [n.value for n in node.own_nodes if isinstance(n, ast.Attribute)]
-    lacking = [part for part in (*used, *kept) if part and own_name(part) == "get_logger"]
+    lacking = [part for part in used if own_name(part) == "get_logger"]
     ends = {node.module.text.span(part)[1] for part in lacking if node.module.has(part)}
     return case.changed(node.module, *(Splice(end, end, "()") for end in sorted(ends)))
-
-
-def number_as_text(case: Case) -> Files | None:
-    """Put str() around a counter that is added to a string."""
-    node = case.node
-    call = node.log_call if node else None
-    logged = call.args[0] if call else None
-    if node is None or not isinstance(logged, ast.BinOp) or not isinstance(logged.op, ast.Add):
-        return None
-    module = node.module_of(logged)
-    text = module.text
-    if dotted(logged.right) not in starts_of(node) or text.plain_string(logged.left) is None:
-        return None
-    return case.changed(module, text.swap(logged.right, f"str({text.code(logged.right)})"))
 
 
 def comma(case: Case) -> Files | None:
@@ -339,38 +230,11 @@ def number(case: Case) -> Files | None:
     return case.changed(module, module.text.swap(call.args[0], new))
 
 
-def plain_form(case: Case) -> Files | None:
-    """Write the counter as a plain integer: without another form, first value or step."""
-    node, output = case.node, case.assignment.output
-    found = number_forms(node, output.start, output.step) if node is not None else []
-    if not found or any(piece.module is not found[0].module for piece in found):
-        return None
-    return case.changed(found[0].module, *(piece.splice for piece in found))
-
-
-def plain_number(case: Case) -> Files | None:
-    """Log the plain number, without leading zeros and without a decimal point."""
-    node = case.node
-    call = node.log_call if node else None
-    if node is None or call is None:
-        return None
-    logged, module = call.args[0], node.module_of(call)
-    if isinstance(logged, ast.JoinedStr):
-        new, count = FORMATTED.subn(r"\1}", module.text.code(logged))
-        return case.changed(module, module.text.swap(logged, new)) if count == 1 else None
-    floats = starts_of(node, float)
-    start = case.assignment.output.start
-    value = next(iter(floats.values()), None)
-    if len(floats) != 1 or value is None or value.value != start:
-        return None
-    return case.changed(node.module_of(value), node.module_of(value).text.swap(value, repr(start)))
-
-
 def only_logged(case: Case) -> Files | None:
     """Remove a print() of the text that is logged as well."""
     node = case.node
     call = node.log_call if node else None
-    if node is None or call is None or called_name(call) not in SHOWN_LEVELS:
+    if node is None or call is None or called_name(call) == "debug":
         return None
     text = node.module.text
     logged = node.module_of(call).text.code(call.args[0])

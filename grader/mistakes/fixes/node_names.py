@@ -155,21 +155,11 @@ def _is_text(value: ast.expr) -> bool:
     return isinstance(value, ast.JoinedStr) or isinstance(getattr(value, "value", None), str)
 
 
-def start_of_other_name(node: NodeSource, close: str) -> ast.Attribute | None:
-    """Return where __init__ sets `close`, if the code uses that name nowhere else."""
-    parts = [n for n in node.own_nodes if isinstance(n, ast.Attribute) and own_name(n) == close]
-    init = node.method("__init__")
-    if not close or init is None or len(parts) != 1 or not isinstance(parts[0].ctx, ast.Store):
-        return None
-    return parts[0] if any(part is parts[0] for part in ast.walk(init)) else None
-
-
 def close_attribute(case: Case) -> Files | None:
     """Give an attribute the name that the other lines use for it."""
     node = case.node
     name, close = (str(case.finding.params.get(key, "")) for key in ("name", "close"))
-    start = start_of_other_name(node, name) if node is not None else None
-    if node is None or not close or (start is None and _is_set(node, name)):
+    if node is None or not close or _is_set(node, name):
         return None
     parts = [n for n in node.own_nodes if isinstance(n, ast.Attribute) and own_name(n) == name]
     module = node.module

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import ast
-import re
 
-from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.node_life import IMPORT
 from grader.mistakes.fixes.rename import def_renamed, splices_of
@@ -13,7 +11,6 @@ from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
 from grader.package.source.module import Module
 from grader.package.source.names import dotted, own_name
-from grader.package.source.node import NodeSource
 
 NEW_CALLBACK = "on_timer"
 """The name for a callback whose own name is one of Node's methods."""
@@ -24,13 +21,6 @@ METHODS = (
     *("get_parameter", "destroy_timer", "create_rate", "get_namespace", "add_waitable"),
 )
 """Methods of Node that a node needs itself, or that a beginner calls."""
-PROPERTIES = (
-    *("handle", "context", "executor", "timers", "clients", "publishers", "services"),
-    *("subscriptions", "guards", "waitables", "default_callback_group"),
-)
-"""What rclpy reads from a node: properties of Node."""
-NO_ARGUMENTS = ("get_logger", "get_clock", "get_name", "destroy_node", "get_namespace")
-"""Those of them that are called with empty brackets, like a method of the student."""
 
 
 def import_of_class(module: Module) -> Splice | None:
@@ -46,13 +36,6 @@ def import_of_class(module: Module) -> Splice | None:
             return module.text.swap(statement, IMPORT)
     plain = [s for s in statements if isinstance(s, ast.Import) and s.names[0].name == "rclpy"]
     return module.text.before(plain[0].lineno + 1, IMPORT) if len(plain) == 1 else None
-
-
-def import_of_module(case: Case) -> Files | None:
-    """Import the class Node where its module is imported, or name it through the module."""
-    name, new = (str(case.finding.params.get(key, "")) for key in ("name", "written"))
-    plain = new.startswith("from ") or ("." in new and new.startswith(f"{name}."))
-    return lines.written(case) if plain else None
 
 
 def base(case: Case) -> Files | None:
@@ -126,53 +109,3 @@ def shared_method(case: Case) -> Files | None:
     if node is None or any(own_name(call.func) == name for call in node.calls_of(name)):
         return None
     return other_method(case)
-
-
-def calls_of_own(node: NodeSource, name: str) -> list[ast.Call]:
-    """Return the calls of an own method that has the name of one of Node's, which takes more."""
-    method = node.method(name)
-    if method is None or name in NO_ARGUMENTS or ast.unparse(method.args) != "self":
-        return []
-    calls = [call for call in node.calls_of(name) if own_name(call.func) == name]
-    return [call for call in calls if not call.args and not call.keywords]
-
-
-def called_method(case: Case) -> Files | None:
-    """Give a method with the name of one of Node's another one, where it is called too."""
-    node, name = case.node, str(case.finding.params.get("name", ""))
-    new = str(case.finding.params.get("written", ""))
-    method = node.method(name) if node is not None else None
-    if node is None or method is None or not new or new in {*node.methods, *node.attributes}:
-        return None
-    module, called = node.module, [call.func for call in calls_of_own(node, name)]
-    parts = [part for part in called if isinstance(part, ast.Attribute) and module.has(part)]
-    head = def_renamed(module, method, new)
-    splices = splices_of(module, parts, new)
-    if head is None or not splices or len(parts) < len(called):
-        return None
-    return case.changed(module, head, *splices)
-
-
-def plus(case: Case) -> Files | None:
-    """Join texts with + instead of another sign."""
-    module, sign = case.module, str(case.finding.params.get("name", ""))
-    row = module.text.line(case.finding.line or 0) if module is not None else ""
-    found = [
-        n
-        for n in (module.nodes if module is not None else ())
-        if isinstance(n, ast.BinOp)
-        and n.lineno == case.finding.line
-        and row
-        and sign
-        and not isinstance(n.op, ast.Add)
-    ]
-    if module is None or not found:
-        return None
-    splices = []
-    for part in found:
-        start, end = module.text.span(part.left)[1], module.text.span(part.right)[0]
-        between = module.text.text[start:end]
-        if not re.fullmatch(rf"\s*{re.escape(sign)}\s*", between):
-            return None
-        splices.append(Splice(start, end, between.replace(sign, "+")))
-    return case.changed(module, *splices)

@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 import ast
-import re
 from collections.abc import Iterator
-from itertools import pairwise
 
-from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
-from grader.package.source.counter import adds_to, parts_of_callback, targets_of
+from grader.package.source.counter import targets_of
 from grader.package.source.module import Function, Module
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of, function_at
 
-STEP = "    "
 CLEANUP = ("shutdown", "try_shutdown", "destroy_node")
 SPINS = ("spin", "spin_once", "spin_until_future_complete")
 
@@ -125,28 +121,6 @@ def _destroys_other_node(source: NodeSource, statement: ast.stmt) -> bool:
     return bool(owners) and len(owners) == len(names) and not owners & known
 
 
-def cleanup_by_call(source: NodeSource) -> tuple[ast.Expr, Function, str] | None:
-    """Return the statement above spin that calls an own function which always cleans up.
-
-    With the function, and the name of what it calls.
-    """
-    body = list(always_run(source.main.body)) if source.main is not None else []
-    spins = [s for s in body if _calls(s, SPINS)]
-    own = {f.name: f for m in source.modules for f in m.tree.body if isinstance(f, Function)}
-    own |= source.methods
-    for statement in body[: body.index(spins[0])] if spins else []:
-        call = statement.value if isinstance(statement, ast.Expr) else None
-        function = own.get(last_part(dotted(call.func))) if isinstance(call, ast.Call) else None
-        if not isinstance(statement, ast.Expr) or function is None:
-            continue
-        always = [s.value for s in always_run(function.body) if isinstance(s, ast.Expr)]
-        called = [dotted(value.func) for value in always if isinstance(value, ast.Call)]
-        names = [name for name in called if last_part(name) in CLEANUP]
-        if names and not any(_calls(s, SPINS) for s in function.body):
-            return statement, function, names[0]
-    return None
-
-
 def always_run(body: list[ast.stmt]) -> Iterator[ast.stmt]:
     """Yield the statements of a block in their order, with those in a try and in its finally."""
     for statement in body:
@@ -171,55 +145,6 @@ def cleaned_up_later(source: NodeSource) -> ast.stmt | None:
     return next((s for s in body[body.index(found[1]) :] if _calls(s, kind)), None)
 
 
-def spin_into_try(source: NodeSource) -> tuple[ast.Try, ast.Expr] | None:
-    """Return the try whose finally cleans up before spin, and the spin if its place is in the try.
-
-    That is sure if nothing is between the two, and the end of the try is reached.
-    """
-    found = early_cleanup(source)
-    around = source.module_of(found[0]).parents.get(found[0]) if found is not None else None
-    if found is None or not isinstance(around, ast.Try) or found[0] not in around.finalbody:
-        return None
-    module, spin = source.module_of(found[0]), found[1]
-    block = block_of(module, spin)
-    if not isinstance(spin, ast.Expr) or around not in block or around.orelse:
-        return None
-    ends = isinstance(around.body[-1], ast.Return | ast.Raise | ast.Break | ast.Continue)
-    follows = block.index(spin) == block.index(around) + 1
-    return (around, spin) if follows and not ends and _is_own_line(module, spin) else None
-
-
-def spin_first(source: NodeSource) -> tuple[ast.Expr, ast.Expr] | None:
-    """Return the first of several clean-ups that are directly above spin, and the spin."""
-    found = early_cleanup(source)
-    early, spin = found if found is not None else (None, None)
-    if early is None or not isinstance(spin, ast.Expr):
-        return None
-    module = source.module_of(early)
-    block = block_of(module, early)
-    if spin not in block or not _is_own_line(module, spin):
-        return None
-    between = block[block.index(early) : block.index(spin)]
-    several = len(between) > 1 and all(_calls(s, CLEANUP) for s in between)
-    return (early, spin) if several and cleaned_up_later(source) is None else None
-
-
-def is_alone(source: NodeSource) -> bool:
-    """Whether the early clean-up is all that its block has."""
-    found = early_cleanup(source)
-    return found is not None and len(block_of(source.module_of(found[0]), found[0])) == 1
-
-
-def other_cleanups(source: NodeSource) -> list[ast.stmt]:
-    """Return the other statements that clean up before spin."""
-    found = early_cleanup(source)
-    if found is None or source.main is None:
-        return []
-    body = list(always_run(source.main.body))
-    between = body[body.index(found[0]) + 1 : body.index(found[1])]
-    return [s for s in between if isinstance(s, ast.Expr) and _calls(s, CLEANUP)]
-
-
 def cleanup_last(case: Case) -> Files | None:
     """Move the early clean-up behind the statement that spins; remove it if it is there already."""
     node = case.node
@@ -228,35 +153,17 @@ def cleanup_last(case: Case) -> Files | None:
         return None
     early, spin = found
     module, body = node.module_of(early), node.main.body
-    text, inside, first = module.text, spin_into_try(node), spin_first(node)
+    text, alone = module.text, len(block_of(module, early)) == 1
     if not _is_own_line(module, early) or not isinstance(early.value, ast.Call):
         return None
-    if inside is not None:
-        last: ast.stmt = inside[0].body[-1]
-        row = indent_of(text.line(last.lineno)) + text.code(spin)
-        below = text.before((last.end_lineno or last.lineno) + 1, row)
-        return case.changed(module, below, text.without(spin.lineno))
-    if first is not None:
-        row = text.line(spin.lineno)
-        return case.changed(module, text.before(early.lineno, row), text.without(spin.lineno))
-    if other_cleanups(node):
-        return None
-    name = dotted(early.value.func)
-    removed = text.swap(early, "pass") if is_alone(node) else text.without(early.lineno)
+    removed = text.swap(early, "pass") if alone else text.without(early.lineno)
     if cleaned_up_later(node) is not None:
         return case.changed(module, removed)
     around = next(s for s in body if _has(s, spin))
-    last = around if name.endswith("destroy_node") else body[-1]
+    last = around if dotted(early.value.func).endswith("destroy_node") else body[-1]
     row = indent_of(text.line(last.lineno)) + text.code(early)
     below = text.before((last.end_lineno or last.lineno) + 1, row)
     return case.changed(module, removed, below)
-
-
-def not_in_init(case: Case) -> Files | None:
-    """Delete the clean-up at the end of __init__."""
-    init = case.node.method("__init__") if case.node is not None else None
-    at = [s for s in init.body if s.lineno == case.finding.line] if init is not None else []
-    return lines.deleted(case) if len(at) == 1 else None
 
 
 def unkept(source: NodeSource, main: Function) -> tuple[list[ast.Call], ast.stmt | None]:
@@ -291,84 +198,3 @@ def kept(case: Case) -> Files | None:
     indent = indent_of(module.text.line(user.lineno))
     row = f"{indent}{name} = {node.node_class.name}()"
     return case.changed(module, module.text.before(user.lineno, row))
-
-
-def returned(case: Case) -> Files | None:
-    """Remove a return that always runs and has lines of its block after it."""
-    node = case.node
-    found = [r for f in node.own_functions for r in early_returns(f)] if node is not None else []
-    if node is not None and node.main is not None:
-        found += early_returns(node.main)
-    if node is None or len(found) != 1:
-        return None
-    module, value = node.module_of(found[0]), found[0].value
-    if value is not None and does_something(found[0]):
-        start = module.text.span(found[0])[0]
-        word = re.match(r"return[ \t]*", module.text.text[start:])
-        end = start + len(word[0]) if word is not None else start
-        return case.changed(module, Splice(start, end, "")) if word is not None else None
-    if not _is_own_line(module, found[0]):
-        return None
-    if block_above(module, found[0]) is not None:
-        start = module.text.start_of(found[0].lineno)
-        return case.changed(module, Splice(start, start, STEP))
-    return case.changed(module, module.text.without(found[0].lineno))
-
-
-def block_above(module: Module, found: ast.Return) -> ast.If | None:
-    """Return the if whose block ends on the line directly above a return of the same column."""
-    body = block_of(module, found)
-    at = next((n for n, one in enumerate(body) if one is found), 0)
-    above = body[at - 1] if at else None
-    if not isinstance(above, ast.If) or above.orelse or above.end_lineno != found.lineno - 1:
-        return None
-    last = above.body[-1]
-    ends = isinstance(last, ast.Return | ast.Raise) or last.lineno != above.end_lineno
-    deeper = last.col_offset - found.col_offset
-    return above if deeper == len(STEP) and not ends else None
-
-
-def does_something(statement: ast.Return) -> bool:
-    """Return whether what is returned comes from a call, which must still run."""
-    value = statement.value
-    return value is not None and any(isinstance(n, ast.Call) for n in ast.walk(value))
-
-
-def early_returns(function: Function) -> list[ast.Return]:
-    """Return the returns of a function's own block that have lines after them."""
-    return [one for one, _ in pairwise(function.body) if isinstance(one, ast.Return)]
-
-
-def after_return(source: NodeSource) -> tuple[Function, ast.Return, ast.stmt] | None:
-    """Return the only step of an attribute that a return keeps from running, with both around it.
-
-    It is in a method that the callback calls, directly or not.
-    """
-    found = [
-        (part, one, step)
-        for part in parts_of_callback(source)
-        for one in early_returns(part)
-        for step in part.body[part.body.index(one) + 1 :]
-        for name in targets_of(step)
-        if part is not source.callback and adds_to(step, name)
-    ]
-    return found[0] if len(found) == 1 else None
-
-
-def before_return(case: Case) -> Files | None:
-    """Move a step that a return keeps from running to below the line that logs."""
-    node = case.node
-    found = after_return(node) if node is not None else None
-    call = node.log_call if node is not None else None
-    function = node.function_around(call) if node is not None and call is not None else None
-    if node is None or found is None or call is None or function is None:
-        return None
-    method, one, step = found
-    module = node.module_of(step)
-    log = next((s for s in function.body if isinstance(s, ast.Expr) and s.value is call), None)
-    rows = lines.own_lines(module, step)
-    if log is None or rows is None or len(rows) > 1 or not module.has(log):
-        return None
-    at = one.lineno if function is method else (log.end_lineno or log.lineno) + 1
-    row = f"{indent_of(module.text.line(log.lineno))}{module.text.line(rows[0]).strip()}"
-    return case.changed(module, module.text.without(rows[0]), module.text.before(at, row))

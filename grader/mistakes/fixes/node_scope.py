@@ -5,11 +5,10 @@ from __future__ import annotations
 import ast
 
 from grader.mistakes.fixes.case import Case
-from grader.mistakes.fixes.rename import def_renamed, splices_of
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
 from grader.package.source.module import Function, Module
-from grader.package.source.names import called_name, dotted, own_name
+from grader.package.source.names import called_name, dotted
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of, first_row, function_at, method_above, statement_at
 
@@ -227,36 +226,3 @@ def without_self(case: Case) -> Files | None:
 
 def _is_self(given: ast.expr) -> bool:
     return isinstance(given, ast.Name) and given.id == "self"
-
-
-def definition(case: Case) -> Files | None:
-    """Give a method the name by which the timer refers to it, if the finding is at the method."""
-    node = case.node
-    name, close = (str(case.finding.params.get(key, "")) for key in ("name", "close"))
-    method = node.method(name) if node is not None else None
-    if node is None or method is None or not close or close in node.methods:
-        return None
-    if method.lineno != case.finding.line:
-        return None
-    module = node.module
-    same = [n for n in module.nodes if isinstance(n, ast.Attribute) and n.attr == name]
-    if any(own_name(part) for part in same):
-        return None
-    head = def_renamed(module, method, close)
-    return case.changed(module, head) if head is not None else None
-
-
-def hidden_attribute(case: Case) -> Files | None:
-    """Correct the misspelt attribute whose error an except hides."""
-    node, params = case.node, case.finding.params
-    name, close = (str(params.get(key, "")) for key in ("name", "written"))
-    if node is None or not name or not close:
-        return None
-    module, owner = node.module_at(case.finding.file), str(params.get("object", "self"))
-    found = [
-        n
-        for n in module.nodes
-        if isinstance(n, ast.Attribute) and n.attr == name and dotted(n.value) == owner
-    ]
-    splices = splices_of(module, found, close)
-    return case.changed(module, *splices) if splices else None

@@ -15,13 +15,7 @@ from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import NodeSource
 from grader.package.source.parameters import needed_besides_self, only_self, uses_of
-from grader.package.source.period import (
-    is_right,
-    number_in,
-    origin_of,
-    timers_of_lines,
-    wrong_number,
-)
+from grader.package.source.period import is_right, number_in, timers_of_lines
 from grader.package.source.timer import Timer, timer_of
 
 NAMES = ("create_timer", "get_logger")
@@ -273,12 +267,6 @@ def period(case: Case) -> Files | None:
     if node is None or period is None or wanted is None:
         return None
     given = value_of(node, period)
-    if origin_of(node, period) is not None:
-        wrong = wrong_number(node, period, wanted)
-        if wrong is None:
-            return None
-        module = node.module_of(wrong.number)
-        return case.changed(module, module.text.swap(wrong.number, wrong.right(wanted)))
     seconds = number_in(given)
     text = isinstance(given, ast.Constant) and isinstance(given.value, str)
     if given is None or is_right(seconds, wanted) or not (seconds is not None or text):
@@ -308,23 +296,6 @@ def by_hand(case: Case) -> Files | None:
     return case.changed(node.module, text.without(calls[0].lineno))
 
 
-def subscribed(case: Case) -> Files | None:
-    """Create a timer instead of a subscription, whose callback then has no message."""
-    node, method = case.node, str(case.finding.params.get("method", ""))
-    function = node.methods.get(method) if node is not None else None
-    if node is None or function is None or len(function.args.args) != 2:
-        return None
-    module = node.module_of(function)
-    first, second = function.args.args
-    calls = [c for c in node.calls_of("create_subscription") if c.lineno == case.finding.line]
-    used = [n for n in ast.walk(function) if isinstance(n, ast.Name) and n.id == second.arg]
-    if len(calls) != 1 or used or node.module_of(calls[0]) is not module:
-        return None
-    new = f"self.create_timer({case.assignment.seconds}, self.{method})"
-    gone = Splice(module.text.span(first)[1], module.text.span(second)[1], "")
-    return case.changed(module, module.text.swap(calls[0], new), gone)
-
-
 def made(case: Case) -> Files | None:
     """Create the missing timer, if exactly one method can be its callback."""
     node = case.node
@@ -344,80 +315,3 @@ def made(case: Case) -> Files | None:
     seconds = case.assignment.seconds
     row = f"{indent}{node.held_node or 'self'}.create_timer({seconds}, self.{found[0].name})"
     return case.changed(node.module, text.before((last.end_lineno or last.lineno) + 1, row))
-
-
-def without_quotes(case: Case) -> Files | None:
-    """Remove the lines with three quotes around the line that creates the timer."""
-    module, line = case.module, case.finding.line
-    found = [
-        n
-        for n in (module.nodes if module is not None else ())
-        if isinstance(n, ast.Expr) and n.lineno == line and isinstance(n.value, ast.Constant)
-    ]
-    if module is None or len(found) != 1:
-        return None
-    ends = (found[0].lineno, found[0].end_lineno or found[0].lineno)
-    if ends[0] == ends[1] or any(module.line(n) not in ('"""', "'''") for n in ends):
-        return None
-    return case.changed(module, *(module.text.without(n) for n in ends))
-
-
-def plain_method(case: Case) -> Files | None:
-    """Delete the decorator of the finding's line."""
-    module, line = case.module, case.finding.line
-    name = case.finding.params.get("name", "")
-    if module is None or line is None or module.line(line) != f"@{name}":
-        return None
-    return case.changed(module, module.text.without(line))
-
-
-def cancelled(case: Case) -> Files | None:
-    """Remove .cancel() after the creation of the timer."""
-    node = case.node
-    timer = node.timer_call if node else None
-    cancels = node.calls_of("cancel") if node else []
-    if node is None or timer is None or len(cancels) != 1:
-        return None
-    function = cancels[0].func
-    if not isinstance(function, ast.Attribute) or function.value is not timer:
-        return None
-    module = node.module_of(timer)
-    text = module.text
-    return case.changed(module, Splice(text.span(timer)[1], text.span(cancels[0])[1], ""))
-
-
-def started(case: Case) -> Files | None:
-    """Delete autostart=False and the comma before it."""
-    timer = case.node.timer_call if case.node is not None else None
-    if case.node is None or timer is None or not timer.keywords:
-        return None
-    module, last = case.node.module_of(timer), timer.keywords[-1]
-    before = [*timer.args, *(word.value for word in timer.keywords[:-1])]
-    if last.arg != "autostart" or not before:
-        return None
-    end = max(module.text.span(part)[1] for part in before)
-    return case.changed(module, Splice(end, module.text.span(last.value)[1], ""))
-
-
-def without_if(case: Case) -> Files | None:
-    """Take the line that creates the timer out of its if."""
-    module, line = case.module, case.finding.line
-    around = (
-        list(module.around(case.node.timer_call))
-        if module and case.node and case.node.timer_call
-        else []
-    )
-    condition = next((part for part in around if isinstance(part, ast.If)), None)
-    if module is None or condition is None or len(condition.body) != 1 or condition.orelse:
-        return None
-    row = condition.body[0]
-    if row.lineno != condition.lineno + 1 or row.lineno != line or row.lineno != row.end_lineno:
-        return None
-    text = module.text
-    new = indent_of(text.line(condition.lineno)) + text.line(row.lineno).strip()
-    return case.changed(
-        module,
-        text.before(condition.lineno, new),
-        text.without(condition.lineno),
-        text.without(row.lineno),
-    )

@@ -4,49 +4,11 @@ from __future__ import annotations
 
 import ast
 
-from grader.mistakes.fixes import lines
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import indent_of
 from grader.package.source.after_spin import timer_after_spin
 from grader.package.source.module import Module
-from grader.package.source.place import statement_at
-
-
-def only_first(case: Case) -> Files | None:
-    """Delete the line that creates the callback's own timer again."""
-    other = {"method", "maker"}.intersection(case.finding.params)
-    return lines.deleted(case) if not other else None
-
-
-def one_timer(case: Case) -> Files | None:
-    """Delete the line of a timer that another line creates, or take the line out of its loop."""
-    module, line = case.module, case.finding.line
-    statement = statement_at(module, line) if module is not None else None
-    if module is None or not isinstance(statement, ast.Expr):
-        return None
-    loop = module.parents.get(statement)
-    if not isinstance(loop, ast.For | ast.While):
-        return lines.deleted(case)
-    if len(loop.body) != 1 or loop.orelse or loop.lineno == statement.lineno:
-        return None
-    bound = (
-        {n.id for n in ast.walk(loop.target) if isinstance(n, ast.Name)}
-        if isinstance(loop, ast.For)
-        else set()
-    )
-    if any(isinstance(n, ast.Name) and n.id in bound for n in ast.walk(statement)):
-        return None
-    head = module.text.line(loop.lineno)
-    if statement.lineno != loop.lineno + 1 or statement.lineno != statement.end_lineno:
-        return None
-    row = indent_of(head) + module.text.line(statement.lineno).strip()
-    return case.changed(
-        module,
-        module.text.before(loop.lineno, row),
-        module.text.without(loop.lineno),
-        module.text.without(statement.lineno),
-    )
 
 
 def above_spin(case: Case) -> Files | None:

@@ -83,10 +83,6 @@ class SourceText:
         start, end = self.span(node)
         return self.text[start:end]
 
-    def code_between(self, first: Positioned, last: Positioned) -> str:
-        """Return what is written from the begin of a piece of syntax to the end of another one."""
-        return self.text[self.span(first)[0] : self.span(last)[1]]
-
     def swap(self, node: Positioned, new: str) -> Splice:
         """Return the splice that replaces a piece of syntax."""
         start, end = self.span(node)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import posixpath
 import re
 from collections.abc import Iterable, Sequence
 
@@ -22,12 +23,14 @@ def folders_around(
     `roots` are the folders of the package and of those beside it, `made` the folders build and
     install, `given` is the name of the folder that was handed in, "" for an archive.
     """
-    if not _is_deep(roots[0], given, package):
-        return None
     start = f"{roots[0]}/"
+    places = [roots[0], *(path for path in roots[1:] if not path.startswith(start))]
+    if not _is_deep(_top(places), given, package):
+        return None
     built = any(parent(path) != roots[0] and not path.startswith(start) for path in made)
-    others = [path for path in roots[1:] if not path.startswith(start)]
-    place = ", ".join(shown("/".join(_unpacked(path))) for path in (roots[0], *others))
+    place = ", ".join(shown("/".join(_unpacked(path))) for path in places)
+    if len(places) > 1:
+        return _of_several(place, built=built)
     if built:
         return say(
             "A whole workspace was handed in, and {place} in it was marked. Next time, hand in only "
@@ -39,6 +42,27 @@ def folders_around(
         "only {place}, without the folders around it.",
         place=place,
     )
+
+
+def _of_several(place: str, *, built: bool) -> Message:
+    """Return the same for several packages; `place` has their folders."""
+    if built:
+        return say(
+            "A whole workspace was handed in, and {place} in it were marked. Next time, hand in one "
+            "folder with these packages only. Leave out build, install and log: colcon makes them "
+            "again.",
+            place=place,
+        )
+    return say(
+        "There are several folders around the packages, and {place} in them were marked. Next time, "
+        "hand in one folder with these packages only.",
+        place=place,
+    )
+
+
+def _top(places: Sequence[str]) -> str:
+    """Return the folder that is handed in: that of the package, or the one that holds several."""
+    return places[0] if len(places) == 1 else posixpath.commonpath(places) or "."
 
 
 def _is_deep(root: str, given: str, package: str) -> bool:

@@ -29,11 +29,6 @@ def timer_after_spin(source: NodeSource) -> tuple[ast.Call, ast.Call] | None:
     return None
 
 
-def calls_after_spin(source: NodeSource) -> list[tuple[ast.Call, ast.Call]]:
-    """Return the calls in lines below spin, each with the call of spin."""
-    return [(call, spin) for spin in _spinning(source) for call in _below(source, spin)]
-
-
 def _below(source: NodeSource, spin: ast.Call) -> list[ast.Call]:
     """Return the calls in lines below a call of spin; none if it is in no function."""
     function = source.function_around(spin)

@@ -9,7 +9,7 @@ from grader.package.intake.model import SourceFile
 from grader.package.source.module import Module
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node_modules import node_modules
-from grader.package.source.remarks import is_passed_on
+from grader.package.source.telling import is_passed_on
 
 READERS = {"parse_args", "parse_known_args", "getopt", "gnu_getopt", "docopt", "Fire"}
 FRAMEWORKS = {"click", "fire", "typer"}

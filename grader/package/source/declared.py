@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from grader.package.source.names import last_part
 from grader.package.source.node import NodeSource
-from grader.package.source.timer import Timer
 
 
 @dataclass(frozen=True)
@@ -62,22 +61,6 @@ def read(source: NodeSource) -> list[Parameter]:
     """Return the parameters that get_parameter reads by a name in quotes."""
     calls = [call for call, name in source.calls if last_part(name) == "get_parameter"]
     return [Parameter(call, text) for call in calls for text in _text(_argument(call, 0, "name"))]
-
-
-def is_period(source: NodeSource, timer: Timer, call: ast.Call) -> bool:
-    """Whether a timer's period is what a call of get_parameter returns, itself or in a variable."""
-    if timer.period is None:
-        return False
-    given = ast.unparse(timer.period)
-    if any(part is call for part in ast.walk(timer.period)):
-        return True
-    for node in source.own_nodes:
-        if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
-            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
-            inside = any(part is call for part in ast.walk(node.value))
-            if inside and given in {ast.unparse(t) for t in targets}:
-                return True
-    return False
 
 
 def _argument(call: ast.Call, place: int, name: str) -> ast.expr | None:

@@ -34,17 +34,6 @@ def misnamed_init(names: Iterable[str]) -> str:
     return nearest("__init__.py", names, cutoff=0.75)
 
 
-def is_enum(found: ast.ClassDef) -> bool:
-    """Whether a class inherits from Enum, IntEnum or one of their kind."""
-    return any(last_part(dotted(base)).endswith("Enum") for base in found.bases)
-
-
-def parameters_of(function: ast.FunctionDef | ast.AsyncFunctionDef) -> set[str]:
-    """Return the names of a function's parameters, without those that begin with a star."""
-    given = function.args
-    return {a.arg for a in (*given.posonlyargs, *given.args, *given.kwonlyargs)}
-
-
 def last_part(name: str) -> str:
     """Return the part of a dotted name after its last dot."""
     return name.rpartition(".")[2]

@@ -13,10 +13,6 @@ from grader.package.source.module import Module
 from grader.package.source.node import NodeSource
 
 DASHES_AND_QUOTES = {**dict.fromkeys("‐‑‒–—−", "-"), **dict.fromkeys("‘’", "'")}
-LINE_ENDS = "\n\r\t\v\f"
-ESCAPED = re.compile(r"\\[nrtvf]|\\\r?\n|[\n\r\t\v\f]")
-BLANKS = re.compile(r"\s{2,}")
-TRIPLE = ("'''", '"""')
 
 
 def plain(sign: str) -> str:
@@ -109,51 +105,10 @@ def _strings(source: NodeSource) -> Iterator[tuple[Module, ast.Constant | ast.Jo
             yield module, node
 
 
-@dataclass(frozen=True)
-class BrokenText:
-    """A string with line ends or tabs in it: what to write, and which sign it is."""
-
-    module: Module
-    node: ast.Constant | ast.JoinedStr
-    written: str
-    sign: str  # \n, \t, …; "" if the string goes on in the next line of the file
-
-
-def broken_texts(source: NodeSource, head: str) -> list[BrokenText]:
-    """Return the strings of the functions that have line ends or tabs in them.
-
-    `head` is the text before the number: a string with this text only keeps its last blank.
-    """
-    found = []
-    for module, node in _strings(source):
-        if source.function_around(node) is None:
-            continue
-        value = _value(node)
-        several = (node.end_lineno or node.lineno) > node.lineno
-        code = module.text.code(node)
-        continued = several and "\\" in code and re.search(r"\\\r?\n", code) is not None
-        signs = [c for c in value if c in LINE_ENDS]
-        if not signs and not (continued and BLANKS.search(value)):
-            continue
-        sign = repr(signs[0])[1:-1] if signs and not several else ""
-        found.append(BrokenText(module, node, _on_one_line(code, node, head), sign))
-    return found
-
-
-def _value(node: ast.Constant | ast.JoinedStr) -> str:
-    parts = node.values if isinstance(node, ast.JoinedStr) else [node]
-    return "".join(str(p.value) for p in parts if isinstance(p, ast.Constant))
-
-
-def _on_one_line(code: str, node: ast.Constant | ast.JoinedStr, head: str) -> str:
-    """Return a string without line ends and tabs; "" if this is not certain."""
-    match = re.fullmatch(r"(?P<prefix>[fFuU]?)(?P<q>'''|\"\"\"|'|\")(?P<text>.*)(?P=q)", code, re.S)
-    if match is None:
-        return ""
-    quote = match["q"][0]
-    inside = BLANKS.sub(" ", ESCAPED.sub(" ", match["text"])).strip()
-    if isinstance(node, ast.Constant) and inside == head.strip():
-        inside = head
-    if quote in inside or "\\" in inside:
-        return ""
-    return f"{match['prefix']}{quote}{inside}{quote}"
+def broken_texts(source: NodeSource) -> list[tuple[Module, ast.Constant | ast.JoinedStr]]:
+    """Return the strings of the functions that have a line end written in them."""
+    return [
+        (module, node)
+        for module, node in _strings(source)
+        if source.function_around(node) is not None and "\\n" in module.text.code(node)
+    ]

@@ -75,11 +75,6 @@ def _owner_of(module: Module, argument: ast.arg) -> Scope | None:
     return next(around, None)
 
 
-def declarations(module: Module, name: str) -> list[ast.Global]:
-    """Return the statements that declare a name global."""
-    return [n for n in module.nodes if isinstance(n, ast.Global) and name in n.names]
-
-
 def _is_global(function: Function, name: str) -> bool:
     return any(isinstance(n, ast.Global) and name in n.names for n in ast.walk(function))
 

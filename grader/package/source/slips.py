@@ -6,38 +6,17 @@ from a web page, a word of another language, a second comma.
 
 from __future__ import annotations
 
+import keyword
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from grader.package.edit.text import SourceText, Splice, indent_of, read_source
+from grader.package.edit.text import SourceText, Splice, read_source
 from grader.package.source.broken_python import BLOCK, LONGEST, MOST_TRIES, Broken, Slip, fault_of
 from grader.package.source.code_only import code_only
 from grader.package.source.documents import document_of
 from grader.package.source.pasted import WHOLE_LINES, cleaned, pasted_in
-from grader.package.source.slip_blocks import BLOCK_LOOKS, two_statements
-from grader.package.source.slip_brackets import open_bracket
-from grader.package.source.slip_calls import CALL_LOOKS, LATE_CALL_LOOKS
-from grader.package.source.slip_dropped import DROPPED_LOOKS
-from grader.package.source.slip_fields import FIELD_LOOKS
-from grader.package.source.slip_forms import (
-    FORM_LOOKS,
-    LAST_FORM_LOOKS,
-    innermost,
-    is_code_in_capitals,
-    note,
-)
-from grader.package.source.slip_future import FUTURE_LOOKS
-from grader.package.source.slip_halves import HALF_LOOKS
-from grader.package.source.slip_heads import HEAD_LOOKS
-from grader.package.source.slip_indent import behind_colon, first_of_block, further_in
-from grader.package.source.slip_joined import JOINED_LOOKS
-from grader.package.source.slip_output import OUTPUT_LOOKS
-from grader.package.source.slip_statements import MESSAGE_LOOKS, STATEMENT_LOOKS
-from grader.package.source.slip_tabs import tab
-from grader.package.source.slip_try import try_block
-from grader.package.source.slip_typed import LATE_LOOKS, QUOTE_LOOKS, TYPED_LOOKS
-from grader.package.source.slip_words import WORD_LOOKS, block_word, two_words
+from grader.package.source.token_changes import change_of
 
 TYPES = (
     "int|float|double|bool|boolean|string|String|var|let|const|auto|char|long|size_t|std::string"
@@ -63,6 +42,8 @@ def slip_of(found: bytes) -> Slip | None:
         or _answer(text)
         or _pasted(text)
         or next(filter(None, (look(text) for look in LOOKS)), None)
+        or change_of(text)
+        or _said(text)
     )
 
 
@@ -138,7 +119,7 @@ PROSE = re.compile(r"[A-Z][a-z']{0,30}(?:,? [\w'`-]{1,40}){3,40}[.:!]?")
 def _prose(text: Broken) -> Slip | None:
     """Return a sentence at the margin that is no code."""
     written = text.source.line(text.number).rstrip()
-    if PROSE.fullmatch(written) is None or is_code_in_capitals(text):
+    if PROSE.fullmatch(written) is None or written.split()[0].lower() in keyword.kwlist:
         return None
     new = text.source.spliced([text.source.without(text.number)])
     return Slip("pasted", "prose", text.number, written, fixed=new)
@@ -314,24 +295,6 @@ def _as_comment(text: Broken, match: re.Match[str]) -> Splice:
     return text.within(start, end, f"#{words}")
 
 
-def _do_while(text: Broken) -> Slip | None:
-    """Return a loop that begins with do and has its condition below."""
-    if re.fullmatch(r"[ \t]*do[ \t]*[:{]?[ \t]*", text.line) is None:
-        return None
-    indent = indent_of(text.line)
-    for number in range(text.number + 1, len(text.code.lines) + 1):
-        row = text.code.line(number)
-        if row.strip() and indent_of(row) == indent:
-            if re.match(r"[ \t]*while\b", row) is None:
-                return None
-            wanted = text.source.line(number)[: len(row.rstrip())].strip().rstrip(";: \t") + ":"
-            start, end = text.source.start_of(text.number), text.source.end_of(text.number)
-            new = text.changed(Splice(start, end, indent + wanted), text.source.without(number))
-            return Slip("language", "do_while", text.number, text.line.strip(), wanted, new,
-                        other=number)  # fmt: skip
-    return None
-
-
 def _braces(text: Broken) -> Slip | None:
     """Return braces around a block, of which Python stops at the first or at the last."""
     heads = list(HEAD.finditer(text.code.text))
@@ -358,54 +321,6 @@ def _line_at(text: SourceText, position: int) -> int:
 
 
 # commas, colons and quotes
-
-COMMAS = re.compile(r"(?P<before>[(\[{,])(?:[ \t\r\n]*)(?P<comma>,)")
-KEY = re.compile(r"(?P<key>(?P<quote>['\"])_{1,80}(?P=quote))[ \t]*(?P<sign>=(?!=)|:)")
-NAME = re.compile(r"^[ \t]*(?P<key>[A-Za-z_]\w{0,80})[ \t]*(?P<sign>:)(?=[ \t]*[\w'\"\[{(])")
-PLAIN = re.compile(r"[\w ./:=@-]*")
-UNQUOTED = re.compile(r"^[ \t]*(?P<text>[\w-]+[ \t]*=[ \t]*[\w.]+:\w+),?[ \t]*$")
-
-
-def _commas(text: Broken) -> Slip | None:
-    """Return a comma with nothing before it."""
-    for match in list(COMMAS.finditer(text.code.text))[:MOST_TRIES]:
-        at = match.start("comma")
-        new = text.changed(Splice(at, at + 1, ""))
-        if new is not None:
-            line = _line_at(text.code, at)
-            return Slip("signs", "commas", line, text.source.line(line).strip(), "", new)
-    return None
-
-
-def _keys(text: Broken) -> Slip | None:
-    """Return a key with `=` in a dict, or a name with `:` or in quotes in a call."""
-    for number, match in _key_matches(text):
-        start = text.code.start_of(number)
-        if not innermost(text.code.text[: start + match.start("key")]):
-            continue
-        key = text.source.text[start + match.start("key") : start + match.end("key")]
-        sign = Splice(start + match.start("sign"), start + match.end("sign"), "")
-        bare = key.strip("'\"")
-        name = Splice(start + match.start("key"), start + match.end("sign"), f"{bare}=")
-        ways = [("equals", name)]
-        if match["sign"] == "=":
-            ways = [("colon", Splice(sign.start, sign.end, ":")), ("equals", name)]
-        for variant, splice in ways:
-            new = text.changed(splice)
-            if new is not None:
-                return Slip("signs", variant, number, text.source.line(number).strip(), "", new)
-    return None
-
-
-def _key_matches(text: Broken) -> Iterator[tuple[int, re.Match[str]]]:
-    """Yield the keys of the line at which Python stops first, then those of the lines near it."""
-    near = [text.number, *range(max(1, text.number - 3), text.number), text.number + 1]
-    for number in near:
-        line = text.code.line(number)
-        for pattern in (KEY, NAME):
-            match = pattern.search(line)
-            if match is not None:
-                yield number, match
 
 
 APOSTROPHE = re.compile(r"(?<=[\w})])'(?=\w|[ \t]+\w)")
@@ -435,112 +350,56 @@ def _apostrophe(text: Broken) -> Slip | None:
     return None
 
 
-JOINED = re.compile(r"(?P<text>[^'\"+]*[^'\"+ ])(?P<blank> *)\+ *str\([^'\"]*")
-"""A text without its last quote, to which str(…) is joined."""
-
-
-def _quotes(text: Broken) -> Slip | None:
-    """Return a text whose first or last quote is missing."""
-    written = text.source.line(text.number)
-    if "unterminated string" not in text.fault.text and "EOL while" not in text.fault.text:
-        match = UNQUOTED.match(text.line)
-        if match is None:
-            return None
-        start, end = match.span("text")
-        q = text.source.quote
-        splices = (text.within(start, start, q), text.within(end, end, q))
-        new = text.changed(*splices)
-        return text.slip("signs", "quote", match["text"], *splices, fixed=new) if new else None
-    opened = max(text.line.rfind("'"), text.line.rfind('"'))
-    if opened < 0:
-        return None
-    quote, rest = written[opened], written[opened + 1 :]
-    if (joined := JOINED.fullmatch(rest)) is not None:
-        place = opened + 1 + len(joined["text"]) + max(len(joined["blank"]) - 1, 0)
-        place += joined["blank"] == " "
-        splice = text.within(place, place, quote)
-        if (new := text.changed(splice)) is not None:
-            return text.slip("signs", "quote", written, splice, fixed=new)
-    ends = len(rest.rstrip(" \t,])}"))
-    blank = re.match(r"[ \t]+(?=[,)\]}])", rest[ends:])
-    ends += len(blank[0]) if blank and ends else 0  # (a blank at the end of the text)
-    fits = [text.within(opened + 1 + ends, opened + 1 + ends, quote)] if rest[:ends] else []
-    if not fits:  # the text ends here, and its first quote is missing
-        begins = {m.end() for m in re.finditer(r"^[ \t]*|=[ \t]*", written[:opened])}
-        fits = [text.within(at, at, quote) for at in sorted(begins)[:MOST_TRIES]]
-        rest, ends = written[:opened], opened
-    if PLAIN.fullmatch(rest[:ends].strip(" \t,([{")) is None:
-        fits = []
-    read = [(splice, new) for splice in fits if (new := text.changed(splice)) is not None]
-    read = [(splice, new) for splice, new in read if fault_of(new) is None] or read
-    if len(read) == 1:
-        return text.slip("signs", "quote", written, read[0][0], fixed=read[0][1])
-    return text.slip("signs", "quote", written)
-
-
-OWN_QUOTE = re.compile(r"\b[fF](?P<quote>['\"])[^{}'\"]*\{[^{}]*?(?P=quote)[^{}]*[{}]")
-"""An f-string in whose braces is a quote of its own kind."""
-
-
-def _brace(text: Broken) -> Slip | None:
-    """Return an f-string with a brace that is not closed."""
-    written = text.source.line(text.number)
-    if "f-string" not in text.fault.text and "'{' was never closed" not in text.fault.text:
-        return None
-    if re.search(r"\b[rR]?[fF][rR]?['\"]", written) is None and "f-string" not in text.fault.text:
-        return None
-    for match in list(re.finditer(r"f(['\"])[^'\"{}]*\{[^'\"{}]+(?=\1)", written))[:MOST_TRIES]:
-        splice = text.within(match.end(), match.end(), "}")
-        new = text.changed(splice)
-        if new is not None:
-            return text.slip("signs", "brace", written, splice, fixed=new)
-    single = "single '}'" in text.fault.text
-    for sign in ("}", "{") if single else ():
-        for match in list(re.finditer(re.escape(sign * 2), written))[:MOST_TRIES]:
-            splice = text.within(match.start(), match.start() + 1, "")
-            new = text.changed(splice)
-            if new is not None:
-                return text.slip("signs", "brace_twice", written, splice, fixed=new)
-    variant = "brace_alone" if single else "brace_wrong"
-    if not single and OWN_QUOTE.search(written):
-        variant = "field_quotes"
-    return text.slip("signs", variant, written)
-
-
-CONSTRUCTOR = re.compile(
-    r"(?P<start>[ \t]+)(?P<head>(?:(?:def|function|public)[ \t]+)?(?:constructor|__construct|init)"
-    r"[ \t]*\((?P<given>[^()]*)\))[ \t]*[:{]?[ \t]*"
-)
-
-
-def _constructor(text: Broken) -> Slip | None:
-    """Return a constructor under its name of another language, without def."""
-    match = CONSTRUCTOR.fullmatch(text.line)
-    if match is None or re.search(r"\bdef[ \t]+__init__", text.code.text):
-        return None
-    given = text.source.line(text.number)[match.start("given") : match.end("given")].strip()
-    given = (
-        given if re.match(r"self\b", given) else ", ".join(["self", *([given] if given else [])])
-    )
-    end = len(text.line.rstrip())
-    splice = text.within(match.start("head"), end, f"def __init__({given}):")
-    new = text.changed(splice)
-    if new is None:
-        return None
-    return text.slip("language", "constructor", match["head"], splice, fixed=new)
-
-
-def _global(text: Broken) -> Slip | None:
-    """Return a declaration of an attribute, which needs none."""
-    match = re.fullmatch(r"[ \t]*(?:global|nonlocal)[ \t]+self\.\w+[ \t]*", text.line)
-    if match is None:
-        return None
-    new = text.changed(text.source.without(text.number))
-    shown = text.source.line(text.number).strip()
-    return Slip("signs", "global", text.number, shown, "", new)
-
-
 LOOKS: tuple[Callable[[Broken], Slip | None], ...] = (
-    _conflict, *FUTURE_LOOKS, *HALF_LOOKS, _prose, *OUTPUT_LOOKS, _numbers, *FIELD_LOOKS, *DROPPED_LOOKS, *CALL_LOOKS, _brace, _global, _do_while, _constructor, _braces, *HEAD_LOOKS, note, _comment, *WORD_LOOKS, *FORM_LOOKS, _commas, _apostrophe, *QUOTE_LOOKS, _quotes, _keys, open_bracket, tab, behind_colon, try_block,
-    *JOINED_LOOKS, *TYPED_LOOKS, *STATEMENT_LOOKS, first_of_block, *BLOCK_LOOKS, further_in, _other_sign, *LATE_CALL_LOOKS, *LATE_LOOKS, two_words, two_statements, block_word, *LAST_FORM_LOOKS, *MESSAGE_LOOKS,
+    _conflict, _prose, _numbers, _braces, _comment, _apostrophe, _other_sign,
 )  # fmt: skip
+SAID = (
+    (r"'(break|continue)' (?:outside loop|not properly in loop)", "loop_word"),
+    (
+        r"(?:assigned to|used prior to|used or assigned).* (?:global|nonlocal) declaration",
+        "global_late",
+    ),
+    (r"name '(\w+)' is parameter and (?:global|nonlocal)", "global_parameter"),
+    (r"(?:no binding for nonlocal '\w+'|nonlocal declaration not allowed)", "nonlocal"),
+    (r"'(return|yield)' outside function", "outside_function"),
+    (r"'(?:await|async \w+)' outside", "await_outside"),
+    (r"positional argument follows keyword", "argument_order"),
+    (r"keyword argument repeated: (\w+)", "argument_twice"),
+    (r"duplicate argument '(\w+)' in function", "parameter_twice"),
+    (r"(?:non-default argument|parameter without a default) follows", "parameter_order"),
+    (r"invalid decimal literal", "number_letters"),
+    (r"leading zeros in decimal", "number_zeros"),
+    (r"\(unicode error\)", "backslash"),
+    (r"expected 'except' or 'finally' block", "try_alone"),
+    (
+        r"unterminated (?:triple-quoted|f-string: triple)|EOF while scanning triple",
+        "text_without_end",
+    ),
+    (r"unterminated (?:f-)?string|EOL while scanning", "quote"),
+    (r"f-string: (?:valid|empty) expression", "field_empty"),
+    (r"f-string", "brace_wrong"),
+    (r"unmatched '(.)'", "bracket_alone"),
+    (r"'.' was never closed|does not match opening parenthesis", "bracket_open"),
+    (r"expected an indented block", "block_missing"),
+    (r"Missing parentheses in call to '(\w+)'", "call_of_word"),
+    (r"cannot contain assignment", "call_assigns"),
+    (r"':' expected after dictionary key", "key_alone"),
+    (r"expression expected after dictionary key", "value_missing"),
+    (r"unexpected character after line continuation", "backslash_alone"),
+    (r"default 'except:' must be last", "except_last"),
+    (r"import \* only allowed at module level", "import_star"),
+    (r"Generator expression must be parenthesized", "generator"),
+    (r"multiple exception types must be parenthesized", "handler_types"),
+)
+"""What Python says of a fault, and what is told of it."""
+
+
+def _said(text: Broken) -> Slip | None:
+    """Return what Python's own message says of the line."""
+    for pattern, variant in SAID:
+        match = re.search(pattern, text.fault.text)
+        if match is not None:
+            wanted = match[1] if match.re.groups else ""
+            shown = text.source.line(text.number).strip()
+            return Slip("signs", variant, text.number, shown, wanted)
+    return None

@@ -9,7 +9,7 @@ import ast
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from grader.package.source import small_lifetimes, small_orders, small_truths, small_values
+from grader.package.source import small_orders, small_truths, small_values
 from grader.package.source.change import Change
 from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, last_part
@@ -19,7 +19,7 @@ from grader.package.source.small_values import Goal
 UTF_8 = ("utf-8", "ascii")
 ALL = (
     *(*small_values.SORTS, *small_truths.SORTS),
-    *(*small_lifetimes.SORTS, *small_orders.SORTS),
+    *small_orders.SORTS,
 )
 OF_PIECES = ("value", "seconds", "argument")
 """The sorts of changes that can hide a mistake: the code that has it may only not be used any more."""

@@ -8,8 +8,6 @@ from grader.package.source.ends_after import LIMITED, constant, timeout_of
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 
-DONE = ("set_result", "set_exception", "cancel")
-
 
 def time_limit(source: NodeSource) -> tuple[ast.Call, str, str] | None:
     """Return the only spin, its timeout as code, and the call of spin that has none.
@@ -36,30 +34,3 @@ def time_limit(source: NodeSource) -> tuple[ast.Call, str, str] | None:
         return None
     spin = f"rclpy.spin({node})" if owner == "rclpy" else f"{owner}.spin()"
     return call, f"timeout_sec={module.text.code(timeout)}", spin
-
-
-def done_future(source: NodeSource) -> tuple[ast.Call, ast.Call, str] | None:
-    """Return the only spin, the call that makes its future done, and the call of spin without one.
-
-    None if the node is spun in another way too, or again and again, or if nothing of the files makes
-    the future done.
-    """
-    calls = calls_in(source.main) if source.main is not None else ()
-    spins = [(c, name) for c, name in calls if last_part(name).startswith("spin")]
-    if len(spins) != 1 or last_part(spins[0][1]) != LIMITED:
-        return None
-    call, name = spins[0]
-    module, owner = source.module_of(call), name.rpartition(".")[0]
-    future = call.args[1 if owner == "rclpy" else 0 :][:1] if owner else []
-    kept = last_part(dotted(future[0])) if future else ""
-    if any(isinstance(part, ast.While | ast.For) for part in module.around(call)) or not kept:
-        return None
-    done = [
-        n
-        for n in source.calls_of(*DONE)
-        if isinstance(n.func, ast.Attribute) and last_part(dotted(n.func.value)) == kept
-    ]
-    node = dotted(call.args[0])
-    if not done or not node:
-        return None
-    return call, done[0], f"rclpy.spin({node})" if owner == "rclpy" else f"{owner}.spin()"

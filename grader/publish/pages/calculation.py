@@ -6,7 +6,7 @@ from grader.base.i18n.message import joined, say
 from grader.base.plain_text import points
 from grader.batch.model import GradebookEntry, Override
 from grader.batch.points import in_points
-from grader.batch.words import duration, instant
+from grader.batch.words import duration, instant, local_instant
 from grader.report.blocks import UNSEEN
 from grader.report.model import Report
 
@@ -19,6 +19,7 @@ def calculation(entry: GradebookEntry, visible: set[str]) -> list[str]:
     lines += [_correction(override, entry, visible) for override in entry.overrides]
     if entry.overrides and entry.score is not None:
         lines.append(say("The score is then {score}.", score=points(entry.score)))
+    lines += _granted(entry)
     if late := _lateness(entry):
         lines.append(late)
     if entry.attempts > 1:
@@ -47,6 +48,17 @@ def _given(report: Report) -> list[str]:
     if report.inconclusive:
         open_ = in_points(report.inconclusive)
         lines.append(say("{points} could be neither given nor taken.", points=open_))
+    return lines
+
+
+def _granted(entry: GradebookEntry) -> list[str]:
+    """Return the lines about the student's own due date and slip days."""
+    lines: list[str] = []
+    if entry.is_extended:
+        lines.append(say("Your due date was extended until {time}.", time=local_instant(entry.due)))
+    if entry.slip_days:
+        used, most = entry.slip_days_used, entry.slip_days
+        lines.append(say("Slip days used: {used} of {most}.", used=used, most=most))
     return lines
 
 

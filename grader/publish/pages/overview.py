@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 import statistics
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
-from grader.base.plain_text import one_line
 from grader.batch.model import ClassResult, GradebookEntry
 from grader.report.model import CheckResult
 
 BINS = 10
 SLOWEST = 10
+EXAMPLES = 3
 UNKNOWN = ("inconclusive", "error")
 
 
@@ -63,12 +63,18 @@ class CheckTally:
 
 @dataclass
 class MistakeTally:
-    """A mistake: who made it, at which checks, and what the first of them found."""
+    """A mistake: who made it, and at which checks."""
 
     id: str
     checks: list[str]
-    example: str
     who: list[GradebookEntry]
+    examples: list[tuple[GradebookEntry, str]] = field(default_factory=list)
+    """Different findings, each with the student who has it: at most EXAMPLES."""
+
+    @property
+    def addresses(self) -> list[str]:
+        """The email addresses of the students, as far as they are known."""
+        return list(dict.fromkeys(e.student.email for e in self.who if e.student.email))
 
 
 def shown(entry: GradebookEntry, *, show_hidden: bool) -> list[CheckResult]:
@@ -93,13 +99,17 @@ def scores(result: ClassResult) -> Scores | None:
     )
 
 
+def bin_of(final: float, most: float) -> int:
+    """Return the number of the bin of some points; those beyond either end are in the end bin."""
+    return min(max(math.floor(final / most * BINS), 0), BINS - 1)
+
+
 def _bins(finals: Sequence[float], most: float) -> tuple[Bin, ...]:
     if most <= 0:
         return ()
     counts = [0] * BINS
     for final in finals:
-        # points beyond either end (a correction may give a bonus) count in the end bin
-        counts[min(max(math.floor(final / most * BINS), 0), BINS - 1)] += 1
+        counts[bin_of(final, most)] += 1
     edges = [most * k / BINS for k in range(BINS + 1)]
     return tuple(Bin(a, b, n) for a, b, n in zip(edges, edges[1:], counts))
 
@@ -127,8 +137,11 @@ def mistakes(result: ClassResult, *, show_hidden: bool) -> list[MistakeTally]:
     for entry in result.entries:
         for check in shown(entry, show_hidden=show_hidden):
             for mistake in check.mistakes:
-                example = one_line(check.actual.strip(), most=160)
-                tally = found.setdefault(mistake.id, MistakeTally(mistake.id, [], example, []))
+                example = check.actual.strip()
+                tally = found.setdefault(mistake.id, MistakeTally(mistake.id, [], []))
+                known = [text for _, text in tally.examples]
+                if example and example not in known and len(known) < EXAMPLES:
+                    tally.examples.append((entry, example))
                 if check.id not in tally.checks:
                     tally.checks.append(check.id)
                 if not tally.who or tally.who[-1] is not entry:

@@ -10,17 +10,19 @@ from __future__ import annotations
 
 import base64
 import hashlib
+from functools import partial
 from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup, escape
 
 from grader.base.carets import pieces
-from grader.base.i18n.message import Message, say
+from grader.base.i18n.message import joined, say, say_plural
 from grader.base.i18n.translator import SOURCE, Translator
 from grader.base.plain_text import one_line, points, shorten, visible
 from grader.batch.model import Student
-from grader.batch.words import SIGNS, STATES, duration, instant, lapsed_words, plural
+from grader.batch.points import in_points
+from grader.batch.words import SIGNS, STATES, duration, lapsed_words, local_instant
 from grader.report.blocks import WORDS, all_of
 from grader.report.report_page import hidden_checks
 
@@ -32,7 +34,7 @@ MOST_NAME = 120
 class Renderer:
     """Renders the templates in one language; `values` are available in all of them.
 
-    Texts that a template marks with `say` are translated on output.
+    Texts that a template marks with `say` or `say_plural` are translated on output.
     """
 
     def __init__(self, *, lang: str = SOURCE, **values: object) -> None:
@@ -55,7 +57,7 @@ def _environment(translate: Translator) -> Environment:
         loader=FileSystemLoader(TEMPLATES),
         autoescape=True,
         undefined=StrictUndefined,
-        finalize=lambda value: _tamed(translate(value) if isinstance(value, Message) else value),
+        finalize=partial(_tamed, translate=translate),
         trim_blocks=True,
         lstrip_blocks=True,
     )
@@ -63,22 +65,25 @@ def _environment(translate: Translator) -> Environment:
         seconds="{:.3f} s".format,
         whole=_whole,
         marked=_marked,
-        short=lambda text: shorten(translate(text), most=MOST),
+        short=lambda text: shorten(translate(text), most=MOST, translate=translate),
     )
     environment.globals.update(
         lang=translate.lang,
         say=say,
+        say_plural=say_plural,
+        joined=joined,
+        students=lambda count: say_plural("{count} student", "{count} students", count),
         all_of=all_of,
         hidden_checks=hidden_checks,
         states=STATES,
         signs=SIGNS,
         words=WORDS,
         points=points,
+        in_points=in_points,
         duration=duration,
-        instant=instant,
-        plural=plural,
+        local_instant=local_instant,
         lapsed_words=lapsed_words,
-        one_line=one_line,
+        one_line=partial(one_line, translate=translate),
         who=_who,
     )
     return environment
@@ -89,11 +94,11 @@ def _who(student: Student) -> str:
     return one_line(student.name or student.key, most=MOST_NAME)
 
 
-def _tamed(value: object) -> object:
-    """Make invisible characters visible and limit the length; our own markup stays."""
+def _tamed(value: object, *, translate: Translator) -> object:
+    """Translate a text, make its invisible characters visible, limit its length; our markup stays."""
     if not isinstance(value, str) or isinstance(value, Markup):
         return value
-    return visible(shorten(value, most=MOST))
+    return visible(shorten(translate(value), most=MOST, translate=translate))
 
 
 def _whole(text: str) -> Markup:

@@ -6,18 +6,18 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from grader.base.i18n.message import say
+from grader.base.i18n.message import joined, say
 from grader.base.i18n.translator import SOURCE, Translator
 from grader.base.plain_text import first_lines
 from grader.batch.model import GradebookEntry, Override
-from grader.batch.words import instant
+from grader.batch.words import local_instant
 from grader.publish.pages.calculation import calculation
 from grader.publish.pages.charts import PathPlot, Timeline, path_plots, timeline
 from grader.publish.pages.overview import shown
 from grader.publish.pages.value_plots import ValuePlot, value_plots
 from grader.report.blocks import UNSEEN, evidence_of, roots
 from grader.report.model import CheckResult, Report
-from grader.report.report_page import ran_on
+from grader.report.report_page import drawn_values, ran_on
 from grader.report.shown_patch import shown_patch
 from grader.report.tracebacks import folded
 from grader.verdict.checks.all import QUOTES
@@ -91,7 +91,9 @@ def student_view(entry: GradebookEntry, *, show_hidden: bool, lang: str = SOURCE
         hidden=len(report.checks) - len(checks) if report else 0,
         calculation=tuple(translate(line) for line in calculation(entry, visible)),
         facts=tuple((translate(name), translate(value)) for name, value in _facts(entry) if value),
-        details=tuple((n, v) for n, v in _details(report) if v) if report else (),
+        details=tuple((translate(n), translate(v)) for n, v in _details(report) if v)
+        if report
+        else (),
         timeline=timeline(report.observed) if report else None,
         paths=path_plots(report.runs) if report else (),
         plots=value_plots(report.runs) if report else (),
@@ -159,7 +161,8 @@ def _facts(entry: GradebookEntry) -> list[tuple[str, str]]:
         (say("User name"), student.username),
         (say("Email"), student.email),
         (say("Section"), student.section),
-        (say("Submitted"), instant(entry.submitted)),
+        (say("Submitted"), local_instant(entry.submitted)),
+        (say("Due"), local_instant(entry.due)),
     ]
     if report is not None:
         facts += [
@@ -167,6 +170,7 @@ def _facts(entry: GradebookEntry) -> list[tuple[str, str]]:
             (FOLDER, report.submission.path),
             (say("Ran on"), ran_on(report)),
             (say("Command"), report.observed.command),
+            (say("Drawn for this submission"), drawn_values(report)),
         ]
     return facts
 
@@ -176,14 +180,15 @@ def _details(report: Report) -> list[tuple[str, str]]:
     env, found = report.environment, [(name, getattr(report.environment, name)) for name in names]
     for name, limit in env.limits.items():
         value = f"{limit.value:,.10g} {limit.unit}".strip()
-        found.append((f"limit: {name}", f"{value}, held by {limit.held_by}"))
+        held = say("{limit}, enforced by {holder}", limit=value, holder=limit.held_by)
+        found.append((joined(say("limit"), name, by=": "), held))
     spent = [f"{name} {seconds:.2f} s" for name, seconds in report.timing.model_dump().items()]
     found += [
-        ("time", ", ".join(spent)),
-        ("nodes", ", ".join(report.observed.nodes)),
-        ("started", report.started),
-        ("submission's SHA-256", report.submission.sha256),
-        ("assignment's SHA-256", report.assignment.sha256),
+        (say("time"), ", ".join(spent)),
+        (say("node"), ", ".join(report.observed.nodes)),
+        (say("started"), report.started),
+        (say("SHA-256 of the submission"), report.submission.sha256),
+        (say("SHA-256 of the assignment"), report.assignment.sha256),
     ]
     return found
 

@@ -8,9 +8,11 @@ from itertools import zip_longest
 from pathlib import Path
 
 from grader.base.folder import Folder
+from grader.base.i18n.message import joined, say
+from grader.base.i18n.translator import LANGUAGES
 from grader.base.plain_text import one_line
-from grader.batch.model import ClassResult, GradebookEntry
-from grader.batch.words import STATES, duration, instant
+from grader.batch.model import ClassResult, EntryStatus, GradebookEntry
+from grader.batch.words import STATES, duration, instant, local_instant, offset_words
 from grader.publish.pages import overview
 from grader.publish.pages.charts import histogram
 from grader.publish.pages.names import page_names
@@ -19,9 +21,15 @@ from grader.publish.pages.student import student_view
 from grader.report.files import could_not_write
 
 INDEX, STUDENTS = "index.html", "students"
-OURS = b'<!doctype html>\n<html lang="en" data-made-by="ros2-teaching-lab">'
+OURS = tuple(
+    f'<!doctype html>\n<html lang="{lang}" data-made-by="ros2-teaching-lab">'.encode()
+    for lang in LANGUAGES
+)
 FEW = 8  # more names than this are folded
-LOG_TITLES = {"transcript": "What ros2 run printed", "build-log": "What colcon build printed"}
+LOG_TITLES = {
+    "transcript": say("What ros2 run printed"),
+    "build-log": say("What colcon build printed"),
+}
 
 
 def write_site(result: ClassResult, out: Path, *, show_hidden: bool = True) -> Path:
@@ -33,7 +41,7 @@ def write_site(result: ClassResult, out: Path, *, show_hidden: bool = True) -> P
     be written.
     """
     pages = page_names(entry.student.key for entry in result.entries)
-    renderer = Renderer(result=result, pages=pages, heading=_heading(result))
+    renderer = Renderer(lang=result.lang, result=result, pages=pages, heading=_heading(result))
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
         out.mkdir(mode=0o700, exist_ok=True)
@@ -61,7 +69,7 @@ def _write_students(
     for before, entry, after in around:
         if entry is None:
             continue
-        view = student_view(entry, show_hidden=show_hidden)
+        view = student_view(entry, show_hidden=show_hidden, lang=result.lang)
         logs = [("transcript", view.transcript), ("build-log", view.build_log)]
         page = renderer.page(
             "student.html.j2",
@@ -83,7 +91,8 @@ def _heading(result: ClassResult) -> str:
 
 
 def _about_student(result: ClassResult, entry: GradebookEntry) -> list[str]:
-    submitted = f"submitted {instant(entry.submitted)}" if entry.submitted else ""
+    at = local_instant(entry.submitted)
+    submitted = joined(say("Submitted"), at, by=": ") if at else ""
     parts = (_heading(result), _number(entry), STATES[entry.status], submitted)
     return [part for part in parts if part]
 
@@ -113,6 +122,8 @@ class StudentRow:
     failed: tuple[str, ...]
     find: str
     mistakes: str
+    points: str
+    """The number of the histogram's bar, "" without points."""
 
 
 def _index(renderer: Renderer, result: ClassResult, *, show_hidden: bool) -> bytes:
@@ -144,16 +155,25 @@ def _index(renderer: Renderer, result: ClassResult, *, show_hidden: bool) -> byt
         graded=sum(entry.report is not None for entry in entries),
         few=FEW,
         slowest=overview.slowest(result),
-        rows=[_row(entry, show_hidden=show_hidden) for entry in entries],
+        rows=[_row(entry, show_hidden=show_hidden, most=result.max_score) for entry in entries],
+        section_names=sorted({e.student.section for e in entries if e.student.section}),
         sections=any(entry.student.section for entry in entries),
+        grants=any(entry.is_extended or entry.slip_days for entry in entries),
+        zone=_common_zone(entries),
     )
+
+
+def _common_zone(entries: Sequence[GradebookEntry]) -> str:
+    """Return the offset from UTC of all times in the table, "" if they have several."""
+    times = (at for e in entries for at in (e.submitted, e.due if e.is_extended else None) if at)
+    offsets = {offset_words(at) for at in times} or {"UTC"}
+    return offsets.pop() if len(offsets) == 1 else ""
 
 
 def _about(result: ClassResult) -> list[str]:
     distros = f"ROS 2 {', '.join(result.distros)}" if result.distros else ""
-    took = f"took {duration(result.seconds)}" if result.seconds else ""
-    source = f"from {result.system.title}"
-    parts = (result.assignment, source, distros, instant(result.started), took)
+    took = say("took {duration}", duration=duration(result.seconds)) if result.seconds else ""
+    parts = (result.assignment, result.system.title, distros, instant(result.started), took)
     return [part for part in parts if part]
 
 
@@ -161,22 +181,19 @@ def _cards(entries: Sequence[GradebookEntry]) -> list[tuple[str, int]]:
     def count(status: str) -> int:
         return sum(entry.status == status for entry in entries)
 
+    granted = sum(entry.is_extended or entry.slip_days > 0 for entry in entries)
     full = [e for e in entries if e.final is not None and e.final >= e.max_score]
     cards = [
-        ("students", len(entries)),
-        ("graded", count("graded")),
-        ("with full marks", len(full)),
-        ("late", sum(bool(entry.late_seconds) for entry in entries)),
-        ("to look at by hand", count("ungradable")),
-        ("missing", count("missing")),
+        (say("Students"), len(entries)),
+        (STATES["graded"], count("graded")),
+        (say("Full marks"), len(full)),
+        (say("Late"), sum(bool(entry.late_seconds) for entry in entries)),
+        *([(say("With an extension"), granted)] if granted else []),
+        (say("Look at by hand"), count("ungradable")),
+        (STATES["missing"], count("missing")),
     ]
-    rare = {
-        "a fault of the grader": count("error"),
-        "submitted elsewhere": count("elsewhere"),
-        STATES["unclear"]: count("unclear"),
-        "not marked yet": count("pending"),
-    }
-    return [*cards, *((name, number) for name, number in rare.items() if number)]
+    rare: tuple[EntryStatus, ...] = ("error", "elsewhere", "unclear", "pending")
+    return [*cards, *((STATES[status], number) for status in rare if (number := count(status)))]
 
 
 def _identical(result: ClassResult) -> list[list[GradebookEntry]]:
@@ -185,11 +202,13 @@ def _identical(result: ClassResult) -> list[list[GradebookEntry]]:
     return [group for group in groups if len(group) > 1]
 
 
-def _row(entry: GradebookEntry, *, show_hidden: bool) -> StudentRow:
+def _row(entry: GradebookEntry, *, show_hidden: bool, most: float) -> StudentRow:
     student = entry.student
     checks = overview.shown(entry, show_hidden=show_hidden)
     mistakes = [mistake.id for check in checks for mistake in check.mistakes]
-    attempt = f"{entry.attempt} of {entry.attempts}" if entry.attempts > 1 else "1"
+    attempt = "1"
+    if entry.attempts > 1:
+        attempt = say("{number} of {count}", number=entry.attempt, count=entry.attempts)
     unseen = (student.key, student.email, student.username)
     return StudentRow(
         entry=entry,
@@ -198,4 +217,11 @@ def _row(entry: GradebookEntry, *, show_hidden: bool) -> StudentRow:
         failed=tuple(check.id for check in checks if check.status == "failed"),
         find=" ".join(dict.fromkeys(one_line(part, most=120) for part in unseen if part)),
         mistakes=" ".join(dict.fromkeys(mistakes)),
+        points=_bin(entry, most),
     )
+
+
+def _bin(entry: GradebookEntry, most: float) -> str:
+    if entry.status != "graded" or entry.final is None or most <= 0:
+        return ""
+    return str(overview.bin_of(entry.final, most))

@@ -28,12 +28,14 @@ COMMANDS = (
     "grade",
     "interface",
     "lab",
+    "lifecycle",
     "node",
     "param",
     "pkg",
     "run",
     "service",
     "topic",
+    "wtf",
 )
 COMPLETE = "_complete"  # hidden: the words for a shell's completion
 

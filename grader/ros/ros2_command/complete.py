@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from argparse import Action
     from collections.abc import Callable, Iterable
 
-PATIENCE = 2.0  # seconds to wait for a node's parameters
+PATIENCE = 2.0  # seconds to wait for a node's answer
 
 
 def main(words: list[str]) -> None:
@@ -136,6 +136,15 @@ def _parameters(node: Any, given: dict[str, str]) -> Iterable[str]:
     return parameters.client(node, names).names()
 
 
+def _transitions(node: Any, given: dict[str, str]) -> Iterable[str]:
+    from . import managed_nodes  # noqa: PLC0415 (rarely used)
+
+    wanted = Namespace(node_name=given["node_name"], include_hidden_nodes=True)
+    name = managed_nodes.named(node, wanted)
+    possible = managed_nodes.transitions(node, name, timeout=PATIENCE)
+    return (description.transition.label for description in possible)
+
+
 ON_GRAPH: dict[str, Callable[[Any, dict[str, str]], Iterable[str]]] = {
     "topic_name": _topics,
     "message_type": _message_types,
@@ -144,4 +153,5 @@ ON_GRAPH: dict[str, Callable[[Any, dict[str, str]], Iterable[str]]] = {
     "action_name": _actions,
     "parameter_name": _parameters,
     "parameter_names": _parameters,
+    "transition": _transitions,
 }

@@ -92,14 +92,15 @@ def own_node(
     Raises KeyboardInterrupt if Ctrl+C or SIGTERM shuts it down, ModuleNotFoundError without rclpy.
     """
     import rclpy  # noqa: PLC0415 (slow to import)
-    from rclpy.executors import ExternalShutdownException  # noqa: PLC0415
     from rclpy.parameter import Parameter  # noqa: PLC0415
     from rclpy.signals import SignalHandlerOptions  # noqa: PLC0415
 
     handlers = SignalHandlerOptions.NO if own_interrupts else SignalHandlerOptions.ALL
+    begun = False
     try:
         with nullcontext() if carries_data else udp_only():
             rclpy.init(args=[], signal_handler_options=handlers)
+            begun = True
             node = rclpy.create_node(
                 name or f"{HIDDEN_PREFIX}ros2cli_{os.getpid()}",
                 start_parameter_services=False,
@@ -111,10 +112,13 @@ def own_node(
             )
         try:
             yield node
-        except ExternalShutdownException:
-            raise KeyboardInterrupt from None
         finally:
             node.destroy_node()
+    except Exception:
+        # a signal has shut down the context, and each call fails with an error of its own since
+        if handlers is SignalHandlerOptions.ALL and begun and not rclpy.ok():
+            raise KeyboardInterrupt from None
+        raise
     finally:
         rclpy.try_shutdown()
 

@@ -37,7 +37,8 @@ def main(args: Namespace) -> Result:
     """Run the executable until it ends and return its status, negative for a signal.
 
     Raises OSError if the program cannot be started (a `--prefix` that does not exist, a script
-    without shebang) or no ROS environment was sourced: the real command does not catch it either.
+    without shebang) or no ROS environment was sourced: the real command does not catch it either. A
+    script whose Python is gone is told in three lines, which the real command does not either.
     """
     paths = package_executables(args.package_name)
     if paths is None:
@@ -49,7 +50,15 @@ def main(args: Namespace) -> Result:
         return "No executable found"
     if len(paths) > 1:
         return "\n- ".join(["Multiple executables found:", *paths])
-    return run([*_words(args.prefix), paths[0], *args.argv])
+    try:
+        return run([*_words(args.prefix), paths[0], *args.argv])
+    except FileNotFoundError:
+        from . import first_line  # noqa: PLC0415 (it would delay the child)
+
+        gone = "" if args.prefix else first_line.missing_program(paths[0])
+        if not gone:
+            raise
+        return first_line.REBUILD.format(path=paths[0], program=gone)
 
 
 def run(command: list[str]) -> int:

@@ -2,18 +2,30 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Collection
 from typing import Any
 
 MOST_ENDPOINTS = 400
+MOST_TWINS = 8
 LONGEST_NAME = 256
 Infos = dict[str, Callable[[str], Any]]
 
 
-def ends_of_others(node: Any, own_topics: Collection[tuple[str, str]]) -> list[dict[str, Any]]:
+def twins_on(node: Any) -> list[str]:
+    """Return the full names that more than one node on the graph has."""
+    names = Counter(_full_name(space, name) for name, space in node.get_node_names_and_namespaces())
+    return sorted(name[:LONGEST_NAME] for name, count in names.items() if count > 1)[:MOST_TWINS]
+
+
+def ends_of_others(
+    node: Any, own_topics: Collection[tuple[str, str]], asked: Collection[str] = ()
+) -> list[dict[str, Any]]:
     """Return every end of the nodes but `node`, whose own ends are `own_topics` (role, topic).
 
-    `differs`: its type has another hash than the same type of an own end.
+    `differs`: its type has another hash than the same type of an own end. Ends of the names `asked`
+    come first: no number of others keeps them out. A node that has the name of `node` too is not
+    passed over.
     """
     infos: Infos = {
         "publisher": node.get_publishers_info_by_topic,
@@ -28,9 +40,10 @@ def ends_of_others(node: Any, own_topics: Collection[tuple[str, str]]) -> list[d
     own = _own_definitions(node, own_topics, infos)
     qos: dict[tuple[str, str, str], tuple[str, str, bool]] = {}
     ends: list[dict[str, Any]] = []
-    for name, space in node.get_node_names_and_namespaces():
+    itself, twins = "/" + node.get_name(), twins_on(node)
+    for name, space in dict.fromkeys(map(tuple, node.get_node_names_and_namespaces())):
         full = _full_name(space, name)
-        if full == "/" + node.get_name():  # (the node of a world is one of the graph)
+        if full == itself and itself not in twins:  # (the node of a world is one of the graph)
             continue
         for role, read in readers:
             try:
@@ -59,6 +72,7 @@ def ends_of_others(node: Any, own_topics: Collection[tuple[str, str]]) -> list[d
                     }
                     for kind in types
                 )
+    ends.sort(key=lambda end: not any(end["name"].startswith(name) for name in asked))
     return ends[:MOST_ENDPOINTS]
 
 

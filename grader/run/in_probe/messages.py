@@ -76,18 +76,12 @@ def is_message(value: Any) -> bool:
 
 def taken_from(subscription: Any, most: int) -> Iterator[Any]:
     """Take the messages that have arrived at a subscription, at most so many, and yield them."""
-    for message, _ in taken_with_info(subscription, most):
-        yield message
-
-
-def taken_with_info(subscription: Any, most: int) -> Iterator[tuple[Any, Any]]:
-    """Take messages as `taken_from` does; yield each with what the middleware knows of it."""
     for _ in range(most):
         with subscription.handle:
             taken = subscription.handle.take_message(subscription.msg_type, False)
         if taken is None:
             return
-        yield taken
+        yield taken[0]
 
 
 class Values:

@@ -3,16 +3,19 @@
 The grader sends this module and those that it imports to the probe, which runs them under the
 prefix's Python: they import nothing else of the grader. `commands(probe)` returns its commands:
 - `prepare` makes the subscriptions (`watch`), publishers (`publish`), clients (`call`) and action
-  clients (`goal`) that the scenario needs, and the `world`; `unknown` has the types that do not exist;
+  clients (`goal`) that the scenario needs, and the `world`; `later` are the topics that are subscribed
+  to once a node publishes on them; `unknown` has the types that do not exist;
 - `tick` moves the world to `at`, whose messages go out, publishes this instant on /clock and makes
   a barrier: round trips, which are behind all of that in each node's queue; it does the same at each
   update of the world before that whose messages a node hears, `each` s of wall time for a barrier;
 - `publish`, `call`, `goal`, `cancel`, `set` and `place` act on the nodes and the world, with a
   barrier after it;
-- `look_closely` returns the whole graph; `parameters` those of the node `name`.
+- `look_closely` returns the whole graph; `parameters` those of the node `name`, `unproven` why a
+  change of them that the node `name` has accepted does not show.
 
 Messages are taken after a barrier, not by the executor: what a node published before it answered
-has arrived then. `messages` has those of each topic in order, up to a limit; `counts` all of them.
+has arrived then. `messages` has those of each topic in order, up to a limit, with their senders;
+`senders` the nodes of publishers that the graph tells later; `counts` all of them.
 """
 
 from __future__ import annotations
@@ -27,23 +30,23 @@ from rclpy.action import ActionClient
 from rclpy.callback_groups import CallbackGroup
 from rclpy.duration import Duration
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import ReliabilityPolicy
 
 from grader.run.in_probe.goals import Goals
-from grader.run.in_probe.graph import ends_of_others
+from grader.run.in_probe.graph import ends_of_others, twins_on
+from grader.run.in_probe.hearing import DEPTH, Hearing
 from grader.run.in_probe.messages import (
     LONGEST_REASON,
     Values,
     fill,
     interface,
     taken_from,
-    taken_with_info,
     why_unusable,
 )
-from grader.run.in_probe.parameters import read_parameters, set_parameters
+from grader.run.in_probe.parameters import Changes, read_parameters, set_parameters
+from grader.run.in_probe.senders import Senders, taken_with_sender
 
 SECOND = 1_000_000_000
-DEPTH = 2_000  # messages of a topic that wait to be taken
 MOST_MESSAGES = 40  # of a topic in one answer
 ACK_SECONDS = 1.0  # wall time for the acknowledgement of a message
 MATCH_SECONDS = 2.0  # wall time for a publisher and a subscription to find each other
@@ -77,7 +80,10 @@ class Scenario:
     def __init__(self, probe: Any) -> None:
         self.probe = probe
         self.group = Untouched()
-        self.watched: dict[str, list[Any]] = {}
+        self.hearing = Hearing(probe.node, self.group)
+        self.watched = self.hearing.watched
+        self.senders = Senders(probe.node)
+        self.changes = Changes(probe, self.group, self.senders)
         self.publishers: dict[str, Any] = {}
         self.clients: dict[str, Any] = {}
         self.askers: dict[str, Any] = {}  # clients for round trips, by the node's name
@@ -96,7 +102,8 @@ class Scenario:
 
     def prepare(self, command: dict[str, Any], _: float) -> dict[str, Any]:
         """Make the ends that the scenario needs, but those of types that cannot be used."""
-        named = [*command["watch"], *command["publish"], *command["call"], *command["goal"]]
+        roles = ("watch", "later", "publish", "call", "goal")
+        named = [one for role in roles for one in command[role]]
         students = {n for _, n in named if n.partition("/")[0] in command["students"]}
         unusable = {name: why for name in students if (why := why_unusable(name))}
         kinds = {name: interface(name) for _, name in named if name not in unusable}
@@ -105,8 +112,10 @@ class Scenario:
             return {"unknown": unknown}
         for ends in ("watch", "publish", "call", "goal"):
             command[ends] = [end for end in command[ends] if end[1] not in unusable]
+        self.hearing.kinds, self.hearing.of_students = kinds, command["students"]
+        self.hearing.later = {topic: name for topic, name in command["later"] if name in kinds}
         for topic, name in command["watch"]:
-            self.watched[topic] = [self.subscribe(topic, kinds[name], ReliabilityPolicy.RELIABLE)]
+            self.hearing.watch(topic, name)
         for topic, name in command["publish"]:
             if topic not in self.publishers:
                 self.publishers[topic] = self.probe.node.create_publisher(kinds[name], topic, 10)
@@ -116,9 +125,11 @@ class Scenario:
             if action not in self.actions:
                 self.actions[action] = ActionClient(self.probe.node, kinds[name], action)
                 topic, kind = f"{action}/_action/feedback", kinds[name].Impl.FeedbackMessage
-                feedback = self.subscribe(topic, kind, ReliabilityPolicy.RELIABLE)
+                feedback = self.hearing.subscribe(topic, kind, ReliabilityPolicy.RELIABLE)
                 self.goals.feedback.append(feedback)
         self.periods = command["periods"]
+        if command["plain"]:
+            self.probe.hide_clock()
         if command["world"]:
             self.open_world(command["world"])
         return {"unknown": [], "unusable": unusable}
@@ -128,29 +139,9 @@ class Scenario:
         world = self.probe.module(*source).World
         node = rclpy.create_node(world.NAME, enable_rosout=False, use_global_arguments=False)
         self.probe.ours.add("/" + world.NAME)
+        self.hearing.worlds.add(world.NAME)
         self.probe.executor.add_node(node)
         self.world = world(node, self.group)
-
-    def subscribe(self, topic: str, kind: Any, reliability: Any) -> Any:
-        """Return a subscription of which the executor takes nothing."""
-        profile = QoSProfile(
-            depth=DEPTH, reliability=reliability, durability=DurabilityPolicy.VOLATILE
-        )
-        return self.probe.node.create_subscription(
-            kind, topic, lambda _: None, profile, callback_group=self.group
-        )
-
-    def hear_best_effort(self) -> None:
-        """Subscribe as best effort too where only such publishers are."""
-        for topic, subscriptions in self.watched.items():
-            if len(subscriptions) > 1:
-                continue
-            infos = self.probe.node.get_publishers_info_by_topic(topic)
-            offers = {info.qos_profile.reliability for info in infos}
-            if offers == {ReliabilityPolicy.BEST_EFFORT}:
-                kind = subscriptions[0].msg_type
-                best = self.subscribe(topic, kind, ReliabilityPolicy.BEST_EFFORT)
-                subscriptions.append(best)
 
     def take(self) -> dict[str, int]:
         """Take the messages that have arrived; return how many of each topic the clock has caused.
@@ -161,12 +152,13 @@ class Scenario:
         for topic, subscriptions in self.watched.items():
             count = early = 0
             for subscription in subscriptions:
-                for message, info in taken_with_info(subscription, DEPTH - count):
+                for message, sent, gid in taken_with_sender(subscription, DEPTH - count):
                     count += 1
-                    before = 0 < info["source_timestamp"] < self.began
+                    before = 0 < sent < self.began
                     early += before
+                    sender = self.senders.of(gid, topic)
                     if count <= MOST_MESSAGES:
-                        self.messages.append([topic, Values().of(message), before])
+                        self.messages.append([topic, Values().of(message), before, sender])
             if count:
                 self.counts[topic] = self.counts.get(topic, 0) + count
             found[topic] = count - early
@@ -245,6 +237,7 @@ class Scenario:
         """Move the world and the clock to an instant."""
         self.began = self.began or time.time_ns()
         self.at = at = command["at"]
+        self.hearing.look()
         found = dict.fromkeys(self.watched, 0)
         if self.world is not None:
             self.advance_world(at, found, command["each"])
@@ -298,8 +291,7 @@ class Scenario:
     def is_heard(self, publishers: Sequence[Any]) -> bool:
         """Whether somebody else subscribes to one of the world's topics."""
         return any(
-            one.get_subscription_count() > len(self.watched.get(one.topic_name, ()))
-            for one in publishers
+            one.get_subscription_count() > self.hearing.own(one.topic_name) for one in publishers
         )
 
     def is_due(self, topic: str, at: int) -> bool:
@@ -335,6 +327,8 @@ class Scenario:
             said["messages"], self.messages = self.messages, []
         if self.counts:
             said["counts"], self.counts = self.counts, {}
+        if self.senders.open:
+            said["senders"] = self.senders.found()
         done = [(name, future) for name, future in self.calls if future.done()]
         if done:
             self.calls = [one for one in self.calls if not one[1].done()]
@@ -347,6 +341,7 @@ class Scenario:
                 said["path"], self.world.steps = self.world.steps, []
             if self.world.events:
                 said["events"], self.world.events = self.world.events, []
+                said |= self.look_closely()  # (who asked for it may go at once)
         return said
 
     def react(self, deadline: float) -> bool | None:
@@ -374,7 +369,7 @@ class Scenario:
         publisher = self.publishers.get(command["topic"])
         if publisher is None:
             return self.undone(deadline)
-        ours = len(self.watched.get(command["topic"], ()))
+        ours = self.hearing.own(command["topic"])
         there = self.await_ready(lambda: publisher.get_subscription_count() > ours, deadline)
         if not there and not command["last"]:
             return {**self.result(True), "heard": 0}
@@ -394,10 +389,11 @@ class Scenario:
         if client is None or request is None:
             return self.undone(deadline, why)
         heard = self.await_ready(client.service_is_ready, deadline)
+        graph = self.look_closely()
         if heard:
             self.calls.append((command["name"], client.call_async(request)))
         barrier = self.react(deadline)
-        return {**self.result(barrier), "heard": int(heard)}
+        return {**graph, **self.result(barrier), "heard": int(heard)}
 
     def undone(self, deadline: float, why: str = "") -> dict[str, Any]:
         """Return the answer for what a type does not allow; `why` is about its fields."""
@@ -418,10 +414,11 @@ class Scenario:
         if client is None or goal is None:
             return self.undone(deadline, why)
         heard = self.await_ready(client.server_is_ready, deadline)
+        graph = self.look_closely()
         if heard:
             self.goals.send(command["name"], client, goal)
         barrier = self.react(deadline)
-        return {**self.result(barrier), "heard": int(heard)}
+        return {**graph, **self.result(barrier), "heard": int(heard)}
 
     def cancel(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
         """Ask for the end of a goal."""
@@ -431,22 +428,30 @@ class Scenario:
 
     def set(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
         """Set parameters of a node; `set` has for each whether it was accepted, and why not."""
+        self.changes.forget()
         results = set_parameters(self.probe, command["name"], command["values"], deadline)
         barrier = self.react(deadline)
-        return {**self.result(barrier), "set": results or [], "heard": int(results is not None)}
+        found = {"set": results or [], "heard": int(results is not None)}
+        return {**self.result(barrier), **found, **self.look_closely()}
+
+    def unproven(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
+        """Return which of the values that a node has accepted do not show, and in what."""
+        found = self.changes.unproven(command["name"], command["values"], deadline)
+        return {"unproven": found, **self.result(self.react(deadline))}
 
     def parameters(self, command: dict[str, Any], deadline: float) -> dict[str, Any]:
         """Return the parameters of a node."""
         return {"parameters": read_parameters(self.probe, command["name"], deadline)}
 
-    def look_closely(self, _: dict[str, Any], __: float) -> dict[str, Any]:
-        """Return every end of the nodes that are not ours."""
-        self.hear_best_effort()
+    def look_closely(self, *_: Any) -> dict[str, Any]:
+        """Return every end of the nodes that are not ours, and the names that several nodes have."""
+        self.hearing.look()
         topics = [("subscription", topic) for topic in self.watched]
         topics += [("publisher", topic) for topic in self.publishers]
-        ends = ends_of_others(self.probe.node, topics)
+        asked = (*self.watched, *self.clients, *self.actions)
+        ends = ends_of_others(self.probe.node, topics, asked)
         self.asked = self.asked or any(end["role"] == "client" for end in ends)
-        return {"ends": ends}
+        return {"ends": ends, "twins": twins_on(self.probe.node)}
 
 
 def made(command: dict[str, Any], part: str) -> tuple[Any, str]:
@@ -467,5 +472,5 @@ def commands(probe: Any) -> dict[str, Any]:
     """Return the commands that this module adds to a probe."""
     scenario = Scenario(probe)
     acts = ("publish", "call", "goal", "cancel", "place", "set")
-    names = ("prepare", "tick", *acts, "parameters", "look_closely")
+    names = ("prepare", "tick", *acts, "parameters", "unproven", "look_closely")
     return {name: getattr(scenario, name) for name in names}

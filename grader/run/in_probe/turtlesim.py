@@ -63,6 +63,11 @@ class Turtle:
     hits: int = 0
     touches: bool = False
     bumps: bool = False  # whether it began to touch the wall with the last update
+    put: bool = False  # whether it was put elsewhere since the last update
+
+    def place(self, x: float, y: float, theta: float) -> None:
+        """Put it elsewhere."""
+        self.x, self.y, self.theta, self.put = x, y, within_pi(theta), True
 
     def command(self, forward: float, sideways: float, turning: float, at: int) -> None:
         """Take a velocity command that arrived at `at` (ns)."""
@@ -132,7 +137,7 @@ class Field:
 
     def reset(self) -> None:
         """Begin anew: one turtle in the middle."""
-        self.turtles = {"turtle1": Turtle("turtle1")}
+        self.turtles = {"turtle1": Turtle("turtle1", put=True)}
         self._made = 1
 
 
@@ -162,7 +167,7 @@ class World:
         self._poses: dict[str, Any] = {}
         self._colors: dict[str, Any] = {}
         self._goals: dict[str, tuple[Any, Any]] = {}
-        self.steps: list[tuple[str, float, float, float]] = []
+        self.steps: list[tuple[str, float, float, float, bool]] = []
         self.events: list[dict[str, Any]] = []
         for letter, value in BACKGROUND.items():
             node.declare_parameter(f"background_{letter}", value, _byte(letter))
@@ -219,12 +224,13 @@ class World:
         turtle = self.field.turtles.get(name)
         if turtle is None:
             return False
-        turtle.x, turtle.y, turtle.theta = x, y, within_pi(theta)
+        turtle.place(x, y, theta)
         return True
 
     def _publish(self) -> None:
         for name, turtle in self.field.turtles.items():
-            self.steps.append((name, turtle.x, turtle.y, turtle.theta))
+            self.steps.append((name, turtle.x, turtle.y, turtle.theta, turtle.put))
+            turtle.put = False
             if turtle.bumps:
                 self._event("bump", name)
             if self._messages is None:
@@ -276,16 +282,15 @@ class World:
             return answer
 
         def absolute(request: Any, answer: Any) -> Any:
-            turtle = self.field.turtles[name]
-            turtle.x, turtle.y = request.x, request.y
-            turtle.theta = within_pi(request.theta)
+            self.field.turtles[name].place(request.x, request.y, request.theta)
             return answer
 
         def relative(request: Any, answer: Any) -> Any:
             turtle = self.field.turtles[name]
-            turtle.theta = within_pi(turtle.theta + request.angular)
-            turtle.x += math.cos(turtle.theta) * request.linear
-            turtle.y += math.sin(turtle.theta) * request.linear
+            theta = within_pi(turtle.theta + request.angular)
+            x = turtle.x + math.cos(theta) * request.linear
+            y = turtle.y + math.sin(theta) * request.linear
+            turtle.place(x, y, theta)
             return answer
 
         async def rotate(handle: Any) -> Any:

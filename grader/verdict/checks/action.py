@@ -6,13 +6,16 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field
 
-from grader.base.i18n.message import say, say_plural
+from grader.base.i18n.message import joined, say, say_plural
 from grader.course.values import Form, first_misfit, shown_value
 from grader.package.source.action_sleeps import sleep_in_action
 from grader.report.model import Where
-from grader.verdict.checks.declare import EDGE, Parameters, kind
+from grader.run.names_of_ros import ACTION
+from grader.verdict.checks.declare import kind
 from grader.verdict.checks.fields import must_fit
+from grader.verdict.checks.foreign import must_own_action
 from grader.verdict.checks.offered import must_offer
+from grader.verdict.checks.parameters import EDGE, Parameters
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Passed
 
@@ -20,7 +23,7 @@ if TYPE_CHECKING:
     from grader.run.observations import Goal
     from grader.verdict.use import Use
 
-SEND_GOAL = "/_action/send_goal"
+SEND_GOAL = f"{ACTION}send_goal"
 OF_TYPE = "_SendGoal"
 Status = Literal["succeeded", "canceled", "aborted"]
 
@@ -68,10 +71,10 @@ def offers(use: Use[Action]) -> Passed:
     """The node offers the action {action}, of the type {type}"""
     own = [
         (end.name.removesuffix(SEND_GOAL), end.type.removesuffix(OF_TYPE))
-        for end in use.ends("service")
+        for end in use.ends("service", of_actions=True)
         if end.name.endswith(SEND_GOAL)
     ]
-    return must_offer(
+    passed = must_offer(
         use,
         own,
         use.given.action,
@@ -80,6 +83,8 @@ def offers(use: Use[Action]) -> Passed:
         family="action",
         missing="action.missing",
     )
+    must_own_action(use, use.given.action)
+    return passed
 
 
 @kind("action.accepts", Accepts, after=["action.offers"], stimulus=["goal"])
@@ -130,7 +135,7 @@ def feedback(use: Use[Feedback]) -> Passed:
             path, form, value = wrong
             raise Failed(
                 "action.wrong_feedback",
-                expected=f"{path}: {form}",
+                expected=joined(path, form.words, by=": "),
                 actual=say(
                     "{path}: {value}, in the message at {at} s",
                     path=path,
@@ -188,6 +193,7 @@ def cancels(use: Use[Cancels]) -> Passed:
     begin = use.window[0]
     stimulus = use.plan.stimulus(use.use.after)
     goal = use.seen.goal((stimulus.cancel if stimulus is not None else None) or "")
+    must_own_action(use, given.action)
     if goal is None or goal.accepted is None:
         use.blocked_by("action.accepts", "action.offers")
         raise Blocked(by="run.stays")
@@ -215,6 +221,7 @@ def cancels(use: Use[Cancels]) -> Passed:
     where, variant = use.call("ActionServer", mentions=given.action), ""
     if goal.refused is None:
         where, variant = _waits(use, where)
+    use.blocked_by("action.cancels", action=given.action)  # (told once, whatever a use adds to it)
     raise Failed(
         "action.not_cancelled",
         variant=variant,
@@ -243,17 +250,21 @@ def _waits(use: Use[Parameters], where: Where) -> tuple[Where, str]:
     return Where(file=source.module_of(call).path, line=call.lineno), "sleeps"
 
 
-def _goal(use: Use[Parameters]) -> Goal:
-    """Return the goal that the check names. Raises Blocked if the action is not offered."""
+def _goal(use: Use[Accepts] | Use[Feedback] | Use[Result]) -> Goal:
+    """Return the goal that the check names. Raises Blocked if the action is not offered.
+
+    Failed if another node offers it too.
+    """
     goal, done = use.seen.goal(use.use.after), use.seen.stimulus(use.use.after)
     if goal is None or done is None:
         raise use.unreached()
     if not done.heard:
         use.blocked_by("action.offers")
+    must_own_action(use, use.given.action)
     return goal
 
 
-def _accepted(use: Use[Parameters], action: str) -> Goal:
+def _accepted(use: Use[Feedback] | Use[Result], action: str) -> Goal:
     """Return the goal, which was accepted. Raises Blocked if it was not."""
     goal = _goal(use)
     if goal.accepted is None:

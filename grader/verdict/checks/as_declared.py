@@ -12,7 +12,7 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import say
+from grader.base.i18n.message import msg, say
 from grader.base.shown import shown
 from grader.package.source.setup_faults import setup_fault, source_folders
 from grader.report.model import Where
@@ -34,41 +34,72 @@ SECTION = re.compile(r"\s*\[(.{1,100})\]\s*")
 REQUIRES = re.compile(r"^__requires__ = '([\w.-]{1,200}(?:==[\w.+!-]{1,100})?)'$", re.MULTILINE)
 
 
-def must_be_as_declared(evidence: Evidence, script: str) -> None:
-    """Raise Failed if the executable `script` is not that of the entry point in the source."""
-    build, assignment = evidence.build, evidence.named
+def must_be_as_declared(evidence: Evidence, script: str = "") -> None:
+    """Raise Failed if the build installed something else than the sources declare.
+
+    `script` is the path of the executable that is run; without it, what is judged is the entry
+    point that the sources give the assignment's executable, wherever its script was installed.
+    """
+    build, assignment = evidence.build, evidence.named if script else evidence.assignment
     if build.altered:
         path = build.altered[0]
         raise _other(say("the build changed {path}", path=shown(path)), path)
+    if build.faults and not script:
+        return  # (the mapping is right; the executable is not what runs)
+    _environment_must_be_colcons(evidence)
     targets = {
         target
         for text in build.entry_files.values()
         for name, target in _console_scripts(text)
         if name == assignment.executable
     }
-    if evidence.results["entry_point.mapping"].status == "passed" and targets - {assignment.target}:
+    mapping = evidence.results.get("entry_point.mapping")
+    is_declared = not script or (mapping is not None and mapping.status == "passed")
+    if is_declared and targets - {assignment.target}:
         other = shown(min(targets - {assignment.target}))
         raise _other(say("its entry point leads to {target}", target=other), "setup.py")
-    text = build.scripts.get(script)
-    if text is None or not targets:
+    package = assignment.package
+    there = (script,) if script else build.installed(f"lib/{package}/{assignment.executable}")
+    text = build.scripts.get(there[0]) if there else None
+    if text is None or not (targets or is_declared):
         return
     if (
         not _is_of_this_package(evidence, text)
         or wrapper_digest(text, assignment.executable, assignment.target) not in WRAPPERS.values()
     ):
-        _source_folder_must_exist(evidence)
-        raise _other(say("{path} is not the script of its entry point", path=script), "setup.py")
+        found = _missing_source_folder(evidence)
+        if found is None:
+            actual = say("{path} is not the script of its entry point", path=there[0])
+            raise _other(actual, "setup.py")
+        if script:  # (the mapping itself is right)
+            raise found
 
 
-def _source_folder_must_exist(evidence: Evidence) -> None:
-    """Raise Failed if `package_dir` leads to a folder that the package does not have."""
+FAULTS = {
+    "script": msg("{path} is run when the workspace is sourced"),
+    "variable": msg("a line of colcon's data changes the environment: {path}"),
+    "hides": msg("{path} is found instead of what ROS or Python has under that name"),
+}
+
+
+def _environment_must_be_colcons(evidence: Evidence) -> None:
+    """Raise Failed if sourcing the workspace would do more than colcon and ament make it do."""
+    for fault in evidence.build.faults:
+        name = fault.path.rpartition("/")[2]
+        sources = [file.path for file in evidence.submission.files if file.path.endswith(name)]
+        path = sources[0] if sources else "setup.py"
+        raise _other(say(FAULTS[fault.kind], path=shown(fault.path)), path, variant="overlay")
+
+
+def _missing_source_folder(evidence: Evidence) -> Failed | None:
+    """Return that `package_dir` leads to a folder that the package does not have, if it does."""
     file = evidence.submission.file("setup.py")
     found = file.data if file is not None and file.kind == "file" else b""
     for folder in source_folders(found):
         error = f"package directory '{folder}'"
         fault = setup_fault(found, error, evidence.assignment.package, paths_in(evidence))
         if fault is not None and evidence.submission.file(folder) is None:
-            raise Failed(
+            return Failed(
                 "entry_point.other_installed",
                 expected=say("package_dir names a folder of the package"),
                 actual=say("there is no folder {name}", **fault.words),
@@ -77,6 +108,7 @@ def _source_folder_must_exist(evidence: Evidence) -> None:
                 params={"error": error},
                 words=fault.words,
             )
+    return None
 
 
 def _is_of_this_package(evidence: Evidence, text: str) -> bool:
@@ -100,10 +132,11 @@ def wrapper_digest(text: str, executable: str, target: str) -> str:
     required = REQUIRES.search(text)
     names = {repr(executable): "NAME", f"from {module} import {function}": "IMPORT"}
     names |= {f"sys.exit({function}())": "EXIT"}
-    if required is not None:
-        names[repr(required[1])] = "DISTRIBUTION"
     lines = [line.rstrip() for line in text.splitlines()]
     code = "\n".join(line for line in lines if line and not line.lstrip().startswith("#"))
+    if required is not None:  # (the executable can have the name of its distribution)
+        distribution = re.escape(repr(required[1]))
+        code = re.sub(rf"(= |\(){distribution}($|,)", r"\1DISTRIBUTION\2", code, flags=re.MULTILINE)
     for name, placeholder in names.items():
         code = code.replace(name, placeholder)
     return hashlib.sha256(code.encode()).hexdigest()
@@ -121,9 +154,10 @@ def _console_scripts(text: str) -> Iterator[tuple[str, str]]:
             yield name.strip(), "".join(target.split())
 
 
-def _other(actual: str, path: str) -> Failed:
+def _other(actual: str, path: str, *, variant: str = "") -> Failed:
     return Failed(
         "entry_point.other_installed",
+        variant=variant,
         expected=say("the build installs what the sources declare, and leaves them as they are"),
         actual=actual,
         where=Where(file=path),

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import say
 from grader.package.source.manifest import ManifestError, read_manifest
 from grader.report.model import Where
-from grader.verdict.checks.declare import INTAKE, Parameters, kind
+from grader.verdict.checks.declare import INTAKE, kind
+from grader.verdict.checks.parameters import Parameters
 from grader.verdict.outcome import Failed, Passed
 
 if TYPE_CHECKING:

@@ -32,6 +32,8 @@ from grader.report.model import Where
 from grader.sandbox.base import LOAD
 from grader.verdict.checks.build_log import is_inside, last_error, setup_error, summary_of
 from grader.verdict.checks.declare import BUILD, check
+from grader.verdict.checks.faults import limit_name
+from grader.verdict.checks.not_python import without_guess
 from grader.verdict.checks.own_interface import build_stopped
 from grader.verdict.checks.parsed import (
     data_of,
@@ -230,7 +232,7 @@ def _broken(evidence: Evidence) -> Failed:
     if ANSWER in build.log and error.startswith(("SyntaxError", "ValueError", "IndentationError")):
         return _answer(evidence, expected)
     if error.startswith(("SyntaxError", "IndentationError", "TabError")):
-        return _unreadable(evidence, expected, error, where)
+        return unreadable_setup(_setup_py(evidence), error, where, expected=expected)
     label = next((p for p in labels_in(_setup_py(evidence)) if f"'{p.found}'" in error), None)
     if label is not None and error.startswith("NameError"):
         return Failed(
@@ -633,11 +635,12 @@ def _encoding(evidence: Evidence) -> Failed | None:
     )
 
 
-def _unreadable(evidence: Evidence, expected: str, error: str, where: Where) -> Failed:
+def unreadable_setup(found: bytes, error: str, where: Where, *, expected: str = "") -> Failed:
+    """Return the failure of a setup.py at which Python stops with an error at a place."""
     repeated = re.search(r"keyword argument repeated: (\w{1,80})", error)
-    twice = _repeated(_setup_py(evidence), repeated[1]) if repeated is not None else []
-    outside = entry_outside(_setup_py(evidence))
-    slip = slip_of(_setup_py(evidence)) if repeated is None and outside is None else None
+    twice = _repeated(found, repeated[1]) if repeated is not None else []
+    outside = entry_outside(found)
+    slip = slip_of(found) if repeated is None and outside is None else None
     variant, words = "unreadable", {}
     if repeated is not None:
         variant, words = "repeated", {"name": repeated[1]}
@@ -657,7 +660,8 @@ def _unreadable(evidence: Evidence, expected: str, error: str, where: Where) -> 
         where = Where(file="setup.py", line=outside.line)
     elif slip is not None:
         variant, words = slip.variant, words_of(slip)
-    actual: str = say("Python cannot read setup.py: {error}", error=error)
+    said = error if slip is None else without_guess(error)
+    actual: str = say("Python cannot read setup.py: {error}", error=said)
     if slip is not None:
         actual, where = (
             joined(actual, description(slip), by=", "),
@@ -697,17 +701,6 @@ def _is_empty(node: ast.expr) -> bool:
 def _setup_py(evidence: Evidence) -> bytes:
     file = evidence.submission.file("setup.py")
     return file.data if file is not None and file.kind == "file" else b""
-
-
-def limit_name(limit: str) -> str:
-    """Return the translatable name of a limit."""
-    names = {
-        "wall time": say("wall time"),
-        "memory": say("memory"),
-        "processes": say("processes"),
-        "output": say("output"),
-    }
-    return names.get(limit, limit)
 
 
 def _first_print(evidence: Evidence) -> int | None:

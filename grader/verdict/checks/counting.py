@@ -16,13 +16,20 @@ from grader.base.yaml_model import broken
 from grader.course.assignment import Count
 from grader.mistakes.made_by import lines_that_make
 from grader.package.source.counter import without_effect, wrapped_at
-from grader.package.source.remarks import remarks_on
 from grader.package.source.time_limit import time_limit
-from grader.report.model import Where
 from grader.run.observer import without_tracebacks
-from grader.verdict.checks.declare import Parameters, kind
-from grader.verdict.checks.faults import flood, line_of, node_file, resource, traceback_of, words
+from grader.verdict.checks.declare import kind
+from grader.verdict.checks.faults import (
+    flood,
+    line_of,
+    node_file,
+    only_here,
+    resource,
+    traceback_of,
+    words,
+)
 from grader.verdict.checks.lines import CALLS, numbered, records, such_lines
+from grader.verdict.checks.parameters import Parameters
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Passed
 
@@ -463,8 +470,7 @@ def _is_silent(evidence: Evidence) -> bool:
 
 
 def _only_when_marked(evidence: Evidence, expected: str) -> Failed:
-    remarks = [r for r in remarks_on(evidence.submission.files) if r.kind in ("asks", "hides")]
-    where = Where(file=remarks[0].path, line=remarks[0].line) if remarks else node_file(evidence)
+    where = only_here(evidence)
     source = source_of_node(evidence)
     module = source.module_at(where.file) if source is not None else None
     row = module.line(where.line) if module is not None else ""

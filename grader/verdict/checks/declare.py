@@ -15,18 +15,15 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 from grader.base.i18n.message import Message, Template, say
-from grader.base.part import Part
+from grader.course.values import Form
 from grader.report.model import Quote
+from grader.verdict.checks.parameters import Parameters
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
+from grader.verdict.use import Use
 
 if TYPE_CHECKING:
     from grader.course.assignment import CheckUse
     from grader.verdict.evidence import Evidence
-    from grader.verdict.use import Use
-
-
-class Parameters(Part):
-    """The parameters of a kind of check: the keys of its `with:`."""
 
 
 CheckFunction = Callable[["Evidence"], "Passed | None"]
@@ -47,8 +44,15 @@ class Stage:
 INTAKE = Stage(0, "intake", say("looking at the package"), "files")
 BUILD = Stage(1, "build", say("building with colcon"), "build")
 RUN = Stage(2, "run", say("running the node"), "run")
-EDGE = 1e-6  # s by which an instant may be outside a window
 STARTED = ("run.starts", "run.spins")
+ANSWERS = (
+    "service.answers",
+    "parameter.accepts",
+    "action.accepts",
+    "action.result",
+    "action.cancels",
+)
+"""What comes of a stimulus first: everything else that it causes follows from that."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,8 +111,6 @@ class Check:
     def _passed(self, evidence: Evidence, use: CheckUse) -> Passed | None:
         if self.parameters is None:
             return self.function(evidence)
-        from grader.verdict.use import Use  # noqa: PLC0415 - it needs the evidence of a run
-
         return self.function(Use(use, self.parameters.model_validate(use.with_), evidence))
 
 
@@ -148,6 +150,8 @@ def kind(
 def _as_word(value: object) -> str | int | float:
     if isinstance(value, tuple):
         return ", ".join(str(one) for one in value)
+    if isinstance(value, Form):
+        return value.words
     return value if isinstance(value, str | int | float) else str(value)
 
 

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import Value, say
 from grader.base.shown import shown
 from grader.mistakes.placeholders import placeholder_values
+from grader.package.source.remarks import remarks_on
+from grader.package.source.telling import telling
 from grader.report.model import Where
 from grader.verdict.checks.actual_node import actual_path
-from grader.verdict.checks.build import limit_name
 from grader.verdict.checks.build_log import python_error
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Failed
@@ -37,6 +39,29 @@ CHAINED = (HANDLING, "The above exception was the direct cause of the following 
 def node_file(evidence: Evidence) -> Where:
     """Return the node's file as the place of a fault without a line."""
     return Where(file=shown(actual_path(evidence)))
+
+
+def call_in(evidence: Evidence, *names: str, mentions: str = "") -> Where:
+    """Return the line of the node's first call of one of these names, else the node's file.
+
+    A call with the text `mentions` among its arguments comes before the others.
+    """
+    source = source_of_node(evidence)
+    found = source.calls_of(*names) if source is not None else []
+    if source is None or not found:
+        return node_file(evidence)
+    wanted = mentions.strip("/")
+    best = next((one for one in found if wanted and wanted in ast.unparse(one)), found[0])
+    return Where(file=source.module_of(best).path, line=best.lineno)
+
+
+def only_here(evidence: Evidence) -> Where:
+    """Return where the source could tell that it is marked."""
+    found = [
+        *telling(evidence.submission.files),
+        *(one for one in remarks_on(evidence.submission.files) if one.kind == "hides"),
+    ]
+    return Where(file=found[0].path, line=found[0].line) if found else node_file(evidence)
 
 
 def line_of(evidence: Evidence, record: LogRecord | None) -> Where:
@@ -182,3 +207,14 @@ def resource(evidence: Evidence, expected: str) -> Failed:
         where=node_file(evidence),
         params={"limit": limit},
     )
+
+
+def limit_name(limit: str) -> str:
+    """Return the translatable name of a limit."""
+    names = {
+        "wall time": say("wall time"),
+        "memory": say("memory"),
+        "processes": say("processes"),
+        "output": say("output"),
+    }
+    return names.get(limit, limit)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, TypeGuard
 
-from grader.base.i18n.message import Value
+from grader.base.i18n.message import Value, joined
 from grader.course.values import Form, first_misfit, shown_value
 from grader.report.model import Where
 from grader.verdict.outcome import Failed
@@ -32,7 +32,7 @@ def must_fit(
         path, form, value = wrong
         raise Failed(
             mistake,
-            expected=f"{path}: {form}",
+            expected=joined(path, form.words, by=": "),
             actual=f"{path}: {shown_value(value)}",
             where=where,
             params={"field": path},

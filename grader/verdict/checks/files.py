@@ -8,7 +8,8 @@ from grader.base.i18n.message import say
 from grader.base.nearest import nearest
 from grader.course.values import Form
 from grader.report.model import Where
-from grader.verdict.checks.declare import INTAKE, Parameters, kind
+from grader.verdict.checks.declare import INTAKE, kind
+from grader.verdict.checks.parameters import Parameters
 from grader.verdict.outcome import Failed, Passed
 
 if TYPE_CHECKING:
@@ -16,13 +17,16 @@ if TYPE_CHECKING:
 
 
 class File(Parameters):
-    """The path of a file in the package."""
+    """The path of a file in the package as it is handed in, whether it is installed or not.
+
+    With `of:` it is the package of that node.
+    """
 
     path: str
 
 
 class Text(Parameters):
-    """The form of a file's text."""
+    """The form of a file's text, in the package as it is handed in; `of:` as in `files.exists`."""
 
     path: str
     text: Form
@@ -39,11 +43,11 @@ def exists(use: Use[File]) -> Passed:
 def matches(use: Use[Text]) -> Passed:
     """The file {path} has the wanted text"""
     given = use.given
-    use.blocked_by("files.exists", path=given.path)
+    use.blocked_by("files.exists", path=given.path, of=use.use.of)
     if not given.text.fits(_text(use, given.path)):
         raise Failed(
             "files.no_match",
-            expected=str(given.text),
+            expected=given.text.words,
             actual=say("the text of {path} does not fit", path=given.path),
             where=Where(file=given.path),
             params={"path": given.path},

@@ -9,7 +9,9 @@ from pydantic import Field
 
 from grader.base.i18n.message import say
 from grader.base.nearest import nearest, with_difference
-from grader.verdict.checks.declare import Parameters, kind
+from grader.verdict.checks.declare import kind
+from grader.verdict.checks.foreign import must_be_alone
+from grader.verdict.checks.parameters import Parameters
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Failed, Inconclusive, Passed
 
@@ -42,9 +44,13 @@ class Connection(Parameters):
 @kind("graph.node_name", NodeName, depends=["run.starts"], after=["run.spins"], covers="runs")
 def node_name(use: Use[NodeName]) -> Passed:
     """The node has the required name."""
-    run, wanted = use.observed, f"/{use.given.name.lstrip('/')}" if use.given.name else use.wanted
+    run, wanted = (
+        use.evidence.run,
+        f"/{use.given.name.lstrip('/')}" if use.given.name else use.wanted,
+    )
     names = [run.counting] if run.counting else [node.name for node in run.nodes]
     if wanted in names:
+        must_be_alone(use, wanted)
         return Passed(actual=wanted)
     if not names:
         raise Inconclusive(say("the ROS graph could not be read"))
@@ -111,6 +117,8 @@ def nodes(use: Use[Nodes]) -> Passed:
 def connects(use: Use[Connection]) -> Passed:
     """{sender} sends to {receiver} on {topic}"""
     given = use.given
+    for name in (given.sender, given.receiver):
+        must_be_alone(use, name)
     publishers = {end.type for end in _of(use, given.sender, "publisher")}
     subscriptions = {end.type for end in _of(use, given.receiver, "subscription")}
     expected = say("{sender} sends to {receiver} on {topic}", **given.model_dump())

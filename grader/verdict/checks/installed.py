@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import ast
+import contextlib
 import re
 from typing import TYPE_CHECKING
 
@@ -21,7 +22,7 @@ from grader.verdict.checks.declare import BUILD, check
 from grader.verdict.checks.entry_faults import wanted_entry
 from grader.verdict.checks.entry_point import mapping_from_source
 from grader.verdict.checks.parsed import file_of
-from grader.verdict.outcome import Blocked, Failed, Passed
+from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 from grader.verdict.own_names import GROUP, SCRIPTS, scripts
 
 if TYPE_CHECKING:
@@ -40,6 +41,8 @@ def mapping(evidence: Evidence) -> Passed:
     """setup.py maps the executable's name to the function that starts the node."""
     passed = mapping_from_source(evidence)
     if passed is not None:
+        with contextlib.suppress(Inconclusive):  # (without a build, the source alone decides)
+            must_be_as_declared(evidence)
         return passed
     assignment = evidence.assignment
     if not evidence.build.is_installed(assignment.package):
@@ -47,6 +50,7 @@ def mapping(evidence: Evidence) -> Passed:
     for name, target in scripts(evidence.build.entry_points):
         if name == assignment.executable:
             if target == assignment.target:
+                must_be_as_declared(evidence)
                 entry = f"{name} = {target}"
                 return Passed(actual=say("{entry} (as setup.py computes it)", entry=entry))
             found = f"{name} = {target}"
@@ -220,6 +224,8 @@ def executable(evidence: Evidence) -> Passed:
     there = evidence.build.installed(f"lib/{package}/{name}")
     found = files[there[0]] if there else None
     if found is not None and found.kind == "f" and found.mode & 0o111:
+        if evidence.has_mistake("entry_point.mapping", "entry_point.other_installed"):
+            raise Blocked(by="entry_point.mapping")
         must_be_as_declared(evidence, there[0])
         return Passed(actual=there[0], advice=_other_name(evidence))
     if found is not None and found.kind == "f":

@@ -15,8 +15,9 @@ from grader.package.source.interface import message_text
 from grader.package.source.manifest import ManifestError, read_manifest
 from grader.report.model import Where
 from grader.verdict.checks.cmake import CMAKE
-from grader.verdict.checks.declare import INTAKE, Parameters, kind
+from grader.verdict.checks.declare import INTAKE, kind
 from grader.verdict.checks.own_interface import fault_in, missing_package
+from grader.verdict.checks.parameters import Parameters
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Literal
 from grader.base.i18n.message import say_plural
 from grader.course.values import Form
 from grader.run.probe_link import LEVELS
-from grader.verdict.checks.declare import Parameters
+from grader.verdict.checks.parameters import Parameters
 
 if TYPE_CHECKING:
     from grader.run.observer import Event
+    from grader.run.probe_link import LogRecord
     from grader.verdict.use import Use
 
 Level = Literal["", "debug", "info", "warn", "error", "fatal"]
@@ -40,6 +41,24 @@ def records(use: Use[Parameters], text: Form, level: Level = "") -> list[Event]:
         and event.record.name == name
         and (not level or event.record.level == LEVELS[level])
     ]
+
+
+def other_texts(use: Use[Parameters]) -> list[Form]:
+    """Return the forms of the lines that other checks of the log ask for."""
+    found = []
+    for other in use.evidence.assignment.checks:
+        text = other.with_.get("text")
+        if other.id == use.use.id or text is None or not other.kind.startswith("log."):
+            continue
+        is_form = other.kind in ("log.matches", "log.never")
+        found.append(Form.model_validate(text) if is_form else numbered(str(text)))
+    return found
+
+
+def level_of(record: LogRecord) -> str:
+    """Return the level of a record as ROS prints it."""
+    names = {number: name.upper() for name, number in LEVELS.items()}
+    return names.get(record.level, str(record.level))
 
 
 def logger_of(use: Use[Parameters]) -> str:

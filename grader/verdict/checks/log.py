@@ -6,14 +6,19 @@ import re
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
-from grader.base.i18n.message import say
-from grader.base.nearest import nearest, with_difference
+from grader.base.i18n.message import Message as Text
+from grader.base.i18n.message import joined, say
+from grader.base.i18n.times import times
+from grader.base.nearest import compared, nearest
+from grader.base.shown import shown
+from grader.base.yaml_model import broken
 from grader.course.values import Form
-from grader.verdict.checks.declare import EDGE, Parameters, kind
+from grader.verdict.checks.declare import ANSWERS, kind
 from grader.verdict.checks.faults import line_of
-from grader.verdict.checks.lines import CALLS, Level, records, such_lines
+from grader.verdict.checks.lines import CALLS, Level, level_of, other_texts, records, such_lines
+from grader.verdict.checks.parameters import EDGE, Parameters
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -21,13 +26,14 @@ if TYPE_CHECKING:
     from grader.verdict.use import Use
 
 MOST_LINES = 200  # of a log, among which a similar one is looked for
+MOST_TOLD = 3  # lines that came instead
 CLOSE = 0.6
 
 
 class Lines(Parameters):
     """Lines of the node's log: their text, and how many there must be at least and at most.
 
-    Two of them must be `apart` seconds of ROS time or more.
+    The text is what the logger got, without `[INFO] [time] [node]:` before it. Two of them must be `apart` seconds of ROS time or more.
     """
 
     text: Form
@@ -35,6 +41,12 @@ class Lines(Parameters):
     at_least: int = Field(default=1, ge=0)
     at_most: int | None = Field(default=None, ge=0)
     apart: float | None = Field(default=None, gt=0)
+
+    @model_validator(mode="after")
+    def _can_be(self) -> Lines:
+        if self.at_most is not None and self.at_least > self.at_most:
+            raise broken(f"at_least is {self.at_least}, above at_most, which is {self.at_most}")
+        return self
 
 
 class Never(Parameters):
@@ -44,7 +56,7 @@ class Never(Parameters):
     level: Level = ""
 
 
-@kind("log.matches", Lines, after=["topic.values", "world.stays"])
+@kind("log.matches", Lines, after=["topic.values", "topic.reacts", "world.stays", *ANSWERS])
 def matches(use: Use[Lines]) -> Passed:
     """The node logs {text}"""
     given = use.given
@@ -53,35 +65,26 @@ def matches(use: Use[Lines]) -> Passed:
     if len(found) < given.at_least:
         use.blocked_by("topic.subscribes", "world.stays")
         _must_drive(use)
-        close = _nearest(use, given.text) if not found else None
-        if close is not None:
-            raise Failed(
-                "log.wrong_text",
-                expected=_wanted(given),
-                actual=with_difference(close.text, close.text, _literal(given.text)),
-                where=line_of(use.evidence, close.record),
-                words={"wanted": _literal(given.text)},
-            )
-        raise Failed(
-            "log.missing",
-            expected=_wanted(given),
-            actual=such_lines(len(found)),
-            where=use.call(*CALLS),
-        )
+        raise _too_few(use, found)
     for before, after in pairwise(found):
         gap = after.virtual - before.virtual
         if given.apart is not None and gap < given.apart - EDGE:
             raise Failed(
                 "log.too_often",
                 expected=say("at least {gap} s between two lines", gap=f"{given.apart:g}"),
-                actual=say("{gap} s between two lines", gap=f"{gap:g}"),
+                actual=say(
+                    "{gap} s between two lines, at {first} s and {last} s",
+                    gap=f"{gap:g}",
+                    first=f"{before.virtual:g}",
+                    last=f"{after.virtual:g}",
+                ),
                 where=line_of(use.evidence, after.record),
             )
     if given.at_most is not None and len(found) > given.at_most:
         raise Failed(
             "log.too_often",
-            expected=_wanted(given),
-            actual=such_lines(len(found)),
+            expected=_wanted(use),
+            actual=joined(such_lines(len(found)), _with_instants(found), by=": "),
             where=line_of(use.evidence, found[0].record),
         )
     return Passed(actual=such_lines(len(found)))
@@ -95,7 +98,7 @@ def never(use: Use[Never]) -> Passed:
         raise Failed(
             "log.forbidden",
             expected=such_lines(0),
-            actual=found[0].text[:200],
+            actual=_with_instants(found[:1]),
             where=line_of(use.evidence, found[0].record),
         )
     use.require_window()
@@ -118,14 +121,62 @@ def _literal(form: Form) -> str:
     return str(form.equal or form.contains or "")
 
 
-def _nearest(use: Use[Parameters], form: Form) -> Event | None:
-    """Return a line of the log that is nearly the wanted one."""
-    wanted = _literal(form)
-    there = {event.text: event for event in records(use, Form(contains=""))}
+def _too_few(use: Use[Lines], found: list[Event]) -> Failed:
+    """Return the failure of lines that are missing: what came at that time instead."""
+    given, literal = use.given, _literal(use.given.text)
+    same = records(use, given.text) if given.level and not found else []
+    if same and same[0].record is not None:
+        wanted, level = given.level.upper(), level_of(same[0].record)
+        return Failed(
+            "log.wrong_level",
+            expected=joined(_wanted(use), say("level {level}", level=wanted), by=", "),
+            actual=joined(_with_instants(same), say("level {level}", level=level), by=", "),
+            where=line_of(use.evidence, same[0].record),
+            words={"level": given.level},
+        )
+    others = [] if found else records(use, Form(contains=""))
+    close = _nearest(use, others)
+    if close is not None:
+        return Failed(
+            "log.wrong_text",
+            expected=_wanted(use),
+            actual=joined(_with_instants([close]), compared(close.text, literal), by="\n"),
+            where=line_of(use.evidence, close.record),
+            words={"wanted": literal},
+        )
+    actual = such_lines(len(found))
+    if found or others:
+        came = _with_instants(found or others)
+        actual = joined(actual, came if found else say("it logged {lines}", lines=came), by=": ")
+    return Failed("log.missing", expected=_wanted(use), actual=actual, where=use.call(*CALLS))
+
+
+def _nearest(use: Use[Lines], others: list[Event]) -> Event | None:
+    """Return a line that is nearly the wanted one, and that no other check asks for."""
+    wanted = _literal(use.given.text)
+    asked = other_texts(use)
+    there = {
+        event.text: event for event in others if not any(form.fits(event.text) for form in asked)
+    }
     close = nearest(wanted, list(there)[:MOST_LINES], cutoff=CLOSE) if wanted else ""
     return there.get(close or "")
 
 
-def _wanted(given: Lines) -> str:
-    bound = f"{given.at_least}" if given.at_most is None else f"{given.at_least} … {given.at_most}"
-    return f"{given.text} ({bound}×)"
+def _wanted(use: Use[Lines]) -> Text:
+    """Return what must be logged how often; where only a part of the run counts, also when."""
+    given = use.given
+    bound = joined(given.text.words, times(given.at_least, given.at_most), by=": ")
+    if not use.use.after and use.use.during is None:
+        return bound
+    first, last = use.window
+    when = say("from {first} s to {last} s", first=f"{first:g}", last=f"{last:g}")
+    return joined(bound, when, by=", ")
+
+
+def _with_instants(events: list[Event]) -> Text:
+    """Return the first of some lines, each with its instant."""
+    told = [
+        say("'{text}' at {at} s", text=shown(event.text), at=f"{event.virtual:g}")
+        for event in events[:MOST_TOLD]
+    ]
+    return joined(*told, "…" if len(events) > MOST_TOLD else "", by=", ")

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Literal
 
 from grader.base.i18n.message import say
 from grader.run.probe_link import LEVELS
-from grader.verdict.checks.declare import Parameters, kind
+from grader.verdict.checks.declare import kind
 from grader.verdict.checks.faults import line_of
-from grader.verdict.checks.lines import CALLS, lines, logger_of, numbered, such_lines
+from grader.verdict.checks.lines import CALLS, level_of, lines, logger_of, numbered, such_lines
+from grader.verdict.checks.parameters import Parameters
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     from grader.verdict.use import Use
 
 LOST = 1.0  # seconds before a node ended, whose log records may be lost
-SHOWN = {number: name.upper() for name, number in LEVELS.items()}
 
 
 class Logged(Parameters):
@@ -30,7 +30,7 @@ class Logged(Parameters):
 @kind("log.logger", Logged, depends=["run.starts"], after=["log.counts"])
 def logger(use: Use[Logged]) -> Passed:
     """The lines go through the node's own logger."""
-    run, level = use.observed, use.given.level
+    run, level = use.evidence.run, use.given.level
     expected = say("log records of the node on /rosout, level {level}", level=level.upper())
     events = _in_scenario(use, expected) if use.in_scenario else _counted(use)
     names = {logger_of(use)} if use.in_scenario else {node.logger for node in run.nodes}
@@ -45,13 +45,24 @@ def logger(use: Use[Logged]) -> Passed:
             variant="published",
             where=line_of(use.evidence, events[0].record),
         )
+    records = [event.record for event in events if event.record is not None]
+    forged = [record for record in records if record.is_forged(run.began)]
+    if len(forged) > 1:  # (one can be due to a clock that was set)
+        raise Failed(
+            "run.faked_log",
+            expected=expected,
+            actual=say(
+                "{count} records have a time at which no logger can have made them",
+                count=len(forged),
+            ),
+            variant="stamped",
+            where=line_of(use.evidence, forged[0]),
+        )
     gone = run.ended_by_itself or bool(run.watch.missing)
     for event in events:
         if gone and event.source == "faked" and event.wall > events[-1].wall - LOST:
             continue  # the last records of a node that ends or is destroyed may be lost
-        place, count = line_of(use.evidence, event.record), use.evidence.id_of("log.counts")
-        caught = use.evidence.has_mistake(count, "node.error_logged")
-        _judge_record(event, names, level, expected, place, follows=count if caught else "")
+        _judge_record(event, names, level, expected, line_of(use.evidence, event.record))
     node = run.counting_node
     name = node.logger if node is not None else min(names, default="")
     said = say(
@@ -62,7 +73,7 @@ def logger(use: Use[Logged]) -> Passed:
 
 def _counted(use: Use[Logged]) -> list[Event]:
     """Return the lines of the count of a run that is driven line by line."""
-    run = use.observed
+    run = use.evidence.run
     events = run.watch.counted
     if not events or run.confirmed is False or run.flooded:
         raise Blocked(by=use.evidence.id_of("log.counts"))
@@ -84,9 +95,7 @@ def _in_scenario(use: Use[Logged], expected: str) -> list[Event]:
     return found
 
 
-def _judge_record(
-    event: Event, names: set[str], level: str, expected: str, where: Where, *, follows: str = ""
-) -> None:
+def _judge_record(event: Event, names: set[str], level: str, expected: str, where: Where) -> None:
     """Raise Failed unless the line is a record of the node's own logger, with this level."""
     if event.source == "print":
         text = event.text[:80]
@@ -108,14 +117,12 @@ def _judge_record(
     if event.record is not None and event.record.name not in names:
         raise _other_logger(expected, event.record.name, where)
     if event.record is not None and event.record.level != LEVELS[level]:
-        found = SHOWN.get(event.record.level, str(event.record.level))
         raise Failed(
             "run.wrong_level" if level == "info" else "log.wrong_level",
             expected=expected,
-            actual=say("level {level}", level=found),
+            actual=say("level {level}", level=level_of(event.record)),
             where=where,
             words={"level": level},
-            follows=follows,
         )
 
 

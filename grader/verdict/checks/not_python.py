@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from grader.base.i18n.message import joined, say
 from grader.base.shown import shown
 from grader.mistakes.recognised import RecognisedMistake
@@ -14,6 +16,11 @@ from grader.package.source.slips import slip_of
 from grader.report.model import Where
 from grader.verdict.checks.parsed import printable_reason
 from grader.verdict.outcome import Failed
+
+GUESS = re.compile(
+    r"(?:\.|, )? ?(?:Maybe you meant|Perhaps you forgot|[Dd]id you (?:mean|forget)) .*", re.DOTALL
+)
+"""What Python adds to an error: for a text without quotes it asks for '=='."""
 
 
 def unreadable_module(path: str, found: bytes) -> RecognisedMistake | None:
@@ -59,13 +66,18 @@ def not_python(path: str, fault: PythonFault, found: bytes) -> Failed:
     )
 
 
+def without_guess(error: str) -> str:
+    """Return Python's error without what it thinks was meant, for which a slip has the real name."""
+    return error[: guess.start()] if (guess := GUESS.search(error)) else error
+
+
 def _slip(path: str, text: str, kind: str, slip: Slip) -> Failed:
     mistake = KINDS.get(slip.cause, "source.syntax_error")
     params = {"error": str(text), "kind": kind}
     return Failed(
         mistake,
         expected=say("a file that Python can read"),
-        actual=joined(text, description(slip), by=", "),
+        actual=joined(without_guess(text), description(slip), by=", "),
         where=Where(file=path, line=slip.line),
         variant=slip.variant,
         params={"what": slip.variant} if slip.cause in ("pasted", "document") else params,

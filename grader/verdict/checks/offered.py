@@ -10,7 +10,7 @@ from grader.base.nearest import nearest, with_difference
 from grader.verdict.outcome import Failed, Passed
 
 if TYPE_CHECKING:
-    from grader.verdict.checks.declare import Parameters
+    from grader.verdict.checks.parameters import Parameters
     from grader.verdict.use import Use
 
 

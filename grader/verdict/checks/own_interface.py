@@ -10,7 +10,7 @@ from grader.course.interfaces import ros_interfaces
 from grader.package.source.interface_faults import InterfaceFault, interface_texts
 from grader.report.model import Where
 from grader.verdict.checks.cmake import CMAKE, cmake_error
-from grader.verdict.outcome import Failed
+from grader.verdict.outcome import Blocked, Failed
 
 if TYPE_CHECKING:
     from grader.package.submission import Package
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 STOPPED = re.compile(r"^Failed +<<< (\w+)", re.MULTILINE)
 NO_MODULE = re.compile(r"^ModuleNotFoundError: No module named '(\w+)(?:\.\w+)*'", re.MULTILINE)
+BUILT = ("interface.field_missing", "interface.field_type")
+"""What is wrong with an interface that is built all the same."""
 MODULE = re.compile(r"/site-packages/(?P<package>\w+)/(?:msg|srv|action)/_\w+\.py")
 """A module that ROS generates for Python, in a traceback."""
 
@@ -69,8 +71,17 @@ def fault_in(package: Package, path: str) -> Failed | None:
 
 
 def build_stopped(evidence: Evidence, log: str, expected: str) -> Failed | None:
-    """Return why the build of a package of interfaces stopped; None if that did not stop it."""
-    for name in STOPPED.findall(log):
+    """Return why the build of a package of interfaces stopped; None if that did not stop it.
+
+    Raises Blocked if a check of that package has said why.
+    """
+    stopped = STOPPED.findall(log)
+    for use in evidence.assignment.checks:
+        about = str(use.with_.get("package") or use.with_.get("type", "")).partition("/")[0]
+        told = use.kind.startswith("interface.") and evidence.has_failed(use.id)
+        if told and about in stopped and not evidence.has_mistake(use.id, *BUILT):
+            raise Blocked(by=use.id)
+    for name in stopped:
         package = evidence.submission.package(name)
         found = fault_of_package(package) if package is not None else None
         if found is not None:

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any
 from grader.base.i18n.message import say
 from grader.base.nearest import nearest, with_difference
 from grader.course.values import Form, shown_value
-from grader.verdict.checks.declare import Parameters, kind
+from grader.verdict.checks.declare import kind
+from grader.verdict.checks.foreign import must_own_parameters
+from grader.verdict.checks.parameters import Parameters
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 
 if TYPE_CHECKING:
@@ -34,6 +36,7 @@ class Accepts(Parameters):
 def declared(use: Use[Declared]) -> Passed:
     """The node has the parameter {name}"""
     given = use.given
+    must_own_parameters(use)
     found = use.seen.parameters.get(use.node)
     if found is None:
         raise Inconclusive(say("the parameters of {node} could not be read", node=use.node))
@@ -70,10 +73,10 @@ def declared(use: Use[Declared]) -> Passed:
     if form is not None and not form.fits(own.value):
         raise Failed(
             "parameter.wrong_value",
-            expected=str(form),
+            expected=form.words,
             actual=shown_value(own.value),
             where=where,
-            words={**words, "wanted": str(form)},
+            words={**words, "wanted": form.words},
         )
     return Passed(actual=f"{own.name}: {shown_value(own.value)} ({own.type})")
 
@@ -90,6 +93,7 @@ def accepts(use: Use[Accepts]) -> Passed:
             raise Blocked(by=other.id)
     if name not in done.accepted and (use.run.ended_by_itself or use.seen.stuck is not None):
         raise Blocked(by="run.stays")
+    must_own_parameters(use)
     reason = done.accepted.get(name, say("the node did not answer"))
     if reason:
         raise Failed(
@@ -97,6 +101,16 @@ def accepts(use: Use[Accepts]) -> Passed:
             expected=say("ros2 param set changes {name}", name=name),
             actual=reason,
             where=use.call("add_on_set_parameters_callback", "declare_parameter", mentions=name),
+            words={"name": name},
+        )
+    if name in done.unproven:
+        raise Failed(
+            "parameter.no_effect",
+            expected=say("the node's own parameter {name} changes", name=name),
+            actual=say("it says yes, and tells no change on /parameter_events")
+            if done.unproven[name] == "event"
+            else say("it says yes, and the parameter does not have the new value"),
+            where=use.call("create_service", "declare_parameter", mentions=name),
             words={"name": name},
         )
     return Passed(actual=say("accepted at {at} s", at=f"{done.at:g}"))

@@ -7,25 +7,17 @@ from typing import TYPE_CHECKING
 from pydantic import Field
 
 from grader.base.i18n.message import say
-from grader.course.values import Form
-from grader.verdict.checks.declare import EDGE, Parameters, kind
+from grader.course.values import Form, forms_in_words
+from grader.verdict.checks.declare import kind
 from grader.verdict.checks.fields import must_fit
+from grader.verdict.checks.foreign import must_own_service
 from grader.verdict.checks.offered import must_offer
+from grader.verdict.checks.parameters import EDGE, Parameters
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
     from grader.run.observations import Role
     from grader.verdict.use import Use
-
-OWN = (
-    "describe_parameters",
-    "get_parameter_types",
-    "get_parameters",
-    "list_parameters",
-    "set_parameters",
-    "set_parameters_atomically",
-    "get_type_description",
-)
 
 
 class Service(Parameters):
@@ -36,7 +28,7 @@ class Service(Parameters):
 
 
 class Answers(Parameters):
-    """The form of fields in the answer to the call `after`, within a time (s)."""
+    """The form of fields in the answer to the call `after`, within a time (s; 0: at its instant)."""
 
     service: str
     within: float = Field(default=0.0, ge=0)
@@ -56,9 +48,8 @@ def calls(use: Use[Service]) -> Passed:
 
 
 def _must_have(role: Role, use: Use[Service]) -> Passed:
-    ends = (end for end in use.ends(role) if "/_action/" not in end.name)
-    own = [(end.name, end.type) for end in ends if end.name.rpartition("/")[2] not in OWN]
-    return must_offer(
+    own = [(end.name, end.type) for end in use.ends(role)]
+    passed = must_offer(
         use,
         own,
         use.given.service,
@@ -67,6 +58,8 @@ def _must_have(role: Role, use: Use[Service]) -> Passed:
         family="service",
         missing="service.missing" if role == "service" else "service.no_client",
     )
+    must_own_service(use, role, use.given.service)
+    return passed
 
 
 @kind("service.answers", Answers, after=["service.offers"], stimulus=["call"])
@@ -78,9 +71,10 @@ def answers(use: Use[Answers]) -> Passed:
         raise use.unreached()
     if not done.heard:
         use.blocked_by("service.offers")
+    must_own_service(use, "service", given.service)
     where = use.call("create_service", mentions=given.service)
     words = {"service": given.service}
-    expected = ", ".join(f"{path}: {form}" for path, form in given.each.items())
+    expected = forms_in_words(given.each)
     if done.replied is None and (use.run.ended_by_itself or use.seen.stuck is not None):
         raise Blocked(by="run.stays")
     if done.replied is None or done.replied > done.at + given.within + EDGE:

@@ -553,10 +553,10 @@ def _pasted_above(data: bytes, slip: Slip | None, later: list[int]) -> Pasted | 
     numbers = numbers_above(data)
     if numbers:
         return Slip("pasted", "number_lines", 1, "1", other=numbers)
-    within = b"#!/" in data.partition(b"\n")[0][1:]  # behind a line number, or a patch's sign
+    within = b"#!/" in data.partition(b"\n")[0][1:]  # behind a line number
     if slip is not None and slip.variant == "around" and later and slip.line < later[0]:
         return slip
-    if slip is not None and within and slip.variant in ("patch", "numbers") and slip.line == 1:
+    if slip is not None and within and slip.variant == "numbers" and slip.line == 1:
         return slip
     return _above_shebang(data, later[0] if later else 2)
 

@@ -12,13 +12,12 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import say
 from grader.package.source.names import dotted, last_part
 from grader.verdict.checks.declare import RUN, check
-from grader.verdict.checks.faults import going_on, line_of, node_file, words
+from grader.verdict.checks.faults import going_on, line_of, node_file, only_here, words
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
 
 if TYPE_CHECKING:
     from grader.package.source.timer import Timer
-    from grader.run.run import Run
     from grader.verdict.evidence import Evidence
 
 
@@ -27,11 +26,13 @@ def spins(evidence: Evidence) -> Passed:
     """The node spins, so that ROS calls its callbacks."""
     run = evidence.run
     # a flood ends the run: whether the node answered before that would be chance
+    if run.confirmed is False and run.seen is not None:
+        raise _only_when_marked(evidence)
     if run.confirmed is False or run.flooded:
         raise Blocked(by=going_on(evidence))
     if run.done:
         return Passed(actual=say("it ended by itself, as it must"))
-    if not is_spun(run):
+    if not run.is_spun:
         raise Blocked(by="run.stays") if run.exits else _never(evidence)
     # of a single line, the instant is chance; log.counts says that no more came
     if not run.watch.while_still or len(run.watch.counted) == 1:
@@ -44,6 +45,17 @@ def spins(evidence: Evidence) -> Passed:
         actual=say("lines come while ROS time stands still: no timer of the node makes them"),
         where=line_of(evidence, run.watch.counted[0].record),
         variant="beside",
+        words=words(evidence),
+    )
+
+
+def _only_when_marked(evidence: Evidence) -> Failed:
+    """Return the failure of a node of which nothing is seen where a person runs it."""
+    return Failed(
+        "run.only_when_marked",
+        expected=say("a node that works in a plain ros2 run too"),
+        actual=say("it works under simulated time, but does nothing in a plain ros2 run"),
+        where=only_here(evidence),
         words=words(evidence),
     )
 
@@ -82,25 +94,6 @@ def _what_is_there(evidence: Evidence) -> str:
 
 def _named(node: ast.AST) -> str:
     return last_part(dotted(node))
-
-
-def is_spun(run: Run) -> bool:
-    """Whether something of a run shows that its node spins: what does not is judged nowhere else."""
-    return run.done or _answers(run) or _follows(run)
-
-
-def _answers(run: Run) -> bool:
-    """Whether a service of the node that counts has answered; of any node if it is unknown."""
-    node = run.counting_node
-    if node is not None and len(run.nodes) > 1:
-        return node.answers
-    return run.watch.settled or any(each.answers for each in run.nodes)
-
-
-def _follows(run: Run) -> bool:
-    """Whether lines came at their instants on /clock, which only a node that spins receives."""
-    watch = run.watch
-    return watch.clock == "virtual" and any(event.due is not None for event in watch.counted)
 
 
 def timer_of_other_clock(evidence: Evidence) -> Timer | None:

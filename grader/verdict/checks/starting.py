@@ -25,6 +25,7 @@ from grader.verdict.checks.faults import (
     traceback_of,
     words,
 )
+from grader.verdict.checks.given_file import given_file_must_be_installed
 from grader.verdict.checks.installed import executable_must_be_there
 from grader.verdict.checks.own_interface import fault_in_traceback
 from grader.verdict.node_files import source_of_node
@@ -49,7 +50,15 @@ SIGNALLED = 240  # ros2 run exits with minus the signal that ended the node, mod
 )
 def starts(evidence: Evidence) -> Passed:
     """ros2 run starts the node, and the node keeps running."""
+    given_file_must_be_installed(evidence)
     run = evidence.run
+    if run.instead:
+        raise Failed(
+            "entry_point.other_installed",
+            variant="program",
+            expected=say("the node is of the program that ros2 run starts"),
+            actual=say("the node is of another program: {command}", command=shown(run.instead)),
+        )
     if run.started and not _died_first(evidence):
         seconds = f"{run.node_seconds or 0:.1f}"
         said = say("the node was on the ROS graph after {seconds} s", seconds=seconds)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import say
 from grader.verdict.checks.declare import RUN, check
 from grader.verdict.checks.faults import flood, node_file, resource, traceback_of, words
+from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -62,6 +63,7 @@ def stays(evidence: Evidence) -> Passed:
             actual=say("from {at} s on, the node no longer answers", at=f"{run.seen.stuck:g}"),
             where=node_file(evidence),
             words=words(evidence),
+            variant="service" if _asks_a_service(evidence) else "",
         )
     return Passed()
 
@@ -70,3 +72,9 @@ def _is_stuck(run: Run) -> bool:
     """Whether it is this node of a run that does not answer; each, if it is not known which."""
     silent = run.seen.silent if run.seen is not None else []
     return not silent or any(node.name in silent for node in run.nodes)
+
+
+def _asks_a_service(evidence: Evidence) -> bool:
+    """Whether the node has a client of a service, whose answer it may wait for."""
+    source = source_of_node(evidence)
+    return source is not None and bool(source.calls_of("create_client"))

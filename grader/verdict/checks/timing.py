@@ -16,26 +16,20 @@ from grader.base.i18n.message import Value, say
 from grader.mistakes.fixes.node_pace import throttled
 from grader.mistakes.fixes.node_timer import value_of
 from grader.package.source.counter import targets_of
-from grader.package.source.names import calls_in, dotted
+from grader.package.source.names import dotted
 from grader.package.source.node import NodeSource
-from grader.package.source.period import (
-    Origin,
-    is_right,
-    number_in,
-    seconds_of,
-    timers_of_lines,
-    wrong_number,
-)
+from grader.package.source.period import is_right, number_in, seconds_of, timers_of_lines
 from grader.package.source.place import place_of
 from grader.package.source.sleeps import longest_sleep
 from grader.package.source.timer import Timer
 from grader.report.model import Where
 from grader.run.clock import GRID
 from grader.run.run import WALL_TOLERANCE
-from grader.verdict.checks.declare import Parameters, kind
+from grader.verdict.checks.declare import kind
 from grader.verdict.checks.faults import line_of, words
 from grader.verdict.checks.instants import stops_before, wrong_gaps
 from grader.verdict.checks.lines import CALLS, numbered, records, such_lines
+from grader.verdict.checks.parameters import Parameters
 from grader.verdict.checks.spinning import timer_of_other_clock
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Passed
@@ -48,7 +42,6 @@ if TYPE_CHECKING:
 SHORT = 0.1  # seconds, below which a text shows milliseconds
 WALL_SLACK = 0.02  # seconds, beside the share of a period on the wall clock
 MOST_INSTANTS = 5  # of those whose lines are counted in a text
-MILLISECONDS = (1000.0, 0.001)  # by which ms are divided or multiplied
 LONGEST_CODE = 80  # characters of a calculation in a text
 
 
@@ -127,11 +120,8 @@ def _line_by_line(evidence: Evidence, wanted: float) -> Passed:
         if slow:
             actual = say("a line about every {period} s", period=_shown(slow))
             raise _wrong_period(evidence, expected, actual, seconds=slow)
-        if evidence.has_mistake(count, "node.timer_again"):
-            at_a_time = Counter(event.due for event in on_time).values()
-            shown = ", ".join(map(str, list(at_a_time)[:MOST_INSTANTS]))
-            actual = say("more and more lines at a time: {counts}, …", counts=shown)
-            raise _wrong_period(evidence, expected, actual, seconds=wanted)
+        if more := _more_and_more(evidence, on_time):
+            raise _wrong_period(evidence, expected, more, seconds=wanted)
         each = say(
             "{count} lines, each at its instant (to 1 ms of ROS time), none in between",
             count=len(on_time),
@@ -145,6 +135,18 @@ def _line_by_line(evidence: Evidence, wanted: float) -> Passed:
     if evidence.has_failed(count) and abs(seen - wanted) <= wanted / GRID:
         raise Blocked(by=count)  # the timer is right, and its lines are too many
     raise _wrong_period(evidence, expected, _seen_every(evidence, seen), seconds=seen)
+
+
+def _more_and_more(evidence: Evidence, on_time: Sequence[Event]) -> str:
+    """Return how many lines came at each instant, if a timer is made again and again; "" if none is."""
+    at_a_time = list(Counter(event.due for event in on_time).values())
+    source = source_of_node(evidence)
+    if source is None or at_a_time[-1:] <= at_a_time[:1]:
+        return ""
+    if not any(_is_made_again(source, timer) for timer in source.timers):
+        return ""
+    shown = ", ".join(map(str, at_a_time[:MOST_INSTANTS]))
+    return say("more and more lines at a time: {counts}, …", counts=shown)
 
 
 def _seen_every(evidence: Evidence, seconds: float) -> str:
@@ -328,12 +330,6 @@ def told_of_period(source: NodeSource, wanted: float) -> Told:
     seconds = number_in(value)
     if value is not None and seconds is not None and not is_right(seconds, wanted):
         return Told(place_of(source, value), "named", {"value": name})
-    origin = wrong_number(source, timer.period, wanted) if len(timers) == 1 else None
-    if origin is not None:
-        return _told_of_origin(source, origin, wanted)
-    late = _set_late(source, timer, wanted)
-    if late is not None:
-        return late
     if _is_made_again(source, timer):
         return Told(place_of(source, timer.call), "several")
     known = seconds_of(source, timer.period) if timer.period is not None else None
@@ -357,47 +353,6 @@ def _short_code(source: NodeSource, part: ast.expr | None) -> str:
     """Return the code of a part of a line; "" if it is long or has several lines."""
     code = source.module_of(part).text.code(part) if part is not None else ""
     return "" if "\n" in code or len(code) > LONGEST_CODE else code
-
-
-def _told_of_origin(source: NodeSource, origin: Origin, wanted: float) -> Told:
-    """Return what to say of a number from which the period is calculated."""
-    where, text = place_of(source, origin.number), source.module_of(origin.number).text
-    known: dict[str, Value] = {
-        "old": text.code(origin.number),
-        "written": origin.right(wanted),
-        "line": where.line or 0,
-    }
-    code = _short_code(source, origin.calculation)
-    if not code:
-        return Told(where, "origin", known)
-    known |= {"code": code, "seconds": f"{origin.seconds:g}", "rate": f"{1 / origin.seconds:.3g}"}
-    if origin.is_unit:
-        milliseconds = float(origin.right(wanted)) in MILLISECONDS
-        return Told(where, "milliseconds" if milliseconds else "unit", known)
-    return Told(where, "rate" if origin.power < 0 and origin.seconds < 1 else "calculated", known)
-
-
-def _set_late(source: NodeSource, timer: Timer, wanted: float) -> Told | None:
-    """Return what to say of a period that a class sets after the __init__ of its base made the timer."""
-    name = dotted(timer.period) if timer.period is not None else ""
-    for statement in source.own_nodes:
-        if not isinstance(statement, ast.Assign) or name not in targets_of(statement):
-            continue
-        function = source.function_around(statement)
-        if function is None or function is timer.function or function.name != "__init__":
-            continue
-        first = [call for call, called in calls_in(function) if called == "super().__init__"]
-        if not first or first[0].lineno > statement.lineno:
-            continue
-        if is_right(number_in(statement.value), wanted):
-            words: dict[str, Value] = {
-                "code": name,
-                "line": statement.lineno,
-                "at": timer.call.lineno,
-                "above": first[0].lineno,
-            }
-            return Told(place_of(source, statement), "late", words)
-    return None
 
 
 def _is_made_again(source: NodeSource, timer: Timer) -> bool:

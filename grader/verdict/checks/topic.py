@@ -9,12 +9,17 @@ from pydantic import Field
 
 from grader.base.i18n.message import Message as Text
 from grader.base.i18n.message import joined, say, say_plural
+from grader.base.i18n.times import times
 from grader.base.nearest import nearest, with_difference
 from grader.course.scenario import DEEDS
-from grader.course.values import Form, first_misfit, shown_value
-from grader.verdict.checks.declare import EDGE, Parameters, kind
+from grader.course.values import Form, first_misfit, forms_in_words, shown_value
+from grader.course.worlds import is_of_world
+from grader.run.observations import CREATES, refused
+from grader.verdict.checks.declare import ANSWERS, kind
 from grader.verdict.checks.fields import is_integer_bits
+from grader.verdict.checks.foreign import must_be_alone, must_send_itself
 from grader.verdict.checks.instants import stops_before, usual_gap, wrong_gaps
+from grader.verdict.checks.parameters import EDGE, Parameters
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -22,7 +27,6 @@ if TYPE_CHECKING:
     from grader.verdict.use import Use
 
 CLOCK_STARTS = 0.001  # seconds of ROS time
-CALLS: dict[str, str] = {"publisher": "create_publisher", "subscription": "create_subscription"}
 
 
 class Publishes(Parameters):
@@ -78,7 +82,7 @@ class Quality(Parameters):
     durability: Literal["", "volatile", "transient_local"] = ""
 
 
-@kind("topic.publishes", Publishes, after=["topic.subscribes"])
+@kind("topic.publishes", Publishes, after=["topic.subscribes", *ANSWERS])
 def publishes(use: Use[Publishes]) -> Passed:
     """The node publishes {topic}, of the type {type}"""
     given = use.given
@@ -86,9 +90,10 @@ def publishes(use: Use[Publishes]) -> Passed:
         "{topic} ({type}) from {node}", topic=given.topic, type=given.type, node=use.node
     )
     _must_have("publisher", given.topic, given.type, use, expected)
+    must_send_itself(use, given.topic)
     found = use.messages(given.topic)
     if len(found) < given.at_least:
-        if not found and not use.seen.of_topic(given.topic):
+        if not found and not use.sent(given.topic):
             use.require_window()
             _must_hear(use, given.topic)
             raise Failed(
@@ -129,6 +134,7 @@ def subscribes(use: Use[Subscribes]) -> Passed:
     given = use.given
     expected = say("{node} subscribes to {topic} ({type})", **given.model_dump(), node=use.node)
     _must_have("subscription", given.topic, given.type, use, expected)
+    must_be_alone(use, use.node)
     _must_match(use, given.topic)
     return Passed(actual=say("{node} subscribes to {topic}", node=use.node, topic=given.topic))
 
@@ -138,7 +144,7 @@ def _must_have(role: Role, topic: str, type_: str, use: Use[Parameters], expecte
     own = use.ends(role)
     here = [end for end in own if end.name == topic]
     right = [end for end in here if end.type == type_]
-    where = use.call(CALLS[role], mentions=topic)
+    where = use.call(CREATES[role], mentions=topic)
     if right and right[0].differs:
         raise Failed(
             "topic.other_definition",
@@ -168,7 +174,7 @@ def _must_have(role: Role, topic: str, type_: str, use: Use[Parameters], expecte
             "topic.wrong_name",
             expected=expected,
             actual=with_difference(", ".join(names), close, topic),
-            where=use.call(CALLS[role], mentions=close),
+            where=use.call(CREATES[role], mentions=close),
             params={"name": close},
             words={"topic": topic},
         )
@@ -180,8 +186,8 @@ def _must_have(role: Role, topic: str, type_: str, use: Use[Parameters], expecte
             actual=say(
                 "{node} has a {end} on {topic} instead", node=use.node, end=other, topic=topic
             ),
-            where=use.call(CALLS[other], mentions=topic),
-            words={"topic": topic, "call": CALLS[role]},
+            where=use.call(CREATES[other], mentions=topic),
+            words={"topic": topic, "call": CREATES[role]},
         )
     missing = "topic.no_publisher" if role == "publisher" else "topic.no_subscription"
     raise Failed(
@@ -198,26 +204,19 @@ def _must_match(use: Use[Parameters], topic: str) -> None:
     asked = [end for end in use.ends("subscription") if end.name == topic]
     for publisher in use.seen.ends_of("publisher", topic):
         for end in asked:
-            weak = [
-                (mine, theirs)
-                for mine, theirs, strong in (
-                    (end.reliability, publisher.reliability, "reliable"),
-                    (end.durability, publisher.durability, "transient_local"),
-                )
-                if mine == strong and theirs != strong
-            ]
-            if weak and publisher.node != end.node:
+            weak = refused(publisher, end)
+            if weak is not None and publisher.node != end.node:
                 raise Failed(
                     "topic.qos_mismatch",
                     expected=say("QoS that fits {node}'s publisher", node=publisher.node),
                     actual=say(
                         "the subscription asks for {mine}, the publisher of {node} offers {theirs}",
-                        mine=weak[0][0],
-                        theirs=weak[0][1],
+                        mine=weak[0],
+                        theirs=weak[1],
                         node=publisher.node,
                     ),
                     where=use.call("create_subscription", mentions=topic),
-                    params={"asked": weak[0][0], "offered": weak[0][1]},
+                    params={"asked": weak[0], "offered": weak[1]},
                     words={"topic": topic},
                 )
 
@@ -228,6 +227,7 @@ def period(use: Use[Period]) -> Passed:
     given = use.given
     every = f"{given.period:g}"
     expected = say("one message every {period} s", period=every)
+    must_send_itself(use, given.topic)
     found = use.messages(given.topic)
     if not found:
         raise _nothing(use)
@@ -290,13 +290,14 @@ def _nothing(use: Use[Period] | Use[Each]) -> Failed:
 def values(use: Use[Each]) -> Passed:
     """The messages on {topic} have the right values"""
     given = use.given
+    must_send_itself(use, given.topic)
     found = use.messages(given.topic)
     if not found:
-        if use.seen.of_topic(given.topic):
+        if use.sent(given.topic):
             use.require_window()
             raise Failed(
                 "topic.none_then",
-                expected=_forms(given.each),
+                expected=forms_in_words(given.each),
                 actual=say("no message from {first} s to {last} s", **_times(use)),
                 where=use.call("publish", mentions=given.topic),
                 words={"topic": given.topic},
@@ -312,6 +313,7 @@ def values(use: Use[Each]) -> Passed:
 def silent(use: Use[Silent]) -> Passed:
     """No message comes on {topic} at that time"""
     topic = use.given.topic
+    must_send_itself(use, topic)
     found = [message for message in use.messages(topic) if message.at > CLOCK_STARTS]
     if found:
         raise Failed(
@@ -322,7 +324,7 @@ def silent(use: Use[Silent]) -> Passed:
             words={"topic": topic},
         )
     use.require_window()
-    if not use.seen.of_topic(topic):
+    if not use.sent(topic):
         use.blocked_by("topic.publishes", topic=topic)
     return Passed()
 
@@ -337,22 +339,32 @@ def _must_fit(
     path, form, value = wrong
     _must_be_new(message.topic, path, use)
     garbage = is_integer_bits(value)
-    stimulus = use.plan.stimulus(use.use.after)
-    is_set = stimulus is not None and stimulus.set is not None
+    of_world = is_of_world(use.plan.world, message.topic)
+    mistake = "world.other_state" if of_world else "topic.wrong_value"
     raise Failed(
-        "topic.int_in_float" if garbage else "topic.wrong_value",
-        expected=f"{path}: {form}",
+        "topic.int_in_float" if garbage else mistake,
+        expected=joined(path, form.words, by=": "),
         actual=say(
             "{path}: {value}, in the message at {at} s",
             path=path,
             value=shown_value(value),
             at=f"{message.at:g}",
         ),
-        where=use.call("publish", mentions=message.topic),
+        where=use.field(path, topic=message.topic)
+        if garbage
+        else use.call("publish", mentions=message.topic),
         params={"field": path},
-        words={"topic": message.topic, "field": path, "wanted": str(form)},
-        variant="changed" if is_set and not garbage else "",
+        words={"topic": message.topic, "field": path, "wanted": form.words},
+        variant="" if garbage or of_world else _cause_of_value(use),
     )
+
+
+def _cause_of_value(use: Use[Parameters]) -> str:
+    """Return the variant of a wrong value: what the node is to work it out from."""
+    stimulus = use.plan.stimulus(use.use.after)
+    if stimulus is None:
+        return ""
+    return "changed" if stimulus.set is not None else "reaction" if stimulus.typed else ""
 
 
 def _must_be_new(topic: str, path: str, use: Use[Parameters]) -> None:
@@ -363,10 +375,6 @@ def _must_be_new(topic: str, path: str, use: Use[Parameters]) -> None:
             continue
         if any(found.params.get("field") == path for found in result.mistakes):
             raise Blocked(by=other.id)
-
-
-def _forms(each: dict[str, Form]) -> str:
-    return ", ".join(f"{path}: {form}" for path, form in each.items())
 
 
 def _times(use: Use[Parameters]) -> dict[str, str]:
@@ -387,13 +395,16 @@ def reacts(use: Use[Reacts]) -> Passed:
         use.blocked_by("topic.subscribes")
     if use.end < begin + given.within - EDGE:
         raise use.unreached()
+    must_send_itself(use, given.topic)
     last = begin + given.within + EDGE
-    found = [m for m in use.seen.of_topic(given.topic) if begin - EDGE <= m.at <= last]
+    found = [m for m in use.sent(given.topic) if begin - EDGE <= m.at <= last]
     if not found:
         use.blocked_by("topic.publishes", topic=given.topic)
         raise Failed(
             "topic.no_reaction",
-            expected=joined(expected, _forms(given.each), by=": ") if given.each else expected,
+            expected=joined(expected, forms_in_words(given.each), by=": ")
+            if given.each
+            else expected,
             actual=say("no message came in that time"),
             where=use.call("create_subscription"),
             words={"topic": given.topic},
@@ -404,7 +415,7 @@ def reacts(use: Use[Reacts]) -> Passed:
     if given.at_most is not None and len(found) > given.at_most:
         raise Failed(
             "topic.reacts_too_often",
-            expected=joined(expected, f"{given.at_most}×", by=": "),
+            expected=joined(expected, times(1, given.at_most), by=": "),
             actual=say_plural("{count} message", "{count} messages", len(found)),
             where=use.call("publish"),
             words={"topic": given.topic},
@@ -416,6 +427,7 @@ def reacts(use: Use[Reacts]) -> Passed:
 def quality(use: Use[Quality]) -> Passed:
     """The {role} of {topic} has the right quality of service"""
     given = use.given
+    must_be_alone(use, use.node)
     ends = [end for end in use.ends(given.role) if end.name == given.topic]
     if not ends:
         use.blocked_by("topic.publishes" if given.role == "publisher" else "topic.subscribes")
@@ -424,7 +436,7 @@ def quality(use: Use[Quality]) -> Passed:
             "topic.no_publisher" if given.role == "publisher" else "topic.no_subscription",
             expected=given.topic,
             actual=say("{node} has no such end on the ROS graph", node=use.node),
-            where=use.call(CALLS[given.role], mentions=given.topic),
+            where=use.call(CREATES[given.role], mentions=given.topic),
             words={"topic": given.topic, "short": short or "…"},
         )
     for wanted, found in (
@@ -436,7 +448,7 @@ def quality(use: Use[Quality]) -> Passed:
                 "topic.wrong_qos",
                 expected=wanted,
                 actual=found,
-                where=use.call(CALLS[given.role], mentions=given.topic),
+                where=use.call(CREATES[given.role], mentions=given.topic),
                 params={"found": found},
                 words={"topic": given.topic, "wanted": wanted},
             )

@@ -9,21 +9,24 @@ from typing import TYPE_CHECKING, Any, Literal
 from pydantic import Field, model_validator
 
 from grader.base.i18n.message import Message as Text
-from grader.base.i18n.message import say, say_plural
+from grader.base.i18n.message import joined, say, say_plural
+from grader.base.i18n.times import times
 from grader.base.part import Part
 from grader.base.yaml_model import broken
-from grader.course.values import Form
+from grader.course.values import Form, forms_in_words
 from grader.course.worlds import BUMP, WORLDS
 from grader.run.observations import Pose
-from grader.verdict.checks.declare import EDGE, Parameters, kind
+from grader.verdict.checks.declare import kind
 from grader.verdict.checks.fields import is_integer_bits, must_fit
+from grader.verdict.checks.foreign import of_the_world_by_itself
+from grader.verdict.checks.parameters import EDGE, Parameters
 from grader.verdict.outcome import Failed, Passed
 
 if TYPE_CHECKING:
     from grader.verdict.use import Use
 
 AT_REST = 0.01  # m: a turtle that moved less stands still
-LONGEST_STEP = 0.5  # m between two poses: a longer one is no driving
+LONGEST_STEP = 0.5  # m between two poses: a longer one is no driving, whatever the world says
 CIRCLE_POINTS = 60  # of a circle that is drawn
 
 
@@ -45,7 +48,7 @@ class Path(Parameters):
 
 
 class Inside(Parameters):
-    """The turtle touches nothing, and stays `margin` m away from the edge of the field.
+    """The turtle touches nothing, and its centre stays `margin` m away from the edge of the field.
 
     It moves `at_least` m, and over an area whose longer side is at least `covers` m.
     """
@@ -100,6 +103,20 @@ def path(use: Use[Path]) -> Passed:
     )
     where = use.call("publish")
     words = {"turtle": use.given.turtle, "radius": f"{circle.radius:g}"}
+    put = _put_by_the_node(use, poses)
+    if put is not None:
+        raise Failed(
+            "world.off_path",
+            expected=expected,
+            actual=say(
+                "it is put at x={x}, y={y} at {at} s: it does not drive there",
+                x=f"{put.x:.2f}",
+                y=f"{put.y:.2f}",
+                at=f"{put.at:.2f}",
+            ),
+            where=use.call("call_async", "call", "create_client"),
+            words=words,
+        )
     if _length(poses) < AT_REST:
         use.blocked_by("topic.publishes", "topic.values")
         raise Failed(
@@ -135,7 +152,12 @@ def stays(use: Use[Inside]) -> Passed:
     if hit is not None:
         use.blocked_by("topic.values")
         _no_garbage(use)
-        never = not any(abs(pose.theta - poses[0].theta) > AT_REST for pose in poses)
+        before = [one for one in use.seen.messages if one.at <= hit.at]
+        never = not any(
+            path.endswith("angular.z") and isinstance(value, float) and abs(value) > AT_REST
+            for one in before
+            for path, value in _numbers(one.values)
+        )
         raise Failed(
             "world.hits_wall",
             expected=expected,
@@ -193,6 +215,7 @@ def _touching(use: Use[Inside], poses: Sequence[Pose]) -> Pose | None:
 
 def _events(use: Use[Parameters], event: str, turtle: str) -> list[dict[str, Any]]:
     """Return what happened to a turtle in the window."""
+    of_the_world_by_itself(use)
     return [
         one
         for one in use.in_window(use.seen.events, lambda one: float(one["at"]))
@@ -202,13 +225,13 @@ def _events(use: Use[Parameters], event: str, turtle: str) -> list[dict[str, Any
 
 @kind("world.event", Happens, after=["service.calls"])
 def event(use: Use[Happens]) -> Passed:
-    """What happens to {turtle}: {event}"""
+    """The event {event} comes to {turtle} as often as it should, and as it should"""
     given = use.given
     found = _events(use, given.event, given.turtle)
     least, most = given.bounds
     if len(found) > most:
         raise _too_often(use, found)
-    expected = ", ".join(f"{path}: {form}" for path, form in given.each.items()) or given.event
+    expected = forms_in_words(given.each) or given.event
     words = {"turtle": given.turtle, "service": given.event}
     where = use.call("call_async", "call", "create_client")
     if len(found) < least or most < math.inf:
@@ -218,7 +241,7 @@ def event(use: Use[Happens]) -> Passed:
         use.blocked_by("service.calls")
         raise Failed(
             "world.not_asked",
-            expected=expected if least == 1 else _times(given.event, least),
+            expected=expected if (least, most) == (1, math.inf) else _wanted(given),
             actual=_times(given.event, len(found))
             if found
             else say("nothing asked {turtle} for it", turtle=given.turtle),
@@ -230,6 +253,10 @@ def event(use: Use[Happens]) -> Passed:
     values = found[-1]
     must_fit(values, given.each, "world.wrong_request", where=where, words=words)
     return Passed(actual=say("it came at {at} s", at=f"{values['at']:g}"))
+
+
+def _wanted(given: Happens) -> Text:
+    return joined(given.event, times(*given.bounds), by=": ")
 
 
 def _times(event: str, count: int) -> Text:
@@ -247,7 +274,7 @@ def _too_often(use: Use[Happens], found: Sequence[dict[str, Any]]) -> Failed:
             "world.bumps",
             expected=say("{turtle} never runs into anything", turtle=given.turtle)
             if not most
-            else _times(given.event, most),
+            else _wanted(given),
             actual=say(
                 "it runs into something at {at} s, at x={x}, y={y}",
                 at=f"{at:.2f}",
@@ -259,12 +286,7 @@ def _too_often(use: Use[Happens], found: Sequence[dict[str, Any]]) -> Failed:
         )
     return Failed(
         "world.too_often",
-        expected=say_plural(
-            "{event}: at most {count} time",
-            "{event}: at most {count} times",
-            most,
-            event=given.event,
-        ),
+        expected=_wanted(given),
         actual=_times(given.event, len(found)),
         where=use.call("call_async", "call", "create_client"),
         words={"turtle": given.turtle, "service": given.event},
@@ -280,7 +302,7 @@ def _no_garbage(use: Use[Parameters]) -> None:
                     "topic.int_in_float",
                     expected=say("a number with a point in {path}", path=path),
                     actual=say("a whole number arrived as {value}", value=f"{value:g}"),
-                    where=use.call("publish", mentions=message.topic),
+                    where=use.field(path, topic=message.topic),
                     params={"field": path},
                     words={"topic": message.topic},
                 )
@@ -296,6 +318,7 @@ def _numbers(values: object, path: str = "") -> Iterator[tuple[str, object]]:
 
 
 def _poses(use: Use[Parameters], turtle: str) -> Sequence[Pose]:
+    of_the_world_by_itself(use)
     use.require_window()
     own = (pose for pose in use.seen.path if pose.turtle == turtle)
     return use.in_window(own, lambda pose: pose.at)
@@ -303,15 +326,39 @@ def _poses(use: Use[Parameters], turtle: str) -> Sequence[Pose]:
 
 def _length(poses: Sequence[Pose]) -> float:
     """Return how far (m) a turtle drives; where it is put elsewhere does not count."""
-    steps = [math.dist((a.x, a.y), (b.x, b.y)) for a, b in zip(poses, poses[1:])]
-    return sum(step for step in steps if step < LONGEST_STEP)
+    steps = zip(poses, poses[1:])
+    return sum(math.dist((a.x, a.y), (b.x, b.y)) for a, b in steps if not _is_put(a, b))
+
+
+def _is_put(before: Pose, after: Pose) -> bool:
+    """Whether a turtle was put elsewhere; older evidence shows only how far."""
+    return after.put or math.dist((before.x, before.y), (after.x, after.y)) >= LONGEST_STEP
+
+
+def _put_by_the_node(use: Use[Path], poses: Sequence[Pose]) -> Pose | None:
+    """Return the first pose after a teleport that the plan did not ask for."""
+    turtle, period = use.given.turtle, use.plan.clock.period
+    own = [
+        one.at
+        for one in use.plan.do
+        if (one.move is not None and one.move.turtle in ("", turtle))
+        or (one.call is not None and one.call.service.startswith(f"/{turtle}/teleport_"))
+    ]
+    return next(
+        (
+            pose
+            for pose in poses[1:]
+            if pose.put and not any(at - EDGE <= pose.at <= at + period + EDGE for at in own)
+        ),
+        None,
+    )
 
 
 def _parts(poses: Sequence[Pose]) -> list[list[Pose]]:
     """Return the parts of a path between the places to which a turtle was put."""
     parts = [[poses[0]]]
     for before, after in zip(poses, poses[1:]):
-        if math.dist((before.x, before.y), (after.x, after.y)) >= LONGEST_STEP:
+        if _is_put(before, after):
             parts.append([])
         parts[-1].append(after)
     return parts

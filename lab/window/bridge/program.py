@@ -1,14 +1,15 @@
 """The bridge's loop: takes commands, looks at the graph and at the topics, and says what is new.
 
 Commands (`do`):
-- `watch` says what is looked at from now on: `views`, and `series` (topic and field) of the plots;
+- `watch` says what is looked at from now on: `views`, `series` (topic and field) of the plots, and
+  whether a plot `seeks` a field that moves;
 - `drive` commands a `turtle`'s velocity: `linear` (m/s) and `angular` (rad/s);
 - `fields` asks for the numeric fields of a `topic`;
 - `parameters` asks for those of a `node`, `set` sets the one called `name` from `text`.
 The last three have an `id`, which the answer has too.
 
-Messages (`kind`): `ready`, `graph`, `log`, `turtles`, `samples`, `parameter_event`, and the answers
-`fields`, `parameters`, `set`.
+Messages (`kind`): `ready`, `graph`, `log`, `turtles`, `samples`, `moving`, `parameter_event`, and the
+answers `fields`, `parameters`, `set`.
 
 rclpy offers no guard condition of the graph, so the graph is compared with the one before, every
 0.4 s, while somebody looks.
@@ -27,6 +28,7 @@ from rclpy.qos import QoSProfile
 
 from lab.window.bridge.fields import message_type, numeric_fields
 from lab.window.bridge.graph import snapshot
+from lab.window.bridge.moving import Search
 from lab.window.bridge.parameters import KINDS, Parameters, parsed
 from lab.window.bridge.plots import Plots
 from lab.window.bridge.streams import Stream, logs
@@ -59,6 +61,7 @@ class Bridge:
         self.parameters = Parameters(self.node)
         self.turtles = Turtles(self.silent, self.parameters)
         self.plots = Plots(self.silent)
+        self.search = Search(self.silent)
         self.views: set[str] = set()
         self.graph: dict[str, Any] = {}
         self.graph_at = 0.0
@@ -93,6 +96,9 @@ class Bridge:
         self.look_at_events()
         self.look_at_turtles()
         self.look_at_logs()
+        moving = self.search.look() if self.search.active else None
+        if moving is not None:
+            self.wire.send("moving", topic=moving[0], field=moving[1])
         samples = self.plots.look()
         if samples:
             self.wire.send("samples", series=samples)
@@ -106,6 +112,7 @@ class Bridge:
             self.wire.send("graph", **found)
             self.parameters.forget({node["name"] for node in found["nodes"]})
         self.plots.find(found["topics"])
+        self.search.find(found["topics"])
         if "turtle" in self.views:
             self.turtles.find(found["topics"])
 
@@ -136,6 +143,10 @@ class Bridge:
         do = command["do"]
         if do == "watch":
             self.watch(set(command["views"]), [(t, f) for t, f in command["series"]])
+            if command.get("seeks"):
+                self.search.begin()
+            else:
+                self.search.end()
         elif do == "drive":
             self.turtles.drive(command["turtle"], command["linear"], command["angular"])
         elif do == "fields":

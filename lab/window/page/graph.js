@@ -1,12 +1,14 @@
 // The ROS graph: nodes, topics, services and actions; dashed where something does not fit.
 
 import { Graph as Layout, layout } from "./vendor/dagre.esm.js";
+import { columns } from "./columns.js";
 import { reasons, short } from "./misfits.js";
 import { draw, make, onceAFrame, text } from "./words.js";
 
 const CHAR = 7.4; // px, the width of a letter of 13 px
 const HEIGHT = 38;
-const SMALLEST = 0.75; // of the drawing; a larger graph scrolls
+const SMALLEST = 0.75; // of the drawing; a graph that is too wide for it is drawn in two columns
+const SHARE = 0.6; // of the pane's height, for the drawing in a narrow pane (see style.css)
 
 export class Graph {
   constructor(socket) {
@@ -51,22 +53,35 @@ export class Graph {
     });
     layout(plan);
     const { width: wide, height: high } = plan.graph();
-    const fit = Math.min((this.drawing.clientWidth - 4) / wide, (this.drawing.clientHeight - 4) / high, 1.25);
-    const scale = Math.max(SMALLEST, fit);
-    const svg = draw("svg", { viewBox: `0 0 ${wide} ${high}`, width: wide * scale, height: high * scale, role: "group", "aria-label": text("graph_drawing") });
-    svg.append(draw("defs", {}, marker("end", ""), marker("end-bad", "bad")));
+    const across = (this.drawing.clientWidth - 4) / wide;
+    const isTall = across < SMALLEST;
+    this.drawing.classList.toggle("tall", isTall);
+    if (isTall) return this.inColumns(boxes, edges);
+    const room = this.drawing.clientWidth < 600 ? SHARE * this.drawing.closest(".content").clientHeight : this.drawing.clientHeight;
+    const scale = Math.max(SMALLEST, Math.min(across, (room - 4) / high, 1.25));
+    const svg = canvas(wide, high, scale);
     edges.forEach((edge, i) => svg.append(...line(edge, plan.edge(edge.from, edge.to, String(i)))));
     for (const [id, box] of boxes) svg.append(this.box(id, box, plan.node(id)));
     return svg;
   }
 
-  box(id, { kind, name, lonely }, { x, y, width: wide, height }) {
+  inColumns(boxes, edges) {
+    const plan = columns(boxes, edges, this.drawing.clientWidth, CHAR);
+    const svg = canvas(plan.width, plan.height, 1);
+    edges.forEach((edge, i) => svg.append(stroke(edge, plan.lines[i].path)));
+    for (const [id, box] of boxes) svg.append(this.box(id, box, plan.places.get(id)));
+    edges.forEach((edge, i) => { if (edge.short) svg.append(reason("!", { ...plan.lines[i], width: 18, height: 20 })); });
+    return svg;
+  }
+
+  box(id, { kind, name, lonely }, { x, y, width: wide, height, lines = [name] }) {
     const group = draw("g", { class: `box ${kind}${lonely ? " lonely" : ""}`, "data-id": id, tabindex: 0, role: "button", "aria-label": `${text(kind)} ${name}`, transform: `translate(${x} ${y})` });
     const radius = { node: 5, topic: 19, service: 10, action: 10 }[kind];
+    const top = -9 - 8 * (lines.length - 1);
     group.append(
       draw("rect", { class: "shape", x: -wide / 2, y: -height / 2, width: wide, height, rx: radius }),
-      draw("text", { class: "kind", y: -9 }, text(kind)),
-      draw("text", { y: 6 }, name));
+      draw("text", { class: "kind", y: top }, text(kind)),
+      ...lines.map((part, i) => draw("text", { y: top + 15 + 16 * i }, part)));
     group.onclick = () => this.choose(id === this.chosen ? "" : id);
     group.onkeydown = (event) => {
       if (event.key !== "Enter" && event.key !== " ") return;
@@ -204,10 +219,22 @@ function line(edge, { points, x, y, width: wide, height }) {
     const end = i === rest.length - 2 ? after : { x: (point.x + after.x) / 2, y: (point.y + after.y) / 2 };
     return `Q${point.x} ${point.y} ${end.x} ${end.y}`;
   });
+  const path = stroke(edge, `M${start.x} ${start.y}${middle.join("")}`);
+  return edge.short ? [path, reason(edge.short, { x, y, width: wide, height })] : [path];
+}
+
+function stroke(edge, d) {
   const bad = Boolean(edge.short);
-  const path = draw("path", { class: `edge${bad ? " misfit" : ""}`, "data-from": edge.from, "data-to": edge.to, d: `M${start.x} ${start.y}${middle.join("")}`, "marker-end": `url(#${bad ? "end-bad" : "end"})` });
-  if (!bad) return [path];
-  const label = draw("g", { class: "reason", transform: `translate(${x} ${y})` },
-    draw("rect", { x: -wide / 2, y: -height / 2, width: wide, height, rx: 6 }), draw("text", {}, edge.short));
-  return [path, label];
+  return draw("path", { class: `edge${bad ? " misfit" : ""}`, "data-from": edge.from, "data-to": edge.to, d, "marker-end": `url(#${bad ? "end-bad" : "end"})` });
+}
+
+function reason(words, { x, y, width: wide, height }) {
+  return draw("g", { class: "reason", transform: `translate(${x} ${y})` },
+    draw("rect", { x: -wide / 2, y: -height / 2, width: wide, height, rx: 6 }), draw("text", {}, words));
+}
+
+function canvas(wide, high, scale) {
+  const svg = draw("svg", { viewBox: `0 0 ${wide} ${high}`, width: wide * scale, height: high * scale, role: "group", "aria-label": text("graph_drawing") });
+  svg.append(draw("defs", {}, marker("end", ""), marker("end-bad", "bad")));
+  return svg;
 }

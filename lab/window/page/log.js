@@ -3,6 +3,8 @@
 import { fill, make, onceAFrame, text } from "./words.js";
 
 const MOST = 1000; // records that are kept
+const SHOWN = 300; // lines on the page: the newest
+const FIRST = 20; // the level at the beginning
 const LEVELS = [[10, "DEBUG"], [20, "INFO"], [30, "WARN"], [40, "ERROR"], [50, "FATAL"]];
 
 export class Log {
@@ -14,6 +16,7 @@ export class Log {
     this.node = document.getElementById("log-node");
     this.search = document.getElementById("log-text");
     this.level.replaceChildren(...LEVELS.map(([number, name]) => new Option(name, number)));
+    this.level.value = FIRST;
     fill(this.node, [""], [text("all_nodes")]);
     this.paint = onceAFrame(() => this.paintNow());
     for (const control of [this.level, this.node, this.search]) control.oninput = () => this.again();
@@ -50,10 +53,10 @@ export class Log {
     fill(this.node, ["", ...names], [text("all_nodes"), ...names]);
     const atEnd = this.rows.scrollHeight - this.rows.scrollTop - this.rows.clientHeight < 40;
     if (this.rows.firstElementChild?.tagName === "P") this.rows.replaceChildren();
-    const shown = this.fresh.filter((record) => this.fits(record));
+    const shown = this.fresh.filter((record) => this.fits(record)).slice(-SHOWN);
     this.rows.append(...shown.map(row));
     this.fresh = [];
-    while (this.rows.childElementCount > MOST) this.rows.firstElementChild.remove();
+    while (this.rows.childElementCount > SHOWN) this.rows.firstElementChild.remove();
     const count = this.rows.childElementCount;
     document.getElementById("log-count").textContent = text("log_count", { shown: count, all: this.records.length });
     if (!this.records.length) this.rows.replaceChildren(make("p", {}, text("log_empty")));

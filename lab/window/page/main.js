@@ -1,7 +1,9 @@
-// The frame of the page: the views, the connection, and what is wrong with it.
+// The frame of the page: the panes, the connections, and what is wrong with them.
 
+import "./nonce.js";
 import { Graph } from "./graph.js";
 import { Log } from "./log.js";
+import { Panes } from "./panes.js";
 import { Parameters } from "./parameters.js";
 import { Plot } from "./plot.js";
 import { Socket } from "./socket.js";
@@ -12,22 +14,33 @@ const LOST = 4000; // ms without connection after which the page says what to do
 
 history.replaceState(null, "", location.pathname + location.hash); // the token is in the cookie
 await loadTexts();
+const hasTurtle = Boolean(text("has_turtlesim"));
+const hasLab = Boolean(text("has_lab"));
+const names = [
+  ...(hasLab ? ["guide", "editor", "terminal", "check"] : []),
+  ...(hasTurtle ? ["turtle"] : []), "graph", "log", "plot", "parameters",
+];
 
 const socket = new Socket(receive, connection);
 const views = {
-  turtle: new Turtle(socket),
+  ...(hasTurtle && { turtle: new Turtle(socket) }),
   graph: new Graph(socket),
   log: new Log(),
   plot: new Plot(socket, () => watch()),
   parameters: new Parameters(socket),
 };
-let shown = "";
+let panes = null;
+let work = null;
 let lost = 0;
-const received = { frames: 0 };
+let seen = "";
+
+panes = new Panes(names, show, () => work?.keepLayout());
+if (hasLab) work = new (await import("./desk.js")).Desk(panes, notice);
+document.addEventListener("visibilitychange", watch);
+show();
 
 function receive(message) {
   if (message.kind === "bridge") return bridge(message);
-  received.frames += 1;
   for (const view of Object.values(views)) view[message.kind]?.(message);
 }
 
@@ -61,23 +74,23 @@ function trouble(words) {
   element.hidden = !words;
 }
 
+function notice(words) {
+  document.getElementById("notice").textContent = words;
+}
+
+/** Say what is looked at: nothing while the page is in the background, except by the guide. */
 function watch() {
-  socket.watch(shown, views.plot.wanted());
+  if (!panes) return;
+  const shown = document.hidden ? [] : Object.keys(views).filter((name) => panes.sees(name));
+  socket.watch(hasLab ? [...shown, "guide"] : shown, views.plot.wanted(), views.plot.seeks);
 }
 
-function show() {
-  const [name, ...rest] = location.hash.slice(1).split("?");
-  const next = views[name] ? name : "turtle";
-  const changed = next !== shown;
-  shown = next;
-  for (const section of document.querySelectorAll("section")) section.hidden = section.id !== shown;
-  for (const link of document.querySelectorAll("nav a")) {
-    if (link.hash === `#${shown}`) link.setAttribute("aria-current", "page");
-    else link.removeAttribute("aria-current");
-  }
-  if (changed) watch();
-  views[shown].show?.(decodeURIComponent(rest.join("?")));
+/** What is seen has changed; `what` is asked of a view, if it was gone to with more words. */
+function show(name, what = "") {
+  if (!panes) return;
+  watch();
+  const shown = Object.keys(views).filter((view) => panes.sees(view));
+  for (const view of shown) if (!seen.split(" ").includes(view) || view === name) views[view].show?.(view === name ? what : "");
+  seen = shown.join(" ");
+  work?.show();
 }
-
-addEventListener("hashchange", show);
-show();

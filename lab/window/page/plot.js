@@ -4,6 +4,11 @@ import { draw, fill, make, onceAFrame, text } from "./words.js";
 
 const MOST_POINTS = 20000; // of a series
 const VALUES = 250; // ms between two updates of the numbers
+const LOG = "/rosout";
+const OF_NODE = "log "; // before a node's name: the field is the last number of its log lines
+const NUMBER = /(-?\d+(?:\.\d+)?)\D*$/;
+const MOST_LOGGED = 2000; // numbers of a node
+const PATIENCE = 1500; // ms in which a topic may move before a number in the log is taken
 const LIGHT = ["#2450c8", "#c2410c", "#1c7a43", "#a21caf", "#0e7490", "#b3261e", "#7a5c00", "#4b5563"];
 const DARK = ["#8fb0ff", "#fda769", "#7fd6a0", "#eaa0f5", "#6fd3e8", "#ff9c94", "#f2c063", "#c3cad5"];
 const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -14,6 +19,9 @@ export class Plot {
     this.changed = changed;
     this.series = []; // {topic, field, times, values}
     this.topics = [];
+    this.numbers = new Map(); // name of a node → {times, values} of the numbers in its log lines
+    this.chosen = false; // the reader has chosen what is plotted
+    this.since = Infinity; // s, from which on a number may move
     for (const name of ["topic", "field", "span", "pause", "unknown", "hint"]) this[name] = document.getElementById(`plot-${name}`);
     this.chart = document.getElementById("chart");
     this.paint = onceAFrame(() => this.paintNow());
@@ -27,17 +35,51 @@ export class Plot {
     this.wanted_topic = "";
   }
 
-  wanted() { return this.series.map(({ topic, field }) => [topic, field]); }
+  wanted() { return this.series.filter(({ field }) => !field.startsWith(OF_NODE)).map(({ topic, field }) => [topic, field]); }
+
+  /** Whether the plot waits for a number that moves, to begin with it. */
+  get seeks() { return !this.series.length && !this.chosen; }
+
+  moving({ topic, field }) {
+    if (this.seeks && !this.chart.closest("section").hidden) this.begin(topic, field);
+  }
+
+  log({ records }) {
+    for (const { name, text: words, stamp } of records) {
+      const number = NUMBER.exec(words);
+      if (!number) continue;
+      if (!this.numbers.has(name)) this.numbers.set(name, { times: [], values: [] });
+      const { times, values } = this.numbers.get(name);
+      times.push(stamp);
+      values.push(Number(number[1]));
+      if (times.length > MOST_LOGGED) { times.shift(); values.shift(); }
+      const moved = times.at(-2) >= this.since && values.at(-2) !== values.at(-1);
+      if (moved && this.seeks) this.counted ??= setTimeout(() => this.count(name), PATIENCE);
+    }
+    if (!this.held && this.series.some(({ field }) => field.startsWith(OF_NODE))) this.paint();
+  }
+
+  count(name) {
+    this.counted = undefined;
+    this.moving({ topic: LOG, field: OF_NODE + name });
+  }
+
+  begin(topic, field) {
+    this.put(topic, field);
+    if (this.topics.includes(topic)) { this.topic.value = topic; this.askFields(field); }
+  }
 
   show(topic) {
     this.wanted_topic = topic;
+    this.since = Math.min(this.since, Date.now() / 1000);
+    if (topic && !this.chosen) { this.chosen = true; this.changed(); }
     this.fillTopics();
     if (topic && this.topics.includes(topic)) { this.topic.value = topic; this.askFields(); }
     this.rebuild();
   }
 
   graph({ topics }) {
-    this.topics = topics.filter((topic) => topic.publishers.length).map((topic) => topic.name);
+    this.topics = topics.filter((topic) => topic.publishers.length).sort((a, b) => a.plumbing - b.plumbing).map((topic) => topic.name);
     this.types = new Map(topics.map((topic) => [topic.name, topic.types.join()]));
     this.fillTopics();
   }
@@ -48,14 +90,17 @@ export class Plot {
     if (this.topic.value + this.types?.get(this.topic.value) !== before || this.wanted_fields) this.askFields();
   }
 
-  askFields() {
+  askFields(chosen) {
     const topic = this.topic.value;
     this.wanted_fields = false;
     if (!topic) return fill(this.field, [""], [""]);
     this.socket.ask({ do: "fields", topic }, ({ fields }) => {
       if (topic !== this.topic.value) return;
-      const known = fields?.length ? fields : [""];
-      fill(this.field, known, fields?.length ? fields : [text("no_number")]);
+      const nodes = topic === LOG ? [...this.numbers.keys()].sort() : [];
+      const known = [...nodes.map((name) => OF_NODE + name), ...(fields ?? [])];
+      if (known.length) fill(this.field, known, known.map(label));
+      else fill(this.field, [""], [text("no_number")]);
+      if (known.includes(chosen)) this.field.value = chosen;
       this.unknown.hidden = fields !== null;
     });
   }
@@ -63,13 +108,20 @@ export class Plot {
   add() {
     const [topic, field] = [this.topic.value, this.field.value];
     if (!topic || !field || this.series.length >= LIGHT.length) return;
+    this.chosen = true;
     if (this.series.some((one) => one.topic === topic && one.field === field)) return;
-    this.series.push({ topic, field, times: [], values: [] });
+    this.put(topic, field);
+  }
+
+  put(topic, field) {
+    const logged = field.startsWith(OF_NODE) ? this.numbers.get(field.slice(OF_NODE.length)) : undefined;
+    this.series.push({ topic, field, ...(logged ?? { times: [], values: [] }) });
     this.changed();
     this.rebuild();
   }
 
   remove(series) {
+    this.chosen = true;
     this.series = this.series.filter((one) => one !== series);
     this.changed();
     this.rebuild();
@@ -97,6 +149,7 @@ export class Plot {
     this.plot?.destroy();
     this.plot = undefined;
     this.hint.hidden = this.series.length > 0;
+    this.hint.textContent = text(this.seeks ? "plot_seeks" : "plot_hint");
     document.getElementById("series").replaceChildren(...this.series.map((series, i) => this.item(series, color(i))));
     if (!this.series.length || this.chart.closest("section").hidden) return;
     const style = getComputedStyle(document.documentElement);
@@ -107,13 +160,13 @@ export class Plot {
       cursor: { drag: { x: false, y: false } },
       scales: { x: { time: true, range: () => this.range() } },
       axes: [{ ...axis, values: (_, times) => times.map(clock) }, { ...axis, size: 64 }],
-      series: [{}, ...this.series.map((series, i) => ({ label: `${series.topic} ${series.field}`, stroke: color(i), width: 2, spanGaps: true, points: { show: false } }))],
+      series: [{}, ...this.series.map((series, i) => ({ label: title(series), stroke: color(i), width: 2, spanGaps: true, points: { show: false } }))],
     }, [[], ...this.series.map(() => [])], this.chart);
     this.paint();
   }
 
   item(series, stroke) {
-    const name = `${series.topic} ${series.field}`;
+    const name = title(series);
     const button = make("button", { type: "button", "aria-label": text("remove", { series: name }) }, "✕");
     button.onclick = () => this.remove(series);
     const icon = draw("svg", { viewBox: "0 0 20 4", "aria-hidden": "true" }, draw("rect", { width: 20, height: 4, rx: 2, fill: stroke }));
@@ -155,6 +208,15 @@ export class Plot {
       output.textContent = value === undefined ? text("no_value") : Number(value.toPrecision(6));
     });
   }
+}
+
+/** A field as the page names it. */
+function label(field) {
+  return field.startsWith(OF_NODE) ? text("logged_number", { node: field.slice(OF_NODE.length) }) : field;
+}
+
+function title({ topic, field }) {
+  return `${topic} ${label(field)}`;
 }
 
 function color(index) {

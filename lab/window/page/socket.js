@@ -2,6 +2,14 @@
 
 const AGAIN = 1000; // ms after which a lost connection is tried again
 
+/** The address of a websocket of this page, wherever the page is. */
+export function socketAddress(name) {
+  const address = new URL(name, document.baseURI);
+  address.protocol = address.protocol.replace("http", "ws");
+  address.hash = address.search = "";
+  return address.href;
+}
+
 export class Socket {
   constructor(onMessage, onState) {
     this.onMessage = onMessage;
@@ -13,7 +21,7 @@ export class Socket {
   }
 
   connect() {
-    this.socket = new WebSocket(`ws://${location.host}/socket`);
+    this.socket = new WebSocket(socketAddress("socket"));
     this.socket.onopen = () => {
       this.onState("connected");
       if (this.watched) this.send(this.watched);
@@ -42,8 +50,10 @@ export class Socket {
   }
 
   /** Say what is looked at; said again after a lost connection. */
-  watch(view, series) {
-    this.watched = { do: "watch", view, series };
+  watch(views, series, seeks) {
+    const watched = { do: "watch", views, series, seeks };
+    if (JSON.stringify(watched) === JSON.stringify(this.watched)) return;
+    this.watched = watched;
     this.send(this.watched);
   }
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from grader.base.i18n.message import say
 from grader.batch.model import ClassResult, Comment
 from grader.batch.sheet import Filled, Sheet
-from grader.batch.systems.canvas import read
+from grader.batch.systems.canvas import feedback, read
 from grader.batch.systems.system import (
     Columns,
     Download,
+    FeedbackForm,
     NewGradebook,
     OpenSheet,
     RosterForm,
@@ -47,7 +49,7 @@ SYSTEM = System(
     name="canvas",
     title="Canvas",
     priority=2,
-    download=Download("Canvas' download of all submissions", read),
+    download=Download(say("Canvas' download of all submissions"), read),
     numbered=True,
     roster=RosterForm(key=_roster_key),
     sheet=SheetForm(
@@ -58,4 +60,5 @@ SYSTEM = System(
         read=_gradebook,
     ),
     gradebook=NewGradebook(output=OUTPUT, write=_new_gradebook),
+    feedback=FeedbackForm(output=feedback.OUTPUT, write=feedback.write),
 )

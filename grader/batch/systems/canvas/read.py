@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from grader.base.i18n.message import say
+from grader.base.i18n.message import joined, say
 from grader.batch.model import HandedIn, Student
 from grader.batch.systems.layout import FolderItem, Layout, Read, Reading
 from grader.batch.systems.notes import printable
@@ -23,17 +23,17 @@ NAMED = re.compile(
 )
 TWO_WAYS = re.compile(r"\w+?(?:_LATE)?(?:_\d+){3,}_", re.DOTALL)
 AGAIN = re.compile(r"(?P<stem>.+)-\d{1,3}(?P<ending>(?:\.tar)?\.\w{1,8})", re.DOTALL)
-NO_TIMES = (
+NO_TIMES = say(
     "Canvas' download does not contain the times of submission (the times in the zip are those of "
     "the download), only whether a submission was late (LATE in the name)"
 )
-TYPED = "left out: text or a link typed into Canvas"
+TYPED = say("left out: text or a link typed into Canvas")
 ONLY_TYPED = say(
     "the submission is only text or a link typed into Canvas: there is no file to mark"
 )
-EARLIER = "a file was handed in again under the same name: the newest one is the last attempt"
-AMBIGUOUS = "the student's number is not certain, because the name has digits around it"
-RENAMED = "renamed to the name without the number that Canvas added"
+EARLIER = say("a file was handed in again under the same name: the newest one is the last attempt")
+AMBIGUOUS = say("the student's number is not certain, because the name has digits around it")
+RENAMED = say("renamed to the name without the number that Canvas added")
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ def _student(
     if not files:
         problem = typed[0].problem or ONLY_TYPED
         return [HandedIn(student, layout.path / typed[0].name, late=late, problem=problem)]
-    notes = tuple(f"{TYPED}: {printable(item.name)}" for item in typed)
+    notes = tuple(joined(TYPED, printable(item.name), by=": ") for item in typed)
     if any(TWO_WAYS.match(part.item.name) for part in files):
         notes += (AMBIGUOUS,)
     attempts = _attempts(files)
@@ -121,16 +121,26 @@ def _attempt(
 ) -> HandedIn:
     good = [part for part in parts if not part.item.problem]
     bad = [part for part in parts if part.item.problem]
-    notes = (*notes, *(f"{printable(part.item.name)}: {part.item.problem}" for part in bad))
+    notes = (
+        *notes,
+        *(joined(printable(part.item.name), part.item.problem, by=": ") for part in bad),
+    )
     problem = "" if good else bad[0].item.problem
     path = layout.path / parts[0].item.name
     if good and (len(good) > 1 or good[0].item.kind != "archive"):
         files = [(layout.path / part.item.name, part.original) for part in good]
         path = reading.gather(files)
         renamed = [part.file for part in good if part.original != part.file]
-        notes += tuple(f"{RENAMED}: {printable(name)}" for name in renamed)
+        notes += tuple(joined(RENAMED, printable(name), by=": ") for name in renamed)
     elif good:
         path = layout.path / good[0].item.name
     return HandedIn(
-        student, path, number, late=late, notes=notes, problem=problem, modes_kept=False
+        student,
+        path,
+        number,
+        late=late,
+        notes=notes,
+        problem=problem,
+        modes_kept=False,
+        files=tuple(part.item.name for part in parts),
     )

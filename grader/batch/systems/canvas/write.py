@@ -17,12 +17,13 @@ from dataclasses import dataclass
 from grader.base.errors import UsageError
 from grader.base.plain_text import one_line
 from grader.batch import cells
-from grader.batch.lowered import NONE, Lowered, as_number, is_without_verdict, lowered
+from grader.batch.lowered import NONE, as_number, is_without_verdict
 from grader.batch.match import Match, MatchRule, match_more, rules_for_people
 from grader.batch.model import ClassResult, Comment, Elsewhere, GradebookEntry, Student
 from grader.batch.roster import Roster, roster_of
 from grader.batch.sheet import Filled, Sheet
 from grader.batch.systems.system import System
+from grader.batch.words import has_grade
 
 NAME = "the Canvas gradebook"
 REMEDY = "In Canvas: Grades, Export, Export Entire Gradebook."
@@ -59,17 +60,16 @@ class CanvasGradebook:
         for key, index in self.match(students, system).rows.items():
             cell = self._cell(self.roster.lines[index].row)
             if cell not in NONE:
-                found[key] = Elsewhere(f"Canvas has {one_line(cell, most=20)} for this assignment")
+                found[key] = Elsewhere(has_grade("Canvas", cell))
         return found
 
-    def lowered(self, result: ClassResult) -> list[Lowered]:
-        """Return the grades in the gradebook that would go down."""
-        found = (
-            lowered(entry, self._cell(row), NAME)
+    def existing(self, result: ClassResult) -> list[tuple[GradebookEntry, str]]:
+        """Return the entries that are filled in, each with the cell of its grade as it is."""
+        return [
+            (entry, self._cell(row))
             for row, entry in self._filled_in(result, self._match(result))
             if self._cell(row).upper() not in KEPT
-        )
-        return [one for one in found if one is not None]
+        ]
 
     def filled(self, result: ClassResult, comment: Comment) -> Filled:
         """Return the instructor's export with the assignment's column filled in.

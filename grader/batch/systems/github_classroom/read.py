@@ -5,12 +5,13 @@ from __future__ import annotations
 from itertools import takewhile
 from pathlib import Path
 
+from grader.base.i18n.message import say
 from grader.batch.model import HandedIn, Student
 from grader.batch.systems.layout import FolderItem, Layout, Read, Reading
 from grader.batch.systems.notes import printable
 
 SUBMISSIONS = "-submissions"  # appended to the assignment's name by `gh classroom clone`
-NO_TIMES = (
+NO_TIMES = say(
     "a clone does not contain the time of submission (the student's own computer sets the time of "
     "a commit): only the CSV of Classroom's 'Download grades' has it, given as --roster"
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from grader.base.i18n.message import say
 from grader.batch.sheet import Sheet
 from grader.batch.systems.gradescope import read, write
 from grader.batch.systems.system import Download, RosterForm, RosterKey, System
@@ -23,7 +24,7 @@ SYSTEM = System(
     name="gradescope",
     title="Gradescope",
     priority=4,
-    download=Download("Gradescope's export", read),
+    download=Download(say("Gradescope's export"), read),
     roster=RosterForm(key=_roster_key),
     reports={"gradescope": _results},
 )

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from grader.base.i18n.message import say
+from grader.base.i18n.message import joined, say
 from grader.base.shown import shown
 from grader.batch.model import HandedIn, Student
 from grader.batch.systems.gradescope.metadata import Record, instant, read_metadata
@@ -22,10 +22,10 @@ from grader.package.intake.reading import MEGABYTE, Unread, read_bytes
 METADATA = "submission_metadata.yml"
 NAMED = re.compile(r"submission_\d+")
 LARGEST = 64 * MEGABYTE
-UNKNOWN = "not in submission_metadata.yml: its number was used as the student's name"
+UNKNOWN = say("not in submission_metadata.yml: its number was used as the student's name")
 NO_FOLDER = say("it is in submission_metadata.yml, but its folder is not in the export")
-GROUP = "handed in together: each of them gets the verdict"
-NO_METADATA = "submission_metadata.yml is missing: no names and no times of submission"
+GROUP = say("handed in together: each of them gets the verdict")
+NO_METADATA = say("submission_metadata.yml is missing: no names and no times of submission")
 
 
 def recognise(layout: Layout) -> bool:
@@ -79,10 +79,12 @@ def _submission(
     students = _submitters(item.name, record or {})
     notes: tuple[str, ...] = () if record is not None or not known else (UNKNOWN,)
     if len(students) > 1:
-        notes += (f"{GROUP}: {', '.join(student.name for student in students)}",)
+        notes += (joined(GROUP, ", ".join(student.name for student in students), by=": "),)
     earlier = _earlier(item.name, record or {})
     if earlier:
-        notes += (f"the last of {earlier + 1} attempts: the export has only this one",)
+        notes += (
+            say("the last of {count} attempts: the export has only this one", count=earlier + 1),
+        )
     submitted = instant((record or {}).get(":created_at"))
     for student in students:
         yield HandedIn(student, place, submitted=submitted, notes=notes, problem=item.problem)

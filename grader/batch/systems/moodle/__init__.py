@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from grader.base.i18n.message import say
 from grader.batch.model import ClassResult, Comment
 from grader.batch.sheet import Filled, Sheet
-from grader.batch.systems.moodle import read, roster, times
+from grader.batch.systems.moodle import feedback, read, roster, times
 from grader.batch.systems.moodle.gradebook_import import moodle_import
 from grader.batch.systems.system import (
     Columns,
     Download,
+    FeedbackForm,
     NewGradebook,
     OpenSheet,
     RosterForm,
@@ -46,7 +48,7 @@ SYSTEM = System(
     name="moodle",
     title="Moodle",
     priority=3,
-    download=Download("Moodle's download of all submissions", read),
+    download=Download(say("Moodle's download of all submissions"), read),
     numbered=True,
     group_folders=True,
     roster=RosterForm(
@@ -70,4 +72,5 @@ SYSTEM = System(
         read=_worksheet,
     ),
     gradebook=NewGradebook(output="moodle-gradebook.csv", write=_import_file),
+    feedback=FeedbackForm(output=feedback.OUTPUT, write=feedback.write),
 )

@@ -13,7 +13,7 @@ import re
 from collections import Counter
 from dataclasses import dataclass, replace
 
-from grader.base.i18n.message import say
+from grader.base.i18n.message import joined, say
 from grader.batch.model import HandedIn, Student
 from grader.batch.systems.layout import FolderItem, Layout, Read, Reading
 from grader.batch.systems.notes import printable
@@ -22,14 +22,14 @@ NAMED = re.compile(
     r"(?P<name>.*?)(?:_(?P<id>\d+))?_assignsubmission_(?P<plugin>[a-z]+)(?:_(?P<file>.*))?",
     re.DOTALL,
 )
-NO_TIMES = (
+NO_TIMES = say(
     "Moodle's download does not contain the times of submission (the times in the zip are those of "
     "the download): they are read from the grading worksheet (--worksheet)"
 )
-ONLINE_TEXT = "left out: text typed into Moodle"
+ONLINE_TEXT = say("left out: text typed into Moodle")
 ONLY_TEXT = say("the submission is only text typed into Moodle: there is no file to mark")
-NO_ID = "Moodle's number is not in the name: the name was used instead"
-TWICE = "more than one folder of this student, used as attempts in the order of their names"
+NO_ID = say("Moodle's number is not in the name: the name was used instead")
+TWICE = say("more than one folder of this student, used as attempts in the order of their names")
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ def _student(
     if not files:
         path = layout.path / texts[0].item.name
         return [HandedIn(student, path, problem=texts[0].item.problem or ONLY_TEXT)]
-    notes = tuple(f"{ONLINE_TEXT}: {printable(part.item.name)}" for part in texts)
+    notes = tuple(joined(ONLINE_TEXT, printable(part.item.name), by=": ") for part in texts)
     if not student.key.isdecimal():
         notes += (NO_ID,)
     folders = [part for part in files if part.item.kind == "folder"]
@@ -110,7 +110,9 @@ def _loose_files(
     student: Student, layout: Layout, reading: Reading, parts: list[Part], notes: tuple[str, ...]
 ) -> HandedIn:
     good = [part for part in parts if not part.item.problem]
-    problems = tuple(f"{printable(p.item.name)}: {p.item.problem}" for p in parts if p.item.problem)
+    problems = tuple(
+        joined(printable(p.item.name), p.item.problem, by=": ") for p in parts if p.item.problem
+    )
     if not good:
         path = layout.path / parts[0].item.name
         return HandedIn(student, path, notes=notes, problem=parts[0].item.problem)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from grader.base.i18n.message import say
 from grader.base.plain_text import one_line
 from grader.batch.roster_guess import PARTICIPANT, PEEKED
 from grader.batch.sheet import Sheet, folded_header
@@ -16,6 +17,7 @@ from grader.batch.systems.moodle.words import (
     SUBMITTED_ON,
     says_submitted,
 )
+from grader.batch.words import has_grade
 
 FIELDS: Mapping[str, frozenset[str]] = {
     "status": STATUS,
@@ -55,8 +57,9 @@ def evidence(cells: Mapping[str, str]) -> str:
     """Return which submission or grade of a student Moodle knows, in words; "" if none."""
     grade = cells["grade"]
     if grade not in ("", "-"):
-        return f"Moodle's worksheet has the grade {one_line(grade, most=20)}"
+        return has_grade("Moodle", grade)
     status = cells["status"]
     if not says_submitted(status, cells["submitted on"]):
         return ""
-    return f"Moodle's worksheet says '{one_line(status, most=80) or 'submitted'}'"
+    said = one_line(status, most=80) or "submitted"
+    return say("Moodle's worksheet says '{status}'", status=said)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from grader.base.errors import UsageError
 from grader.base.plain_text import one_line
 from grader.batch import cells
-from grader.batch.lowered import Lowered, is_without_verdict, lowered
+from grader.batch.lowered import is_without_verdict
 from grader.batch.match import Match, match_more, rules_for_people
 from grader.batch.model import ClassResult, Comment, Elsewhere, GradebookEntry, Student
 from grader.batch.roster import Roster, roster_of
@@ -66,13 +66,12 @@ class Worksheet:
         found = {key: self.roster.lines[row].evidence for key, row in rows.items()}
         return {key: Elsewhere(reason) for key, reason in found.items() if reason}
 
-    def lowered(self, result: ClassResult) -> list[Lowered]:
-        """Return the grades in the worksheet that would go down."""
-        found = (
-            lowered(entry, self.sheet.value(row, self.columns.grade), NAME)
+    def existing(self, result: ClassResult) -> list[tuple[GradebookEntry, str]]:
+        """Return the entries that are filled in, each with the cell of its grade as it is."""
+        return [
+            (entry, self.sheet.value(row, self.columns.grade))
             for row, entry in self._filled_in(result, self._match(result))
-        )
-        return [one for one in found if one is not None]
+        ]
 
     def filled(self, result: ClassResult, comment: Comment) -> Filled:
         """Return the worksheet with grade and feedback of every student with a final grade.

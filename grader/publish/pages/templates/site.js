@@ -9,7 +9,7 @@ const value = (row, column) => {
 };
 
 const compare = (a, b, isNumber) =>
-  isNumber ? Number(a) - Number(b) : a.localeCompare(b, "en", { numeric: true, sensitivity: "base" });
+  isNumber ? Number(a) - Number(b) : a.localeCompare(b, document.documentElement.lang, { numeric: true, sensitivity: "base" });
 
 const sort = (table, column, direction) => {
   const isNumber = table.tHead.rows[0].cells[column].classList.contains("number");
@@ -43,25 +43,48 @@ const parts = (ids) => ` ${plain(ids).replace(/[._]/g, " ")}`;
 
 const field = document.getElementById("find");
 const shown = document.getElementById("shown");
+const all = shown.textContent;
 const rows = [...document.querySelectorAll("#all tbody tr")].map((row) => ({
   row,
   text: plain(`${row.textContent} ${row.dataset.find}`),
   mistakes: parts(row.dataset.mistakes),
+  section: row.dataset.section ?? "",
+  bin: row.dataset.points ?? "",
 }));
+const section = document.getElementById("section");
+const ranges = [...document.querySelectorAll(".range")];
+const pressed = () => new Set(ranges.filter((one) => one.ariaPressed === "true").map((one) => one.dataset.bin));
 
 const find = () => {
   const words = plain(field.value).split(/\s+/).filter(Boolean);
+  const bins = pressed();
+  const only = section?.value ?? "";
   let count = 0;
-  for (const { row, text, mistakes } of rows) {
-    row.hidden = !words.every((word) => text.includes(word) || mistakes.includes(parts(word)));
+  for (const { row, text, mistakes, section: own, bin } of rows) {
+    row.hidden =
+      (only !== "" && own !== only) ||
+      (bins.size > 0 && !bins.has(bin)) ||
+      !words.every((word) => text.includes(word) || mistakes.includes(parts(word)));
     count += row.hidden ? 0 : 1;
   }
-  const all = `${rows.length} ${rows.length === 1 ? "student" : "students"}`;
-  shown.textContent = words.length ? `${count} of ${all} shown` : all;
+  const some = words.length || only !== "" || bins.size;
+  shown.textContent = some ? shown.dataset.some.replace("{shown}", count) : all;
 };
 
 field.addEventListener("input", find);
+section?.addEventListener("change", find);
 document.querySelector(".find").hidden = false;
+
+// one click on a bar or its button shows the students with these points, another one all of them
+for (const group of document.querySelectorAll(".ranges")) group.hidden = false;
+for (const one of document.querySelectorAll(".range, rect.bar[data-bin]")) {
+  one.addEventListener("click", () => {
+    const button = ranges.find((range) => range.dataset.bin === one.dataset.bin);
+    if (button === undefined) return;
+    button.ariaPressed = button.ariaPressed === "true" ? "false" : "true";
+    find();
+  });
+}
 
 for (const button of document.querySelectorAll(".who")) {
   button.hidden = false;

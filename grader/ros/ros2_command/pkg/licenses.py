@@ -2,7 +2,7 @@
 
 The texts are the standard ones without a copyright line, as in ament: Apache-2.0, GPL-3 and
 LGPL-3 from Debian's ``/usr/share/common-licenses``, the rest from the SPDX list (PyPI's
-``spdx`` 2.5.1), wrapped. BSD-2.0 is ament's name for the three-clause text with a title.
+``spdx`` 2.5.1), wrapped as in ament. BSD-2.0 is ament's name for the three-clause text with a title.
 """
 
 from pathlib import Path

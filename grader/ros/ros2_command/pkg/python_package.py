@@ -1,4 +1,7 @@
-"""The files of a new ament_python package."""
+"""The files of a new ament_python package, as ros2cli makes them since 0.32.6 (jazzy).
+
+Before that, setup.py had ``tests_require``, which setuptools has dropped (ros2cli#1066).
+"""
 
 from .linter_tests import linter_tests
 from .manifest import PackageDescription
@@ -24,20 +27,16 @@ setup(
     maintainer_email='{email}',
     description='{description}',
     license='{license}',
-{tests}    entry_points={{
+    extras_require={{
+        'test': [
+            'pytest',
+        ],
+    }},
+    entry_points={{
         'console_scripts': [
 {script}        ],
     }},
 )
-"""
-_TESTS_JAZZY = "    tests_require=['pytest'],\n"
-# ros2cli#1066: setuptools dropped tests_require
-_TESTS_KILTED = """\
-    extras_require={
-        'test': [
-            'pytest',
-        ],
-    },
 """
 _SETUP_CFG = """\
 [develop]
@@ -86,6 +85,5 @@ def setup_py(package: PackageDescription) -> str:
         email=package.email,
         description=package.description,
         license=package.license,
-        tests=_TESTS_KILTED if package.kilted else _TESTS_JAZZY,
         script=f"            '{node} = {name}.{node}:main'\n" if node else "",
     )

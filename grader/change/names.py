@@ -1,0 +1,228 @@
+"""Operators of names: attributes, variables, fields of messages, parameters and callbacks."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from grader.base.i18n.message import msg
+from grader.change.operator import Made, Operator, Site, operator, swapped
+from grader.change.values import INSTEAD
+from grader.package.source.module import Function
+from grader.package.source.names import called_name, dotted
+
+MOST_NAMES = 8
+FIELDS = (
+    ("x", "y", "z", "theta"),
+    ("linear", "angular"),
+    ("linear_velocity", "angular_velocity"),
+    ("range_min", "range_max"),
+)
+"""Fields of messages that stand in each other's place."""
+CREATES = ("create_timer", "create_subscription", "create_service")
+
+
+@operator(
+    "own",
+    cost=1,
+    why=msg(
+        "{name} without self. is a variable of this function alone: it is gone when the function "
+        "ends. self.{name} is what the other functions read."
+    ),
+    fix=INSTEAD,
+)
+def own(site: Site) -> Iterator[Made]:
+    """Yield a local name as the attribute of self with the same or nearly the same name."""
+    for node in site.of(ast.Name):
+        assert isinstance(node, ast.Name)
+        if isinstance(node.ctx, ast.Store) and node.id in site.attributes:
+            yield swapped(site, node, f"self.{node.id}")
+
+
+@operator(
+    "kept",
+    cost=2,
+    why=msg("The new value is in {name}, and that is gone when the function ends."),
+    fix=INSTEAD,
+)
+def kept(site: Site) -> Iterator[Made]:
+    """Yield `self.a = self.a + b` in place of `b = self.a + b`."""
+    for node in site.of(ast.Assign):
+        assert isinstance(node, ast.Assign)
+        target, value = node.targets[0], node.value
+        if not isinstance(target, ast.Name) or not isinstance(value, ast.BinOp):
+            continue
+        first = dotted(value.left)
+        if first.startswith("self.") and first.count(".") == 1:
+            yield swapped(site, target, first)
+
+
+@operator(
+    "attribute",
+    cost=3,
+    hides=True,
+    why=msg("{name} has another value than the one that belongs here."),
+    fix=INSTEAD,
+)
+def attribute(site: Site) -> Iterator[Made]:
+    """Yield another attribute of self, or another variable, in place of one that is read."""
+    names = [f"self.{name}" for name, places in site.attributes.items() if _is_plain(site, places)]
+    for function in site.functions:
+        here = site.locals_of(function)
+        for node in ast.walk(function):
+            if not isinstance(node, ast.Name | ast.Attribute) or not isinstance(node.ctx, ast.Load):
+                continue
+            around = site.module.parents.get(node)
+            name = dotted(node)
+            inside = isinstance(around, ast.Attribute) or (
+                isinstance(around, ast.Call) and around.func is node
+            )
+            if inside or site.code(node) != name:
+                continue
+            if name in names or name in here:
+                for other in (*names, *here)[: 2 * MOST_NAMES]:
+                    if other != name:
+                        yield swapped(site, node, other)
+
+
+def _is_plain(site: Site, places: list[ast.Attribute]) -> bool:
+    """Whether an attribute is a value, and no object that a call makes."""
+    value = getattr(site.module.parents.get(places[0]), "value", None)
+    return not (isinstance(value, ast.Call) and called_name(value).startswith("create_"))
+
+
+@operator(
+    "base_name",
+    cost=3,
+    hides=True,
+    why=msg("{name} is of another message than the one that is meant here."),
+    fix=INSTEAD,
+)
+def base_name(site: Site) -> Iterator[Made]:
+    """Yield another message before a field: the new one in place of the last one."""
+    for function in site.functions:
+        given = [a.arg for a in function.args.args if a.arg != "self"]
+        for node in ast.walk(function):
+            if not isinstance(node, ast.Attribute) or not isinstance(node.ctx, ast.Load):
+                continue
+            base = dotted(node.value)
+            known = [*given, *(f"self.{name}" for name in site.attributes)]
+            around = site.module.parents.get(node)
+            if base not in known or (isinstance(around, ast.Call) and around.func is node):
+                continue
+            for other in known[:MOST_NAMES]:
+                if other != base:
+                    yield swapped(site, node.value, other, at=node)
+
+
+@operator(
+    "field",
+    cost=1,
+    why=msg(
+        "Each field of a message means something else: x is forwards, y to the left, z upwards, and "
+        "a velocity is linear (m/s) or angular (rad/s)."
+    ),
+    fix=INSTEAD,
+)
+def field(site: Site) -> Iterator[Made]:
+    """Yield the fields of messages that are taken for one another."""
+    for node in site.of(ast.Attribute):
+        assert isinstance(node, ast.Attribute)
+        for group in FIELDS:
+            if node.attr not in group:
+                continue
+            base = site.code(node.value)
+            for other in group:
+                if other != node.attr:
+                    yield swapped(site, node, f"{base}.{other}")
+
+
+@operator(
+    "read_now",
+    cost=1,
+    why=msg(
+        "{name} got the parameter's value once, when the node started. When somebody sets the "
+        "parameter, only get_parameter returns the new value."
+    ),
+    fix=INSTEAD,
+)
+def read_now(site: Site) -> Iterator[Made]:
+    """Yield the parameter's value now, where an attribute has the value of the start."""
+    for name, places in site.attributes.items():
+        made = site.module.parents.get(places[0])
+        value = getattr(made, "value", None)
+        if len(places) != 1 or not isinstance(value, ast.expr):
+            continue
+        if "get_parameter" not in site.code(value) and "declare_parameter" not in site.code(value):
+            continue
+        code = site.code(value)
+        if "declare_parameter" in code:
+            call = next((n for n in ast.walk(value) if isinstance(n, ast.Call) and n.args), None)
+            if call is None:
+                continue
+            code = f"self.get_parameter({site.code(call.args[0])}).value"
+        for node in site.of(ast.Attribute):
+            assert isinstance(node, ast.Attribute)
+            if dotted(node) == f"self.{name}" and isinstance(node.ctx, ast.Load):
+                yield swapped(site, node, code)
+
+
+@operator(
+    "use_parameter",
+    cost=2,
+    why=msg(
+        "{name} is fixed here. The value of the parameter changes nothing, because no line reads it "
+        "at this place."
+    ),
+    fix=INSTEAD,
+)
+def use_parameter(site: Site) -> Iterator[Made]:
+    """Yield a parameter's value, or an unread variable, in place of a number."""
+    declared = [
+        site.code(n.args[0])
+        for n in site.of(ast.Call)
+        if isinstance(n, ast.Call) and called_name(n) == "declare_parameter" and n.args
+    ]
+    for node in site.of(ast.Constant):
+        if not isinstance(node, ast.Constant) or type(node.value) not in (int, float):
+            continue
+        function, around = site.function_of(node), site.module.parents.get(node)
+        if function is None or function.name == "__init__":
+            continue
+        if isinstance(around, ast.Call) and called_name(around) != "":
+            continue
+        for name in _unread(function):
+            yield swapped(site, node, name)
+        for name in declared:
+            yield swapped(site, node, f"self.get_parameter({name}).value", more=1)
+
+
+def _unread(function: Function) -> list[str]:
+    names = [n for n in ast.walk(function) if isinstance(n, ast.Name)]
+    read = {n.id for n in names if isinstance(n.ctx, ast.Load)}
+    return [n.id for n in names if isinstance(n.ctx, ast.Store) and n.id not in read]
+
+
+@operator(
+    "callback",
+    cost=2,
+    why=msg("{name} is called for this, and the lines that belong to it are in another function."),
+    fix=INSTEAD,
+)
+def callback(site: Site) -> Iterator[Made]:
+    """Yield another method of the class as a callback."""
+    for call in site.of(ast.Call):
+        if not isinstance(call, ast.Call) or called_name(call) not in CREATES:
+            continue
+        for given in (*call.args, *(k.value for k in call.keywords)):
+            name = dotted(given)
+            if not name.startswith("self.") or name[5:] not in site.methods:
+                continue
+            for other in site.methods:
+                if not other.startswith("__") and f"self.{other}" != name:
+                    yield swapped(site, given, f"self.{other}")
+
+
+OPERATORS: tuple[Operator, ...] = (
+    *(own, kept, field, read_now, use_parameter, callback, base_name, attribute),
+)

@@ -1,0 +1,432 @@
+"""Operators of calls and statements: called or not, missing, too much, in the wrong place."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from grader.base.i18n.message import msg
+from grader.change.operator import Made, Operator, Site, above, inserted, moved, operator, swapped
+from grader.change.values import INSTEAD
+from grader.package.source.module import Function
+from grader.package.source.names import called_name, dotted, last_part
+
+HEADED = ast.If | ast.For | ast.While | ast.With
+ENDS = ("create_timer", "create_subscription", "create_service", "create_publisher")
+BELOW = msg("Below {name}, insert the line {written}.")
+ABOVE = msg("Above {name}, insert the line {written}.")
+
+
+def _is_self(node: ast.expr, method: Function) -> bool:
+    return dotted(node) == f"self.{method.name}"
+
+
+@operator(
+    "called",
+    cost=1,
+    why=msg(
+        "{name} without parentheses is only the name of a function: nothing is called, and no error "
+        "is reported."
+    ),
+    fix=INSTEAD,
+)
+def called(site: Site) -> Iterator[Made]:
+    """Yield a call in place of a statement that only names a function."""
+    for node in site.of(ast.Expr):
+        assert isinstance(node, ast.Expr)
+        if not isinstance(node.value, ast.Attribute | ast.Name):
+            continue
+        code, function = site.code(node.value), site.function_of(node)
+        yield swapped(site, node, f"{code}()")
+        if function is not None:
+            for name, _ in _messages(site, function):
+                yield swapped(site, node, f"{code}({name})")
+
+
+@operator(
+    "not_called",
+    cost=1,
+    why=msg("ROS gets the function itself and calls it later. With parentheses it is called now."),
+    fix=INSTEAD,
+)
+def not_called(site: Site) -> Iterator[Made]:
+    """Yield a callback without parentheses."""
+    for call in site.of(ast.Call):
+        assert isinstance(call, ast.Call)
+        for given in call.args if called_name(call) in ENDS else ():
+            if isinstance(given, ast.Call) and dotted(given.func).startswith("self."):
+                yield swapped(site, given, site.code(given.func))
+
+
+@operator(
+    "async_call",
+    cost=1,
+    why=msg(
+        "call() waits for the answer in the thread that would have to bring it: the node stands "
+        "still from then on. call_async() goes on at once."
+    ),
+    fix=INSTEAD,
+)
+def async_call(site: Site) -> Iterator[Made]:
+    """Yield call_async in place of call."""
+    for node in site.of(ast.Call):
+        function = node.func if isinstance(node, ast.Call) and node.args else None
+        if isinstance(function, ast.Attribute) and function.attr == "call":
+            yield swapped(site, function, f"{site.code(function.value)}.call_async")
+
+
+@operator(
+    "swapped",
+    cost=2,
+    why=msg("The order of the values decides which is which."),
+    fix=INSTEAD,
+)
+def arguments(site: Site) -> Iterator[Made]:
+    """Yield the first two arguments of a call in the other order."""
+    for node in site.of(ast.Call):
+        if not isinstance(node, ast.Call) or len(node.args) < 2:
+            continue
+        first, second = node.args[:2]
+        one, other = site.code(first), site.code(second)
+        text = site.module.text
+        splices = (text.swap(first, other), text.swap(second, one))
+        written = site.code(node).replace(one, "\0", 1).replace(other, one, 1).replace("\0", other)
+        yield Made(node, site.code(node), written, splices)
+
+
+@operator(
+    "returned",
+    cost=1,
+    why=msg(
+        "The callback of a service has to return the response: what it returns is the answer, and "
+        "without it there is none."
+    ),
+    fix=BELOW,
+)
+def returned(site: Site) -> Iterator[Made]:
+    """Yield a function of two arguments that returns the last one."""
+    for function in site.functions:
+        given = [a.arg for a in function.args.args if a.arg != "self"]
+        last = function.body[-1]
+        if len(given) == 2 and not isinstance(last, ast.Return):
+            yield inserted(site, last, f"return {given[-1]}")
+        for node in ast.walk(function):
+            if not isinstance(node, ast.Return) or len(given) != 2:
+                continue
+            if node.value is None or dotted(node.value) != given[-1]:
+                yield swapped(site, node, f"return {given[-1]}", more=1)
+
+
+def _messages(site: Site, function: Function) -> list[tuple[str, ast.Assign]]:
+    """Return the variables of a function that are set to a new message, with that statement."""
+    found = []
+    for node in site.simple(function):
+        value = node.value if isinstance(node, ast.Assign) else None
+        target = dotted(node.targets[0]) if isinstance(node, ast.Assign) else ""
+        made = isinstance(value, ast.Call) and last_part(dotted(value.func))[:1].isupper()
+        if isinstance(node, ast.Assign) and made and target.isidentifier():
+            found.append((target, node))
+    return found
+
+
+@operator(
+    "sent",
+    cost=2,
+    why=msg("{name} fills a message, and no line sends it."),
+    fix=BELOW,
+)
+def sent(site: Site) -> Iterator[Made]:
+    """Yield a call that publishes or asks below the last line of a new message."""
+    senders = []
+    for name, places in site.attributes.items():
+        made = getattr(site.module.parents.get(places[0]), "value", None)
+        if isinstance(made, ast.Call) and called_name(made) == "create_publisher":
+            senders.append(f"self.{name}.publish")
+        elif isinstance(made, ast.Call) and called_name(made) == "create_client":
+            senders.append(f"self.{name}.call_async")
+    for function in site.functions:
+        for name, _ in _messages(site, function):
+            uses = [
+                s
+                for s in site.simple(function)
+                if any(isinstance(n, ast.Name) and n.id == name for n in ast.walk(s))
+            ]
+            for sender in senders:
+                if uses and f"{sender}({name})" not in site.code(uses[-1]):
+                    yield inserted(site, uses[-1], f"{sender}({name})")
+
+
+@operator(
+    "filled",
+    cost=3,
+    hides=True,
+    why=msg("A field that no line sets is 0, False or an empty text."),
+    fix=BELOW,
+)
+def filled(site: Site) -> Iterator[Made]:
+    """Yield a line that sets a field of a message which no line of the function sets."""
+    for function in site.functions:
+        given = [a.arg for a in function.args.args if a.arg != "self"]
+        targets = [(name, node, node) for name, node in _messages(site, function)]
+        if len(given) == 2 and function.body:
+            targets.append((given[-1], None, function.body[0]))  # type: ignore[arg-type]
+        for name, below, first in targets:
+            for path, value in site.wanted.fields:
+                if f"{name}.{path}" in site.code(function):
+                    continue
+                row = f"{name}.{path} = {value!r}"
+                if below is not None:
+                    yield inserted(site, below, row)
+                elif not _is_doc(first):
+                    yield above(site, first, row)
+                elif len(function.body) > 1:
+                    yield above(site, function.body[1], row)
+
+
+def _is_doc(node: ast.stmt) -> bool:
+    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+
+
+@operator(
+    "field_of",
+    cost=1,
+    why=msg("This line replaces the message by a value. The value belongs into a field of it."),
+    fix=INSTEAD,
+)
+def field_of(site: Site) -> Iterator[Made]:
+    """Yield a field of a message as the target, where a statement replaces the message."""
+    fields = [path for path, _ in site.wanted.fields] or ["data"]
+    for function in site.functions:
+        for name, made in _messages(site, function):
+            for node in site.simple(function):
+                target = node.targets[0] if isinstance(node, ast.Assign) else None
+                if target is None or node is made or dotted(target) != name:
+                    continue
+                for path in fields:
+                    yield swapped(site, target, f"{name}.{path}")
+
+
+@operator(
+    "out",
+    cost=2,
+    why=msg("{name} is in the block: it runs only when the block does."),
+    fix=msg("Move the line {name} out of the block: as far to the left as the head of the block."),
+)
+def out(site: Site) -> Iterator[Made]:
+    """Yield the last statement of a block below the block."""
+    for node in site.of((ast.If, ast.For, ast.While)):
+        assert isinstance(node, ast.If | ast.For | ast.While)
+        for block in (node.body, node.orelse):
+            if block and isinstance(block[-1], ast.Expr | ast.Assign | ast.AugAssign | ast.Return):
+                last = block[-1]
+                end = (node.end_lineno or node.lineno) + 1
+                yield moved(site, last, end, site.indent(node))
+
+
+@operator(
+    "into",
+    cost=3,
+    hides=True,
+    why=msg("{name} runs each time. It belongs to the condition above it."),
+    fix=msg("Indent the line {name}, so that it is in the block above it."),
+)
+def into(site: Site) -> Iterator[Made]:
+    """Yield a statement as the last one of the block above it."""
+    for function in site.functions:
+        for statement in site.simple(function):
+            block = site.block(statement)
+            at = block.index(statement)
+            before = block[at - 1] if at else None
+            if isinstance(before, ast.If | ast.For | ast.While):
+                last = (before.orelse or before.body)[-1]
+                yield moved(site, statement, statement.lineno, site.indent(last))
+                if before.orelse:
+                    end = (before.body[-1].end_lineno or 0) + 1
+                    yield moved(site, statement, end, site.indent(before.body[-1]))
+
+
+@operator(
+    "earlier",
+    cost=2,
+    why=msg(
+        "Lines run from top to bottom: {name} comes too late, or too early, for what it is for."
+    ),
+    fix=msg("Move the line {name} to line {written}."),
+)
+def earlier(site: Site) -> Iterator[Made]:
+    """Yield two plain statements of a block in the other order."""
+    for function in site.functions:
+        for statement in site.simple(function):
+            block = site.block(statement)
+            at = block.index(statement)
+            for to in range(max(0, at - 3), at):
+                other = block[to]
+                if not _is_doc(other):
+                    indent = site.indent(statement)
+                    yield moved(site, statement, other.lineno, indent, more=at - to - 1)
+
+
+@operator(
+    "once",
+    cost=2,
+    why=msg(
+        "{name} runs in each call of this function, and each time makes another one beside those "
+        "that are there."
+    ),
+    fix=msg("Move the line {name} to __init__, so that it runs once."),
+)
+def once(site: Site) -> Iterator[Made]:
+    """Yield what makes an end or a timer, moved to __init__."""
+    init = site.methods.get("__init__")
+    if init is None:
+        return
+    for name, method in site.methods.items():
+        for statement in site.simple(method) if name != "__init__" else ():
+            code = site.code(statement)
+            if any(f"{end}(" in code for end in ENDS):
+                end = (init.end_lineno or init.lineno) + 1
+                yield moved(site, statement, end, site.indent(init.body[-1]))
+
+
+@operator(
+    "state",
+    cost=3,
+    hides=True,
+    why=msg("No line keeps what happened last time, so each call decides as the first one did."),
+    fix=BELOW,
+)
+def state(site: Site) -> Iterator[Made]:
+    """Yield a line that sets an attribute which is only set in __init__ to a variable."""
+    for name, places in site.attributes.items():
+        functions = {site.function_of(place) for place in places}
+        if any(f is None or f.name != "__init__" for f in functions):
+            continue
+        value = getattr(site.module.parents.get(places[0]), "value", None)
+        if not isinstance(value, ast.Constant):
+            continue
+        for function in site.functions:
+            if function.name == "__init__" or f"self.{name}" not in site.code(function):
+                continue
+            last = _last_use(site, function, name)
+            for local in [*site.locals_of(function), *(["True", "False"])][:6]:
+                if last is not None:
+                    yield inserted(
+                        site, last, f"self.{name} = {local}", more=local in ("True", "False")
+                    )
+
+
+def _last_use(site: Site, function: Function, name: str) -> ast.stmt | None:
+    for statement in reversed(function.body):
+        if f"self.{name}" in site.code(statement):
+            return statement
+    return None
+
+
+@operator(
+    "also_when",
+    cost=3,
+    why=msg("The lines of the block run each time, not only when something changes."),
+    fix=INSTEAD,
+)
+def also_when(site: Site) -> Iterator[Made]:
+    """Yield a condition together with that of a flag of the node."""
+    flags = [
+        name
+        for name, places in site.attributes.items()
+        if isinstance(getattr(site.module.parents.get(places[0]), "value", None), ast.Constant)
+        and isinstance(site.module.parents[places[0]].value.value, bool)  # type: ignore[attr-defined]
+    ]
+    for node in site.of(ast.If):
+        assert isinstance(node, ast.If)
+        for name in flags:
+            if f"self.{name}" not in site.code(node.test) and site.function_of(node) is not None:
+                for word in ("not ", ""):
+                    yield swapped(site, node.test, f"{site.code(node.test)} and {word}self.{name}")
+
+
+@operator(
+    "reset",
+    cost=3,
+    why=msg("Nothing sets this back: once it has changed, it stays so."),
+    fix=INSTEAD,
+)
+def reset(site: Site) -> Iterator[Made]:
+    """Yield `self.a = condition` in place of `if condition: self.a = True`."""
+    for node in site.of(ast.If):
+        assert isinstance(node, ast.If)
+        only = node.body[0] if len(node.body) == 1 and not node.orelse else None
+        value = only.value if isinstance(only, ast.Assign) else None
+        fixed = value.value if isinstance(value, ast.Constant) else None
+        if not isinstance(only, ast.Assign) or not isinstance(fixed, bool):
+            continue
+        test = site.code(node.test)
+        new = test if fixed else f"not ({test})"
+        yield swapped(site, node, f"{site.code(only.targets[0])} = {new}", more=-1)
+
+
+@operator(
+    "asked_data",
+    cost=1,
+    why=msg("The value is always the same here: what was asked for is in the argument."),
+    fix=INSTEAD,
+)
+def asked_data(site: Site) -> Iterator[Made]:
+    """Yield the first argument's `data` in place of a fixed value, in a callback."""
+    for function in site.functions:
+        given = [a.arg for a in function.args.args if a.arg != "self"]
+        if not given or function.name == "__init__":
+            continue
+        for node in site.simple(function):
+            value = getattr(node, "value", None)
+            target = node.targets[0] if isinstance(node, ast.Assign) else None
+            if isinstance(value, ast.Constant) and dotted(target or value).startswith("self."):
+                yield swapped(site, value, f"{given[0]}.data")
+
+
+@operator(
+    "none_first",
+    cost=1,
+    why=msg("{name} reads what is still None: nothing has come yet when this line runs first."),
+    fix=ABOVE,
+)
+def none_first(site: Site) -> Iterator[Made]:
+    """Yield a function that returns while an attribute is None."""
+    empty = [
+        name
+        for name, places in site.attributes.items()
+        if any(
+            isinstance(value := getattr(site.module.parents.get(p), "value", None), ast.Constant)
+            and value.value is None
+            for p in places
+        )
+    ]
+    for function in site.functions:
+        for name in empty if function.name != "__init__" else ():
+            body = [s for s in function.body if not _is_doc(s)]
+            if body and f"self.{name}." in site.code(function):
+                rows = (f"if self.{name} is None:", "    return")
+                yield above(site, body[0], *rows)
+
+
+@operator(
+    "deleted",
+    cost=4,
+    hides=True,
+    why=msg("Without this line the check passes: it undoes what other lines do."),
+    fix=msg("Look at the line {name}: delete it, or make it run at another time."),
+    shows=True,
+)
+def deleted(site: Site) -> Iterator[Made]:
+    """Yield the file without one of its plain statements."""
+    for function in site.functions:
+        for node in site.simple(function):
+            if len(site.block(node)) > 1:
+                rows = range(node.lineno, (node.end_lineno or node.lineno) + 1)
+                gone = tuple(site.module.text.without(row) for row in rows)
+                yield Made(node, site.module.line(node.lineno), "", gone)
+
+
+OPERATORS: tuple[Operator, ...] = (
+    *(called, not_called, async_call, returned, none_first, field_of, asked_data, out, once),
+    *(reset, earlier, arguments, sent, into, filled, state, also_when, deleted),
+)

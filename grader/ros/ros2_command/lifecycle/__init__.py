@@ -1,0 +1,3 @@
+"""Various lifecycle related sub-commands."""
+
+VERBS = ("get", "list", "nodes", "set")

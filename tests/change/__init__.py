@@ -1,0 +1,1 @@
+"""Tests of the operators: changes of a program that may help a failed check."""

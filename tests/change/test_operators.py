@@ -1,0 +1,88 @@
+"""Each operator has the change that takes a beginner's mistake back, and hides no expression."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from grader.change.operator import Site, Wanted, all_made
+from grader.change.table import BY_SORT, TABLE
+from grader.package.source.module import parse_module
+from tests.processes import ROOT
+
+HERE = Path(__file__).parent
+EXAMPLES = yaml.safe_load((HERE / "examples.yaml").read_text(encoding="utf-8"))
+KEYS = ROOT / "grader" / "keys"
+NOT_NODES = ("__init__.py", "setup.py")
+
+
+def node_of(lesson: str) -> str:
+    """Return the text of the node of a lesson's right package."""
+    found = sorted((KEYS / lesson / "solution").rglob("*.py"))
+    (file,) = (one for one in found if one.name not in NOT_NODES)
+    return file.read_text(encoding="utf-8")
+
+
+def site_of(text: str, given: dict[str, Any]) -> Site:
+    wanted = Wanted(
+        tuple(given.get("numbers", ())),
+        tuple(given.get("texts", ())),
+        tuple(given.get("fields", {}).items()),
+    )
+    return Site(parse_module("robot/node.py", text.encode()), wanted)
+
+
+@pytest.mark.parametrize("given", EXAMPLES, ids=lambda one: f"{one['lesson']}-{one['back']}")
+def test_an_operator_takes_a_mistake_back(given: dict[str, Any]) -> None:
+    right = node_of(given["lesson"])
+    assert right.count(given["old"]) == given.get("times", 1)
+    broken = right.replace(given["old"], given["new"])
+    made = all_made(site_of(broken, given), [BY_SORT[given["back"]]])
+    assert right in [text for _, _, text in made]
+
+
+def test_every_operator_has_a_name_of_its_own() -> None:
+    assert len(BY_SORT) == len(TABLE)
+
+
+VALUE = """\
+class Robot(Node):
+    def speed(self):
+        message = Twist()
+        message.linear.x = self.speed * self.factor
+        self.publisher.publish(message)
+"""
+
+
+def test_no_operator_puts_the_wanted_value_in_place_of_an_expression() -> None:
+    site = site_of(VALUE, {"numbers": [1.25], "fields": {"linear.x": 1.25}})
+    for row, _, text in all_made(site, TABLE):
+        numbers = [n for n in ast.walk(ast.parse(text)) if isinstance(n, ast.Constant)]
+        assert 1.25 not in [n.value for n in numbers], row.sort
+
+
+HELD = """\
+class Robot(Node):
+    def ask(self):
+        try:
+            self.go()
+        except ValueError:
+            raise
+        if self.ready:
+            self.publisher.publish(self.made())
+"""
+
+
+def test_no_operator_swallows_an_error_or_removes_a_condition() -> None:
+    before = ast.dump(ast.parse(HELD))
+    for row, _, text in all_made(site_of(HELD, {}), TABLE):
+        after = ast.parse(text)
+        names = [type(n).__name__ for n in ast.walk(after)]
+        assert names.count("Try") == 1, row.sort
+        assert names.count("Raise") == 1, row.sort
+        assert names.count("If") >= 1, row.sort
+        assert ast.dump(after) != before
