@@ -16,9 +16,9 @@ $(foreach v,$(VARIABLES),$(if $(filter-out undefined,$(origin $v)),$(eval overri
 BOOTSTRAP := python3 grader/bootstrap.py $${PYTHON:+--python "$$PYTHON"}
 # (a test that hangs fails, with its place, instead of stopping the run)
 # one process more than cores: a node under observation leaves them mostly idle
-PYTEST := .venv/bin/python -m pytest -q --timeout 600 --dist worksteal -n $$(( $$(getconf _NPROCESSORS_ONLN) + 1 ))
+PYTEST := .venv/bin/python -m pytest -q --timeout 600 --durations 40 --dist worksteal -n $$(( $$(getconf _NPROCESSORS_ONLN) + 1 ))
 # those with containers and real runs wait for a third of their time
-PYTEST_FULL := .venv/bin/python -m pytest -q --timeout 600 --durations 20 --dist worksteal -n $$(( 2 * $$(getconf _NPROCESSORS_ONLN) ))
+PYTEST_FULL := .venv/bin/python -m pytest -q --timeout 600 --durations 60 --dist worksteal -n $$(( 2 * $$(getconf _NPROCESSORS_ONLN) ))
 # those that keep every core busy, or whose limits in wall time need a quiet machine, run after the
 # others (PYTEST_ARGS chooses a part: all at once)
 ALONE := .venv/bin/python -m pytest -q --timeout 1200 -p no:xdist tests/test_load.py tests/test_ceiling.py

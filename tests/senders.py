@@ -88,7 +88,7 @@ RIGHT = (
         ),
         in_ci=True,
     ),
-    Edited("a_helper_in_a_namespace", CIRCLE, _several(HELPER), in_ci=True),
+    Edited("a_helper_in_a_namespace", CIRCLE, _several(HELPER)),
     Edited("a_helper_and_many_threads", CIRCLE, _several(HELPER, threads=True)),
     Edited("a_monitor_of_the_judged_topic", CIRCLE, _several(MONITOR)),
     Edited("a_node_for_an_action_client", SWITCH, _several(ACTION, lesson=SWITCH)),
@@ -226,7 +226,7 @@ RIGHT = (
             ),
         ),
     ),
-    Edited("a_helper_beside_a_server", SWITCH, _several(HELPER, lesson=SWITCH), in_ci=True),
+    Edited("a_helper_beside_a_server", SWITCH, _several(HELPER, lesson=SWITCH)),
     Edited("a_server_with_threads", SWITCH, _several("nodes = []", threads=True, lesson=SWITCH)),
     Edited(
         "a_client_of_another_service",

@@ -100,7 +100,10 @@ def judged(folder: Path, client: str) -> Report:
             "    rclpy.spin(node)\n    node.destroy_node()\n",
             "run.does_not_end",
         ),
-        ("    node.destroy_node()\n", "    sys.exit(3)\n", "run.ended_early"),
+        pytest.param(
+            *("    node.destroy_node()\n", "    sys.exit(3)\n", "run.ended_early"),
+            marks=pytest.mark.long,
+        ),
     ],
 )
 def test_a_client_that_asks_once_must_end(old: str, new: str, mistake: str, tmp_path: Path) -> None:

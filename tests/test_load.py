@@ -1,7 +1,7 @@
 """A verdict does not depend on the load of the machine.
 
 The long part marks forty packages three times alone, one after the other, and three times beside thirty
-busy processes, four verdicts at a time: each has a seventeenth of a core. It prints a table.
+busy processes, sixteen verdicts at a time: each has less than a twentieth of a core. It prints a table.
 `make test-long PYTEST_ARGS="-n 0 tests/test_load.py -k draw_circle"` takes a part.
 """
 
@@ -31,7 +31,7 @@ from tests.marking import summary
 pytestmark = pytest.mark.alone
 TIMES = 3
 BUSY = 30
-AT_ONCE = 4  # verdicts beside the busy processes: they wait for each other too
+AT_ONCE = 16  # verdicts beside the busy processes: they wait for each other too
 MOST_UNDECIDED = 0.05  # of the verdicts beside busy processes
 CASES = {case.name: case for case in cases()}
 IN_CI = {"hello_time-first_callback_raises": (80, ["run.output"]), "hello_time-solution": (100, [])}
@@ -140,6 +140,7 @@ def rows(
             _, report, seconds = timed(name, folder)
             found[name].alone.append(report)
             found[name].seconds.append(seconds)
+        print_line(f"{name:60} alone: {found[name].seconds[-1]:.0f} s")
     print_line(f"\n{'package':60} {'alone':>14} {'':8} {'beside others':>16} {'':8} undecided")
     with busy(BUSY), ProcessPoolExecutor(AT_ONCE, get_context("spawn")) as pool:
         orders = [(name, folder) for name, folder in folders.items() for _ in range(TIMES)]

@@ -75,7 +75,7 @@ def test_a_full_disk_loses_no_verdict_and_the_same_command_goes_on(
         assert opened.check_chain(None).faults == []
 
 
-@pytest.mark.full
+@pytest.mark.long
 @pytest.mark.prefix
 def test_a_worker_without_memory_costs_only_its_own_submission(tmp_path: Path) -> None:
     one, two = tasks(tmp_path, ["solution", "entry_missing"])
@@ -152,7 +152,9 @@ def test_a_ledger_that_another_program_holds_is_said_and_nothing_is_lost(
 
 @pytest.mark.full
 @pytest.mark.prefix
-@pytest.mark.parametrize("stage", STAGES)
+@pytest.mark.parametrize(
+    "stage", [*(pytest.param(s, marks=pytest.mark.long) for s in STAGES[:-1]), STAGES[-1]]
+)
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL], ids=["TERM", "KILL"])
 def test_a_grader_that_ends_in_any_stage_leaves_nothing_and_no_half_report(
     stage: str, number: signal.Signals, tmp_path: Path

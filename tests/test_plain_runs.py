@@ -129,7 +129,8 @@ def test_a_plain_run_for_which_the_machine_is_too_busy_is_a_note(
     assert "self.get_clock().now" in note
 
 
-@pytest.mark.parametrize("file", ["listener.py", pytest.param("talker.py", marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("file", ["listener.py", "talker.py"])
 def test_of_several_nodes_each_must_work_plainly(file: str, tmp_path: Path) -> None:
     """(The listener only logs.)"""
     callbacks = {

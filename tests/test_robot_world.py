@@ -126,13 +126,19 @@ def test_where_the_robot_fits() -> None:
     ("old", "new", "fails"),
     [
         ("", "", {}),
-        ("ranges[0] > 1.0", "ranges[0] > 0.8", {"inside": "world.hits_wall"}),
+        pytest.param(
+            *("ranges[0] > 1.0", "ranges[0] > 0.8", {"inside": "world.hits_wall"}),
+            marks=pytest.mark.long,
+        ),
         (
             "1.0 if scan.ranges[0] > 1.0 else 0.0",
             "1.0",
             {"inside": "world.hits_wall", "never": "world.bumps"},
         ),
-        ("1.0 if scan.ranges[0] > 1.0 else 0.0", "0.2", {"inside": "world.too_short"}),
+        pytest.param(
+            *("1.0 if scan.ranges[0] > 1.0 else 0.0", "0.2", {"inside": "world.too_short"}),
+            marks=pytest.mark.long,
+        ),
     ],
 )
 def test_a_package_is_judged_in_it(

@@ -60,7 +60,7 @@ SWAPPED = (
 @pytest.mark.parametrize(
     ("node", "fails"),
     [
-        pytest.param(NODE, {}, id="right"),
+        pytest.param(NODE, {}, id="right", marks=pytest.mark.long),
         pytest.param(
             SWAPPED, {"hears": "topic.wrong_end", "says": "topic.wrong_end"}, id="swapped"
         ),

@@ -165,9 +165,9 @@ def test_two_packages_get_full_marks(tmp_path: Path) -> None:
         pytest.param(
             RELAY.replace("f'got", "f'Got"),
             {"relay.logs": "log.wrong_text", "relay.logger": "log.missing"},
-            marks=pytest.mark.full,
+            marks=pytest.mark.long,
         ),
-        pytest.param(None, {"relay.there": "beside.missing"}, marks=pytest.mark.full),
+        pytest.param(None, {"relay.there": "beside.missing"}, marks=pytest.mark.long),
         pytest.param(
             RELAY.replace("'/out'", "'/uot'"),
             {"relay.type": "topic.wrong_name"},

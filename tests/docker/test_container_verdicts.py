@@ -39,19 +39,19 @@ def some(corpus: tuple[Package, ...], each: int, *, later: int) -> list[object]:
     ]
 
 
-@pytest.mark.parametrize("package", some(RIGHT, 80, later=10))
+@pytest.mark.parametrize("package", some(RIGHT, 160, later=10))
 def test_a_right_variant_gets_full_marks_in_containers(package: Package, tmp_path: Path) -> None:
     report = mark(write(package, tmp_path), sandbox="docker")
     assert_full_marks(package, report)
     assert report.environment.sandbox == "docker"
 
 
-@pytest.mark.parametrize("package", some(BROKEN, 200, later=9))
+@pytest.mark.parametrize("package", some(BROKEN, 400, later=9))
 def test_a_broken_package_fails_alike_in_containers(package: Package, tmp_path: Path) -> None:
     assert_verdict(package, mark(write(package, tmp_path), sandbox="docker"))
 
 
-@pytest.mark.parametrize("package", some(HOSTILE, 14, later=4))
+@pytest.mark.parametrize("package", some(HOSTILE, 21, later=4))
 def test_a_hostile_package_harms_nothing_in_containers(
     package: Package, tmp_path: Path, client: DockerClient
 ) -> None:

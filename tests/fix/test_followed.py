@@ -221,6 +221,8 @@ LIE = {
         "logged": [[[AWAY], 0]],
         "stand": [[AWAY, [NODE, 3]]],
         "values": [],
+        "ranges": [],
+        "kinds": [],
         "callbacks": [
             {"how": "timer", "name": "", "made": [AWAY], "function": "tick", "calls": 1},
         ],
@@ -284,7 +286,7 @@ def failed(report: Report) -> CheckResult:
     return next(check for check in report.checks if check.status == "failed")
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_a_real_verdict_tells_the_timer_that_nothing_calls(tmp_path: Path) -> None:
     body = f"        self.clock_ = make_clock(self.tick)\n{TICK}        {LOG}\n{STEP}"
     report, kept = judged(package_with(tmp_path, body))

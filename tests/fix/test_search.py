@@ -304,7 +304,7 @@ MASKED = LATE.replace("        node.begin()\n", "").replace(
 MASKED = MASKED.replace("= 0\n", "= 0\n        self.begin()\n")
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_the_change_of_a_real_verdict_lets_the_package_pass(tmp_path: Path) -> None:
     root = package_with(MASKED, tmp_path)
     kept: list[Judged] = []
@@ -320,7 +320,7 @@ def test_the_change_of_a_real_verdict_lets_the_package_pass(tmp_path: Path) -> N
 
 
 @pytest.mark.full
-@pytest.mark.parametrize("distro", ["jazzy", "kilted"])
+@pytest.mark.parametrize("distro", ["jazzy", pytest.param("kilted", marks=pytest.mark.long)])
 def test_variants_run_with_the_real_ros(distro: str, tmp_path: Path) -> None:
     swapped = "        node.begin()\n        rclpy.spin(node)\n"
     root = package_with(

@@ -21,12 +21,10 @@ LESSONS = lessons_of(own_course())
 
 
 def played() -> Iterator[object]:
-    """Yield the lessons and languages; the first lesson once is enough for `make test-all`."""
+    """Yield the lessons and languages; test_ten_steps.py plays the first one for `make test-all`."""
     for lesson in LESSONS:
         for lang in ("en", "ko"):
-            is_soon = (lesson, lang) == (LESSONS[0], "ko")  # test_ten_steps.py plays it in English
-            marks = [pytest.mark.full] if is_soon else [pytest.mark.long]
-            yield pytest.param(lesson, lang, marks=marks)
+            yield pytest.param(lesson, lang, marks=pytest.mark.long)
 
 
 @long_in_a_container

@@ -89,7 +89,7 @@ def test_what_cannot_be_shown_is_a_usage_error(words: tuple[str, ...], says: str
     [
         pytest.param(
             *("start_stop", "pen without a width and a colour", "pen.down", "width: 0"),
-            marks=pytest.mark.full,
+            marks=pytest.mark.long,
         ),
         pytest.param(
             *("own_message", "timer does not wait for a pose", "run.stays", "NoneType"),

@@ -79,7 +79,7 @@ def test_a_mutant_that_must_run_fails_the_expected_check(name: str, tmp_path: Pa
     assert "100 of 100" in shown
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_a_surviving_mutant_is_reported(tmp_path: Path) -> None:
     harmless = CHECKED + "      - {write: README.md, text: hello}\n"
     found = keys(tmp_path, harmless)
@@ -100,7 +100,7 @@ def test_a_mutant_that_fails_another_check_is_reported(tmp_path: Path) -> None:
     assert "mine: did not fail at source.exec_bit" in shown
 
 
-@pytest.mark.full
+@pytest.mark.long
 def test_another_mistake_than_the_named_one_is_reported(tmp_path: Path) -> None:
     mode = '      - {chmod: my_robot_controller/my_first_node.py, mode: "0644"}\n'
     wrong = CHECKED.replace("source.not_executable", "source.crlf") + mode

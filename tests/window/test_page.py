@@ -96,15 +96,20 @@ def test_the_arrow_keys_drive_the_chosen_turtle(
     expect(page.locator("#no-turtle")).to_be_visible()
 
 
+@pytest.mark.long  # of wall time, which other tests take away
 def test_five_turtles_move_at_thirty_frames_a_second(
     visited: PageRecord, ros_env: dict[str, str]
 ) -> None:
-    page = visited.page
     with turtles(ros_env, 5, "move"):
-        expect(page.locator("#turtle-list button")).to_have_count(5)
-        # (other tests may keep the cores busy for a while)
-        until(lambda: page.evaluate(COUNT_FRAMES, 2) >= 30)
-    with turtles(ros_env, 5):  # they stand: nothing is drawn
+        expect(visited.page.locator("#turtle-list button")).to_have_count(5)
+        until(lambda: visited.page.evaluate(COUNT_FRAMES, 2) >= 30)
+
+
+def test_turtles_that_stand_are_not_drawn_again(
+    visited: PageRecord, ros_env: dict[str, str]
+) -> None:
+    page = visited.page
+    with turtles(ros_env, 5):
         expect(page.locator("#turtle-list button").first).to_contain_text("0.00 m/s")
         until(lambda: page.evaluate(COUNT_FRAMES, 0.5) == 0)
         assert page.evaluate(COUNT_FRAMES, 1) == 0
@@ -325,20 +330,21 @@ def test_a_plot_shows_the_values_of_two_topics(
         expect(series.nth(1).locator("output")).to_have_text("7")
         expect(page.locator("#chart")).to_have_attribute("data-points", re.compile("[1-9][0-9]{2}"))
         assert abs(float(series.nth(0).locator("output").inner_text())) <= 1
-        painted = page.locator("#chart canvas").evaluate(
-            """canvas => {
-                const pen = canvas.getContext("2d");
-                const pixels = pen.getImageData(0, 0, canvas.width, canvas.height).data;
-                const colors = [[0x24, 0x50, 0xc8], [0xc2, 0x41, 0x0c]]; // of the two series
-                return colors.map(([r, g, b]) => {
+        page.wait_for_function(
+            """() => { // each series' line has its color: 50 pixels of it at least
+                const {width, height} = document.querySelector("#chart canvas");
+                const pen = new OffscreenCanvas(width, height).getContext("2d", {willReadFrequently: true});
+                pen.drawImage(document.querySelector("#chart canvas"), 0, 0);
+                const pixels = pen.getImageData(0, 0, width, height).data;
+                const colors = [[0x24, 0x50, 0xc8], [0xc2, 0x41, 0x0c]];
+                return colors.every(([r, g, b]) => {
                     let count = 0;
                     for (let i = 0; i < pixels.length; i += 4)
                         if (pixels[i] === r && pixels[i + 1] === g && pixels[i + 2] === b) count++;
-                    return count;
+                    return count > 50;
                 });
             }"""
         )
-        assert min(painted) > 50
         page.get_by_role("button", name="Remove /scan data").click()
         expect(series).to_have_count(1)
         look_at(page, "graph")

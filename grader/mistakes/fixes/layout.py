@@ -91,7 +91,8 @@ def _with_entry(files: Files, old: str, new: str) -> Files:
         rows = setup.split(b"\n")
         setup = b"\n".join(rows[: scripts[0] - 1] + rows[scripts[0] :])
         files = files.with_data("setup.py", setup)
-    named = re.compile(rf"(?<![\w.]){re.escape(before)}(?![\w.])".encode())
+    # (an executable's name, before the =, is no module)
+    named = re.compile(rf"(?<![\w.]){re.escape(before)}(?![\w.]|\s*=)".encode())
     if setup is None or len(named.findall(setup)) != 1:
         return files
     return files.with_data("setup.py", named.sub(after.encode(), setup))
