@@ -248,7 +248,7 @@ FORMS = (
         ),
         {
             **OTHER_NAME,
-            "count": "node.prints_inside",
+            "count": "node.print_used",
             "count.logger": "node.print_used",
             "readme": "files.missing",
             "beat": "topic.wrong_type",
@@ -399,7 +399,7 @@ FORMS = (
             ),
         ),
         {
-            "run.stays": "node.response_not_returned",
+            "run.stays": "node.service_callback",
             "eight": "topic.no_reaction",
             "silent": "log.forbidden",
         },
@@ -567,7 +567,6 @@ FORMS = (
         ),
         {
             **OTHER_NAME,
-            "name": "node.in_namespace",
             "beat.qos": "topic.wrong_qos",
             "beat.values": "topic.wrong_value",
             "beat.period": "topic.wrong_period",

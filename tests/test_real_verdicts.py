@@ -115,7 +115,7 @@ def test_kilteds_second_ctrl_c_does_not_hide_an_error_in_the_clean_up(tmp_path: 
     report = mark(root, distro="kilted")
     failed = [check for check in report.checks if check.status == "failed"]
     assert [check.id for check in failed] == ["run.interrupt"], summary(report)
-    assert failed[0].mistakes[0].id == "node.method_misspelt"
+    assert failed[0].mistakes[0].id == "node.attribute_unknown"
 
 
 @pytest.mark.long

@@ -96,7 +96,7 @@ BROKEN = (
     broken(
         "raises in the constructor",
         (LISTENER, "self.on_text, 10", "self.on_txt, 10"),
-        fails=("run.starts", "node.method_misspelt", LISTENER),
+        fails=("run.starts", "node.attribute_unknown", LISTENER),
         line="self.on_txt",
         says="AttributeError",
         lost=AFTER_START | OF_LISTENER,

@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 
 from grader.mistakes.catalogue import CATALOGUE
-from grader.package.source.broken_xml import xml_fault
 from grader.verdict.checks import package, source
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.checks.declare import INTAKE, Check
@@ -69,7 +68,7 @@ def test_a_package_inside_another_passes_with_advice(bench: Bench) -> None:
             "</decription> should be </description>",
         ),
         ("</package>", "", "broken_xml", 3, "</package> is missing"),
-        ("jane</m", "Jane & co</m", "broken_xml", 7, "bare &"),
+        ("jane</m", "Jane & co</m", "broken_xml", 7, "not well-formed"),
         (f"<name>{NAME}", "<name>my_robot", "name_mismatch", 4, "my_robot"),
         ("  <version>0.0.0</version>\n", "", "manifest_tag", None, "<version> is missing"),
         ("0.0.0", "", "manifest_tag", 5, "<version> is empty"),
@@ -83,16 +82,16 @@ def test_a_package_inside_another_passes_with_advice(bench: Bench) -> None:
         ("<build_type>ament_python</build_type>", "", "build_type", 10, "no <build_type>"),
         ("  <export>", "  <build_type>x</build_type><export>", "build_type", 10, "outside"),
         ("</license>", "", "broken_xml", 8, "</license> is missing"),
-        ("</license>", "<license>", "broken_xml", 8, "opened twice"),
-        ("</license>", "</license", "broken_xml", 8, "has no > at its end"),
+        ("</license>", "<license>", "broken_xml", 8, "is not closed"),
+        ("</license>", "</license", "broken_xml", None, "not well-formed"),
         ("<license>", "", "broken_xml", 8, "its <license> is missing"),
         ("<license>", "<licence>", "broken_xml", 8, "<licence> should be <license>"),
         ("</export>\n", "", "broken_xml", 10, "</export> is missing"),
         ("</depend>", "", "broken_xml", 9, "</depend> is missing"),
         ("</maintainer>", "", "broken_xml", 7, "</maintainer> is missing"),
-        ('"3"', "\u201c3\u201d", "broken_xml", 3, "typographic"),
-        ("<?xml version", "XML\n<?xml version", "broken_xml", 1, "before the first tag"),
-        ("</package>", "</package>\n```", "broken_xml", 14, "after the last tag"),
+        ('"3"', "\u201c3\u201d", "broken_xml", 3, "not well-formed"),
+        ("<?xml version", "XML\n<?xml version", "broken_xml", 1, "syntax error"),
+        ("</package>", "</package>\n```", "broken_xml", 14, "not well-formed"),
         (
             "<build_type>ament_python</build_type>",
             "<build_typ>ament_python</build_typ>",
@@ -124,52 +123,6 @@ def test_a_wrong_manifest_is_reported_with_its_line(
         assert line(failed) == at
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "at", "words", "fix", "right"),
-    [
-        ("  <export>", "  <!-- a -- b -->\n  <export>", 10, "two hyphens", "so: <!-- a - b -->",
-         "  <!-- a - b -->\n  <export>"),
-        ("  <export>", "  <!------ a ------>\n  <export>", 10, "two hyphens", "so: <!-- a -->",
-         "  <!-- a -->\n  <export>"),
-        ("  <export>", "  <!-- a\n  b -- c\n  -->\n  <export>", 11, "two hyphens", "one hyphen, or - - with a space",
-         "  <!-- a\n  b - c\n  -->\n  <export>"),
-        ("  <export>", "  <!- a ->\n  <export>", 10, "<!- does not begin", "Write <!-- where",
-         "  <!-- a -->\n  <export>"),
-        ("  <export>", "  <-- a -->\n  <export>", 10, "<-- does not begin", "Write <!-- where",
-         "  <!-- a -->\n  <export>"),
-        ("  <export>", "  <!-- a ->\n  <export>", 10, "has no end", "Write -->",
-         "  <!-- a -->\n  <export>"),
-        ("  <export>", "  <!-- a\n  <!-- b -->\n  <export>", 10, "has no end", "Write -->",
-         "  <!-- a -->\n  <!-- b -->\n  <export>"),
-        ("TODO: Package", "n < 3, m <3", 6, "bare <", "Write &lt;", "n &lt; 3, m &lt;3"),
-        ("jane</", "jane <j@x.org></", 7, "bare <", "Write &lt;", "jane &lt;j@x.org></"),
-    ],
-)  # fmt: skip
-def test_a_wrong_comment_is_named_and_corrected(
-    bench: Bench, old: str, new: str, at: int, words: str, fix: str, right: str
-) -> None:
-    before = (bench.root / "package.xml").read_text()
-    bench.change("package.xml", old, new)
-    failed = bench.fails(package.manifest)
-    assert (mistake(failed), line(failed)) == ("package.broken_xml", at)
-    assert words in failed.actual
-    assert fix in failed.fix
-    fault = xml_fault((bench.root / "package.xml").read_bytes())
-    assert fault is not None
-    assert fault.fixed == before.replace(old, right).encode()
-
-
-@pytest.mark.parametrize(
-    "new", ["<!# a>", "< license>", "<license name>"]
-)  # fmt: skip
-def test_a_tag_with_an_end_is_not_said_to_have_none(bench: Bench, new: str) -> None:
-    bench.change("package.xml", "<license>", new)
-    failed = bench.fails(package.manifest)
-    assert mistake(failed) == "package.broken_xml"
-    assert "has no >" not in failed.actual
-    assert "bare <" not in failed.actual
-
-
 def test_a_build_type_counts_only_if_its_condition_holds_under_ros_2(bench: Bench) -> None:
     both = (
         '<build_type condition="$ROS_VERSION == 1">catkin</build_type>'
@@ -180,7 +133,6 @@ def test_a_build_type_counts_only_if_its_condition_holds_under_ros_2(bench: Benc
     bench.change("package.xml", "$ROS_VERSION == 2", "$ROS_VERSION == 3")
     found = bench.fails(package.manifest)
     assert found.actual == "the condition $ROS_VERSION == 3 is not true in ROS 2"
-    assert "Delete the condition" in found.fix
 
 
 def test_a_missing_empty_or_binary_manifest_is_reported(bench: Bench) -> None:
@@ -241,7 +193,7 @@ def test_a_missing_marker_is_reported(bench: Bench) -> None:
     (bench.root / MARKER).rename(bench.root / "resource/my_robot_controler")
     failed = bench.fails(package.marker)
     assert mistake(failed) == "package.marker_missing"
-    assert "Rename resource/my_robot_controler" in failed.fix
+    assert "mv resource/my_robot_controler resource/" in failed.fix
     (bench.root / "resource/my_robot_controler").unlink()
     assert "touch" in bench.fails(package.marker).fix
     (bench.root / MARKER).mkdir()
@@ -263,9 +215,7 @@ def test_the_marker_and_its_line_are_both_named(bench: Bench) -> None:
     failed = bench.fails(package.marker)
     assert mistake(failed) == "package.marker_missing"
     assert "no line for it" in failed.actual
-    assert "touch resource/my_robot_controller" in failed.fix
-    assert "line to data_files" in failed.fix
-    assert "the build stops" not in failed.rationale
+    assert "data_files in setup.py have this line" in failed.fix
     bench.change("setup.py", "data_files=[", "data_files=OTHERS + [")
     assert "data_files" not in bench.fails(package.marker).fix
 
@@ -393,7 +343,7 @@ def test_a_file_in_the_inner_folder_is_to_be_moved_out(
         (bench.root / "resource").rmdir()
     failed = bench.fails(check)
     assert mistake(failed) == wanted
-    assert f"mv {NAME}/{command} ." in failed.fix
+    assert f"mv {NAME}/{command}" in failed.fix
     assert failed.where is not None
     assert (bench.root / failed.where.file).is_file()
     assert not bench.evidence().submission.hints
@@ -401,7 +351,7 @@ def test_a_file_in_the_inner_folder_is_to_be_moved_out(
 
 def test_setup_py_in_the_inner_folder_is_to_be_moved_out(bench: Bench) -> None:
     (bench.root / "setup.py").rename(bench.root / NAME / "setup.py")
-    assert f"mv {NAME}/setup.py ." in bench.misses().fix
+    assert f"mv {NAME}/setup.py setup.py" in bench.misses().fix
 
 
 def test_the_files_of_a_package_inside_are_not_to_be_moved_out(bench: Bench) -> None:
@@ -414,9 +364,7 @@ def test_the_files_of_a_package_inside_are_not_to_be_moved_out(bench: Bench) -> 
 def test_a_wrong_build_type_alone_is_one_line_to_change(bench: Bench) -> None:
     bench.change("package.xml", "ament_python", "ament_cmake")
     failed = bench.fails(package.manifest)
-    assert failed.fix == (
-        "Write in this line instead, then build again: <build_type>ament_python</build_type>"
-    )
+    assert "<export><build_type>ament_python</build_type></export>" in failed.fix
     (bench.root / "setup.cfg").unlink()
     assert "create a new package" in bench.fails(package.manifest).fix
 
@@ -439,5 +387,3 @@ def test_what_only_a_build_installs_is_to_be_built_again(kind: str, variant: str
 def test_a_wrong_path_in_setup_cfg_is_not_said_to_be_bin(bench: Bench) -> None:
     bench.change("setup.cfg", "script_dir=$base/lib/my_robot_controller", "script_dir=$base/lib/x")
     assert "get into another folder" in bench.fails(package.setup_cfg).rationale
-    bench.change("setup.cfg", "script_dir=$base/lib/x\n", "")
-    assert "installed in bin" in bench.fails(package.setup_cfg).rationale

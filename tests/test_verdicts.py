@@ -42,10 +42,3 @@ def test_the_tutorials_traceback_is_advice_and_not_a_failure(tmp_path: Path) -> 
     assert report.observed.exit is not None
     assert report.observed.exit.status == 1
     assert "try_shutdown" in report.check("run.interrupt").advice[0]
-
-
-def test_what_a_node_without_spin_does_not_log_is_left_to_that(tmp_path: Path) -> None:
-    package = next(package for package in BROKEN if package.name == "rate_in_a_loop_of_main")
-    report = mark(write(package, tmp_path))
-    assert report.check("run.output").consequence_of == "run.spins"
-    assert report.check("run.output").rationale == ""

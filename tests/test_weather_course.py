@@ -34,7 +34,7 @@ from grader.verdict.evidence import Evidence
 from tests import processes, weather
 from tests.fixing import patch_for
 from tests.mistakes.filled import filled
-from tests.weather import LOG, NODE, SETUP, STEP, TIMER
+from tests.weather import NODE, SETUP, STEP, TIMER
 
 LANGUAGES = ["en", "ko"]
 OURS = re.compile(
@@ -66,7 +66,10 @@ def sources() -> Iterator[Path]:
             yield processes.ROOT / name
 
 
-EDITS = ("example", "Replace", "Write", "Move", "Copy", "Delete", "Nest", "Chmod", "Crlf")
+EDITS = (
+    *("example", "Replace", "Write", "Move", "Copy", "Delete", "Nest", "Chmod", "Crlf"),
+    *("_example", "_line", "_sections", "_renamed"),  # (these make examples or edits)
+)
 
 
 def texts_of(path: Path) -> Iterator[tuple[int, str]]:
@@ -227,14 +230,6 @@ MISTAKES = {
     "no f": Mistake(
         (Replace(NODE, "f'Reading", "'Reading"),), "run.output", "node.f_prefix",
         "f'Reading {self.", counted("Reading {self.reading}"),
-    ),
-    "no number": Mistake(
-        (Replace(NODE, LOG, "self.get_logger().info('Reading ')"),), "run.output",
-        "node.text_without_number", "'Reading ' + str(self.", counted("Reading"),
-    ),
-    "a number with a point": Mistake(
-        (Replace(NODE, "self.reading = 1", "self.reading = 1.0"),), "run.output",
-        "node.number_format", "self.reading = 1", counted("Reading {n}.0"),
     ),
     "nothing is added": Mistake(
         (Replace(NODE, STEP, ""),), "run.output", "node.counter_not_increased",

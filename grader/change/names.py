@@ -32,11 +32,27 @@ CREATES = ("create_timer", "create_subscription", "create_service")
     fix=INSTEAD,
 )
 def own(site: Site) -> Iterator[Made]:
-    """Yield a local name as the attribute of self with the same or nearly the same name."""
-    for node in site.of(ast.Name):
-        assert isinstance(node, ast.Name)
-        if isinstance(node.ctx, ast.Store) and node.id in site.attributes:
-            yield swapped(site, node, f"self.{node.id}")
+    """Yield a local or unknown name, in all its places, as the attribute or method of self."""
+    for function in site.functions:
+        names = [n for n in ast.walk(function) if isinstance(n, ast.Name)]
+        for name in _without_self(site, function):
+            uses = [n for n in names if n.id == name]
+            splices = tuple(site.module.text.swap(use, f"self.{name}") for use in uses)
+            at = next((n for n in uses if isinstance(n.ctx, ast.Store)), uses[0])
+            yield Made(at, name, f"self.{name}", splices)
+
+
+def _without_self(site: Site, function: Function) -> Iterator[str]:
+    """Yield the names of a function that only self has, or that it sets and self has too."""
+    given = {each.arg for each in function.args.args}
+    local, methods = set(site.locals_of(function)) - given, {*site.methods}
+    unknown = {*site.attributes, *methods} - (site.module.names - methods) - local
+    for node in ast.walk(function):
+        name = node.id if isinstance(node, ast.Name) else ""
+        if name in (local & {*site.attributes} | unknown) - given:
+            local.discard(name)
+            unknown.discard(name)
+            yield name
 
 
 @operator(
@@ -223,6 +239,24 @@ def callback(site: Site) -> Iterator[Made]:
                     yield swapped(site, given, f"self.{other}")
 
 
+@operator(
+    "data_of",
+    cost=1,
+    why=msg("{name} is the whole message. What was sent is in a field of it."),
+    fix=INSTEAD,
+)
+def data_of(site: Site) -> Iterator[Made]:
+    """Yield the field `data` of what a callback gets, where the whole message is used."""
+    for function in site.functions:
+        given = [each.arg for each in function.args.args if each.arg != "self"]
+        if len(given) != 1 or function.name == "__init__":
+            continue
+        for node in ast.walk(function):
+            is_whole = not isinstance(site.module.parents.get(node), ast.Attribute)
+            if isinstance(node, ast.Name) and node.id == given[0] and is_whole:
+                yield swapped(site, node, f"{node.id}.data")
+
+
 OPERATORS: tuple[Operator, ...] = (
-    *(own, kept, field, read_now, use_parameter, callback, base_name, attribute),
+    *(own, kept, field, data_of, read_now, use_parameter, callback, base_name, attribute),
 )

@@ -81,7 +81,7 @@ class Site:
         """Return the plain statements of a function that have their lines for themselves."""
         found = [n for n in ast.walk(function) if isinstance(n, SIMPLE)]
         return sorted(
-            (n for n in found if owns_lines(self.module, n) and not _is_text(n)),
+            (n for n in found if owns_lines(self.module, n) and not is_text(n)),
             key=lambda n: n.lineno,
         )
 
@@ -99,7 +99,8 @@ class Site:
         return row[: len(row) - len(row.lstrip(" \t"))]
 
 
-def _is_text(node: ast.stmt) -> bool:
+def is_text(node: ast.stmt) -> bool:
+    """Whether a statement is a text alone, which only explains."""
     return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
 
 
@@ -123,6 +124,7 @@ class Operator:
 
     `shows` is of one that only shows the place: it could take away what the program is meant to do.
     One that `hides` can help by chance, with the mistake still there: it has to leave no other failure.
+    A `certain` one hardly helps by chance: a rule of Python or ROS is its reason.
     """
 
     sort: str
@@ -132,6 +134,7 @@ class Operator:
     make: Make = field(repr=False)
     shows: bool = False
     hides: bool = False
+    certain: bool = False
 
 
 def operator(
@@ -142,9 +145,10 @@ def operator(
     fix: Template,
     shows: bool = False,
     hides: bool = False,
+    certain: bool = False,
 ) -> Callable[[Make], Operator]:
     """Declare an operator; see `Operator`."""
-    return lambda make: Operator(sort, cost, why, fix, make, shows, hides)
+    return lambda make: Operator(sort, cost, why, fix, make, shows, hides, certain)
 
 
 def swapped(

@@ -6,24 +6,33 @@ import ast
 from collections.abc import Iterator
 
 from grader.base.i18n.message import msg
-from grader.change.operator import Made, Operator, Site, above, inserted, moved, operator, swapped
+from grader.change.operator import (
+    Made,
+    Operator,
+    Site,
+    above,
+    inserted,
+    is_text,
+    moved,
+    operator,
+    swapped,
+)
 from grader.change.values import INSTEAD
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, last_part
 
-HEADED = ast.If | ast.For | ast.While | ast.With
+USES = ast.Assign | ast.Attribute | ast.BinOp | ast.Return | ast.Lambda
+GETTERS = ("get_logger", "get_clock", "get_name")
+LOGS = ("debug", "info", "warn", "warning", "error", "fatal")
 ENDS = ("create_timer", "create_subscription", "create_service", "create_publisher")
 BELOW = msg("Below {name}, insert the line {written}.")
 ABOVE = msg("Above {name}, insert the line {written}.")
 
 
-def _is_self(node: ast.expr, method: Function) -> bool:
-    return dotted(node) == f"self.{method.name}"
-
-
 @operator(
     "called",
     cost=1,
+    certain=True,
     why=msg(
         "{name} without parentheses is only the name of a function: nothing is called, and no error "
         "is reported."
@@ -41,11 +50,19 @@ def called(site: Site) -> Iterator[Made]:
         if function is not None:
             for name, _ in _messages(site, function):
                 yield swapped(site, node, f"{code}({name})")
+    known = {*site.module.functions, *(c.name for c in site.module.classes)}
+    known |= {f"self.{name}" for name in (*site.methods, *GETTERS)}
+    for value in site.of((ast.Name, ast.Attribute)):
+        around = site.module.parents.get(value)
+        used = isinstance(around, USES)
+        if isinstance(value, ast.expr) and used and dotted(value) in known:
+            yield swapped(site, value, f"{dotted(value)}()", more=1)
 
 
 @operator(
     "not_called",
     cost=1,
+    certain=True,
     why=msg("ROS gets the function itself and calls it later. With parentheses it is called now."),
     fix=INSTEAD,
 )
@@ -177,14 +194,10 @@ def filled(site: Site) -> Iterator[Made]:
                 row = f"{name}.{path} = {value!r}"
                 if below is not None:
                     yield inserted(site, below, row)
-                elif not _is_doc(first):
+                elif not is_text(first):
                     yield above(site, first, row)
                 elif len(function.body) > 1:
                     yield above(site, function.body[1], row)
-
-
-def _is_doc(node: ast.stmt) -> bool:
-    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
 
 
 @operator(
@@ -204,66 +217,6 @@ def field_of(site: Site) -> Iterator[Made]:
                     continue
                 for path in fields:
                     yield swapped(site, target, f"{name}.{path}")
-
-
-@operator(
-    "out",
-    cost=2,
-    why=msg("{name} is in the block: it runs only when the block does."),
-    fix=msg("Move the line {name} out of the block: as far to the left as the head of the block."),
-)
-def out(site: Site) -> Iterator[Made]:
-    """Yield the last statement of a block below the block."""
-    for node in site.of((ast.If, ast.For, ast.While)):
-        assert isinstance(node, ast.If | ast.For | ast.While)
-        for block in (node.body, node.orelse):
-            if block and isinstance(block[-1], ast.Expr | ast.Assign | ast.AugAssign | ast.Return):
-                last = block[-1]
-                end = (node.end_lineno or node.lineno) + 1
-                yield moved(site, last, end, site.indent(node))
-
-
-@operator(
-    "into",
-    cost=3,
-    hides=True,
-    why=msg("{name} runs each time. It belongs to the condition above it."),
-    fix=msg("Indent the line {name}, so that it is in the block above it."),
-)
-def into(site: Site) -> Iterator[Made]:
-    """Yield a statement as the last one of the block above it."""
-    for function in site.functions:
-        for statement in site.simple(function):
-            block = site.block(statement)
-            at = block.index(statement)
-            before = block[at - 1] if at else None
-            if isinstance(before, ast.If | ast.For | ast.While):
-                last = (before.orelse or before.body)[-1]
-                yield moved(site, statement, statement.lineno, site.indent(last))
-                if before.orelse:
-                    end = (before.body[-1].end_lineno or 0) + 1
-                    yield moved(site, statement, end, site.indent(before.body[-1]))
-
-
-@operator(
-    "earlier",
-    cost=2,
-    why=msg(
-        "Lines run from top to bottom: {name} comes too late, or too early, for what it is for."
-    ),
-    fix=msg("Move the line {name} to line {written}."),
-)
-def earlier(site: Site) -> Iterator[Made]:
-    """Yield two plain statements of a block in the other order."""
-    for function in site.functions:
-        for statement in site.simple(function):
-            block = site.block(statement)
-            at = block.index(statement)
-            for to in range(max(0, at - 3), at):
-                other = block[to]
-                if not _is_doc(other):
-                    indent = site.indent(statement)
-                    yield moved(site, statement, other.lineno, indent, more=at - to - 1)
 
 
 @operator(
@@ -402,7 +355,7 @@ def none_first(site: Site) -> Iterator[Made]:
     ]
     for function in site.functions:
         for name in empty if function.name != "__init__" else ():
-            body = [s for s in function.body if not _is_doc(s)]
+            body = [s for s in function.body if not is_text(s)]
             if body and f"self.{name}." in site.code(function):
                 rows = (f"if self.{name} is None:", "    return")
                 yield above(site, body[0], *rows)
@@ -426,7 +379,63 @@ def deleted(site: Site) -> Iterator[Made]:
                 yield Made(node, site.module.line(node.lineno), "", gone)
 
 
+@operator(
+    "shown",
+    cost=1,
+    certain=True,
+    why=msg(
+        "Lines of the level debug are not shown, unless the node is started with another level."
+    ),
+    fix=INSTEAD,
+)
+def shown(site: Site) -> Iterator[Made]:
+    """Yield info in place of debug."""
+    for node in site.of(ast.Attribute):
+        if isinstance(node, ast.Attribute) and node.attr == "debug":
+            yield swapped(site, node, f"{site.code(node.value)}.info")
+
+
+@operator(
+    "argument",
+    cost=3,
+    certain=True,
+    why=msg("{name} passes one value more than is needed here."),
+    fix=INSTEAD,
+)
+def argument(site: Site) -> Iterator[Made]:
+    """Yield calls without one of their arguments."""
+    for node in site.of(ast.Call):
+        assert isinstance(node, ast.Call)
+        given: list[ast.expr | ast.keyword] = [*node.args, *node.keywords]
+        for gone in given:
+            rest = ", ".join(site.module.text.code(one) for one in given if one is not gone)
+            yield swapped(site, node, f"{site.code(node.func)}({rest})")
+
+
+@operator(
+    "counted",
+    cost=3,
+    hides=True,
+    why=msg("No line of this function changes the number, so each call logs the same one."),
+    fix=BELOW,
+)
+def counted(site: Site) -> Iterator[Made]:
+    """Yield a line that counts at the end of a function that logs a number which it does not change."""
+    for function in site.functions:
+        code = site.code(function)
+        if not any(f".{level}(" in code for level in LOGS):
+            continue
+        for name, places in site.attributes.items():
+            start = getattr(site.module.parents.get(places[0]), "value", None)
+            is_number = isinstance(start, ast.Constant) and type(start.value) is int
+            is_set = any(site.function_of(place) is function for place in places)
+            if is_number and f"self.{name}" in code and not is_set:
+                for step in dict.fromkeys((1, *site.wanted.numbers)):
+                    yield inserted(site, function.body[-1], f"self.{name} += {step}")
+
+
 OPERATORS: tuple[Operator, ...] = (
-    *(called, not_called, async_call, returned, none_first, field_of, asked_data, out, once),
-    *(reset, earlier, arguments, sent, into, filled, state, also_when, deleted),
+    *(shown, argument, counted),
+    *(called, not_called, async_call, returned, none_first, field_of, asked_data, once),
+    *(reset, arguments, sent, filled, state, also_when, deleted),
 )

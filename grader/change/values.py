@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 
 from grader.base.i18n.message import msg
@@ -38,6 +39,9 @@ NAMING = (
     *("create_publisher", "create_subscription", "create_service", "create_client"),
     *("declare_parameter", "get_parameter", "__init__", "create_node"),
 )
+BITS: dict[type[ast.AST], str] = {ast.BitAnd: "and", ast.BitOr: "or"}
+NUMBER = re.compile(r"-?\d{1,9}(?:\.\d{1,9})?")
+"""A text that is a number."""
 FACTORS = (10.0, 0.1, 2.0, 0.5)
 
 
@@ -254,6 +258,7 @@ def _in_init(site: Site, node: ast.AST) -> bool:
 @operator(
     "unkept",
     cost=1,
+    certain=True,
     why=msg("This line works out a value and keeps it nowhere: nothing changes because of it."),
     fix=INSTEAD,
 )
@@ -332,6 +337,10 @@ def f_text(site: Site) -> Iterator[Made]:
         value = site.module.text.plain_string(node) if isinstance(node, ast.Constant) else None
         if isinstance(node, ast.Constant) and value and "{" in value and "}" in value:
             yield swapped(site, node, f"f{site.code(node)}")
+    for node in site.of(ast.JoinedStr):
+        code = site.code(node) if isinstance(node, ast.JoinedStr) else ""
+        if isinstance(node, ast.JoinedStr) and "{{" in code:
+            yield swapped(site, node, code.replace("{{", "{").replace("}}", "}"))
 
 
 @operator(
@@ -355,7 +364,89 @@ def same_for_y(site: Site) -> Iterator[Made]:
                 yield swapped(site, node, plain if isinstance(around, ast.If) else f"({plain})")
 
 
+@operator(
+    "digits",
+    cost=1,
+    certain=True,
+    why=msg(
+        "{name} is a text, also if it has only digits: nothing can be added to it as to a number."
+    ),
+    fix=INSTEAD,
+)
+def digits(site: Site) -> Iterator[Made]:
+    """Yield numbers in place of texts that are numbers."""
+    for node in site.of(ast.Constant):
+        value = node.value if isinstance(node, ast.Constant) else None
+        if isinstance(node, ast.Constant) and isinstance(value, str) and NUMBER.fullmatch(value):
+            yield swapped(site, node, value)
+
+
+@operator(
+    "as_text",
+    cost=1,
+    certain=True,
+    why=msg("+ joins a text only to another text, and {name} is none."),
+    fix=INSTEAD,
+)
+def as_text(site: Site) -> Iterator[Made]:
+    """Yield str() around what is joined to a text."""
+    for node in site.of(ast.BinOp):
+        if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Add):
+            continue
+        for one, other in ((node.left, node.right), (node.right, node.left)):
+            text = isinstance(one, ast.JoinedStr) or isinstance(getattr(one, "value", None), str)
+            if text and isinstance(other, ast.Name | ast.Attribute):
+                yield swapped(site, other, f"str({site.code(other)})")
+
+
+@operator(
+    "bits",
+    cost=1,
+    certain=True,
+    why=msg(
+        "~, & and | work on the bits of a number: ~True is -2, which counts as true, and & comes before "
+        "==. In a condition, not, and, or are meant."
+    ),
+    fix=INSTEAD,
+)
+def bits(site: Site) -> Iterator[Made]:
+    """Yield `not`, `and` and `or` in place of the signs that work on bits."""
+    for node in site.of(ast.UnaryOp):
+        if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Invert):
+            yield swapped(site, node, f"(not {site.code(node.operand)})")
+    for node in site.of(ast.BinOp):
+        word = BITS.get(type(node.op)) if isinstance(node, ast.BinOp) else None
+        if isinstance(node, ast.BinOp) and word is not None:
+            yield _between(site, node, node.left, node.right, word)
+
+
+@operator(
+    "part",
+    cost=3,
+    hides=True,
+    why=msg("{name} is more than what is needed here, or another value."),
+    fix=INSTEAD,
+)
+def part(site: Site) -> Iterator[Made]:
+    """Yield a part of an expression in place of the whole: an operand, an item, an argument."""
+    for node in site.of((ast.BinOp, ast.List, ast.Tuple, ast.Subscript, ast.Call)):
+        parts: list[ast.expr] = []
+        if isinstance(node, ast.BinOp):
+            parts = [node.left, node.right]
+        elif isinstance(node, ast.List | ast.Tuple) and len(node.elts) == 1:
+            parts = node.elts
+        elif isinstance(node, ast.Subscript):
+            parts = [node.value, node.slice]
+        elif isinstance(node, ast.Call) and len(node.args) == 1:
+            statement = isinstance(site.module.parents.get(node), ast.Expr)
+            parts = [] if statement else node.args
+        for one in parts:
+            if isinstance(node, ast.expr) and not isinstance(one, ast.Starred | ast.Slice):
+                yield swapped(site, node, site.code(one))
+
+
 OPERATORS: tuple[Operator, ...] = (
+    *(digits, as_text, bits),
     *(number, as_float, negative, truth, condition, part_not, order, and_or, sign, added),
-    *(unkept, branches, text, f_text, same_for_y),
+    *(unkept, branches, text, f_text, same_for_y, part),
 )

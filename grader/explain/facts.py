@@ -9,9 +9,11 @@ from functools import cached_property
 from grader.base.i18n.message import Value
 from grader.base.shown import shown
 from grader.course.assignment import CheckUse
+from grader.explain.parts import read_in, rows_of
 from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted
 from grader.package.source.node import NodeSource
+from grader.package.source.place import statement_at
 from grader.run.run import Run
 from grader.run.variants import Place, Trace, TracedDone
 
@@ -19,6 +21,8 @@ Answer = tuple[Place, Mapping[str, Value]]
 """Where it is, and the values of the text's places."""
 MOST_STEPS = 4  # from a value to where it was made
 ELSEWHERE = 3
+LEAST_TRIES = 2  # of a condition, before it counts as one that is always the same
+LEAVES = ast.Return | ast.Continue | ast.Break | ast.Pass
 
 
 class Facts:
@@ -41,17 +45,19 @@ class Facts:
         """The service that the check is about; "" if it is about none."""
         return str(self.use.with_.get("service", ""))
 
+    @property
+    def _how(self) -> str:
+        """What the check is about: something published, answered or logged; "" if none of these."""
+        if self.topic or self.use.kind.startswith("world."):
+            return "published"
+        if self.service:
+            return "answered"
+        return "logged" if self.use.kind.startswith("log.") else ""
+
     @cached_property
     def done(self) -> list[TracedDone]:
         """What the node did of the kind that the check is about: published, answered, logged."""
-        if self.topic:
-            how, what = "published", self.topic
-        elif self.service:
-            how, what = "answered", self.service
-        elif self.use.kind.startswith("log."):
-            how, what = "logged", ""
-        else:
-            return []
+        how, what = self._how, self.topic or self.service
         same = [one for one in self.trace.done if one.how == how]
         return [one for one in same if one.what.strip("/") == what.strip("/") or not what]
 
@@ -78,29 +84,47 @@ class Facts:
     def _near(self) -> dict[tuple[str, int], int]:
         """How far each line is from what failed: 0 in the function that did it or should have."""
         near: dict[tuple[str, int], int] = {}
-        functions = [self.function_at(one.places[0]) for one in self.done if one.places]
-        names = {c.function for c in self.trace.callbacks if self._is_asked(c.how, c.name)}
-        functions += [node for _, node in self._functions if node.name in names]
-        if not any(functions):
-            functions += [node for _, node in self._functions if self._could_do(node)]
         read: set[str] = set()
-        for function in dict.fromkeys(f for f in functions if f is not None):
-            module = self.source.module_of(function)
-            for row in range(function.lineno, (function.end_lineno or function.lineno) + 1):
-                near[module.path, row] = 0
-            read |= set(_read(function))
+        parts: list[ast.stmt] = [*self._doing, *self._idle]
+        for part in dict.fromkeys(parts):
+            path = self.source.module_of(part).path
+            near |= {(path, row): 0 for row in rows_of(part)}
+            read |= set(read_in(part))
         for step in range(1, MOST_STEPS):
             more: set[str] = set()
-            for module, statement in self._writers(read):
-                rows = range(statement.lineno, (statement.end_lineno or statement.lineno) + 1)
-                for row in rows:
-                    if (module.path, row) not in near:
-                        near[module.path, row] = min(step, 2)
-                        more |= set(_read(statement))
+            for module, part in (*self._writers(read), *self._named(read)):
+                rows = [row for row in rows_of(part) if (module.path, row) not in near]
+                near |= {(module.path, row): min(step, 2) for row in rows}
+                more |= set(read_in(part)) if rows else set()
             if not more - read:
                 break
             read |= more
         return near
+
+    @property
+    def _idle(self) -> list[ast.stmt]:
+        """The lines that made timers and subscriptions which then called nothing."""
+        made = [(one.made, one.calls) for one in self.trace.timers]
+        made += [(one.made, one.calls) for one in self.trace.callbacks]
+        places = [places[0] for places, calls in made if places and not calls]
+        found = [statement_at(self.source.module_at(path), row) for path, row in places]
+        return [one for one in found if one is not None]
+
+    @property
+    def _doing(self) -> list[Function]:
+        """The functions that did what failed, or could have done it."""
+        functions = [self.function_at(one.places[0]) for one in self.done if one.places]
+        names = {c.function for c in self.trace.callbacks if self._is_asked(c.how, c.name)}
+        functions += [node for _, node in self._functions if node.name in names]
+        found = [one for one in functions if one is not None]
+        return found or [node for _, node in self._functions if self._could_do(node)]
+
+    def _named(self, names: set[str]) -> list[tuple[Module, Function]]:
+        return [
+            (self.source.module_of(function), function)
+            for _, function in self._functions
+            if {function.name, f"self.{function.name}"} & names
+        ]
 
     def _is_asked(self, how: str, name: str) -> bool:
         asked = self.service if how == "service" else ""
@@ -110,8 +134,9 @@ class Facts:
         """Whether a function has a call of the kind that should have been made."""
         calls = [n for n in ast.walk(function) if isinstance(n, ast.Call)]
         names = {dotted(call.func).rpartition(".")[2] for call in calls}
-        wanted = {"publish"} if self.topic else {"info", "warn", "warning", "error"}
-        return bool(names & wanted) or (function.name != "__init__" and not self.topic)
+        of_topic = self._how == "published"
+        wanted = {"publish"} if of_topic else {"info", "warn", "warning", "error"}
+        return bool(names & wanted) or (function.name != "__init__" and not of_topic)
 
     def _writers(self, names: set[str]) -> Iterator[tuple[Module, ast.stmt]]:
         for module in self.source.known_modules:
@@ -121,7 +146,8 @@ class Facts:
                     targets = node.targets
                 elif isinstance(node, ast.AugAssign | ast.AnnAssign):
                     targets = [node.target]
-                if isinstance(node, ast.stmt) and any(dotted(t) in names for t in targets):
+                parts = [p for t in targets for p in (t.elts if isinstance(t, ast.Tuple) else [t])]
+                if isinstance(node, ast.stmt) and any(dotted(p) in names for p in parts):
                     yield module, node
 
     def distance(self, path: str, first: int, last: int | None) -> int:
@@ -153,13 +179,23 @@ class Facts:
     def idle_timer(self) -> Answer | None:
         """Return a timer whose callback was never called."""
         for timer in self.trace.timers:
-            if not timer.calls and timer.made and timer.spun:
-                seen = self.run.seen
-                seconds = seen.instants[-1] if seen is not None and seen.instants else 0
+            if not timer.calls and timer.made:
                 place = timer.made[0]
-                code = self._code(place)
-                return place, {"line": place[1], "name": code, "seconds": f"{seconds:g}"}
+                return place, {"line": place[1], "name": self._code(place)}
         return None
+
+    def several_timers(self) -> Answer | None:
+        """Return the last one of several timers for which one line logs."""
+        by_place: dict[Place, set[int]] = {}
+        for places, number in self.trace.logged:
+            if places and number >= 0:
+                by_place.setdefault(places[0], set()).add(number)
+        numbers: set[int] = max(by_place.values(), key=len, default=set())
+        made = [self.trace.timers[n].made for n in sorted(numbers) if n < len(self.trace.timers)]
+        if len(made) < 2 or not all(made):
+            return None
+        lines = ", ".join(str(places[0][1]) for places in made[:MOST_STEPS])
+        return made[-1][0], {"line": made[-1][0][1], "count": len(made), "lines": lines}
 
     def deaf_callback(self) -> Answer | None:
         """Return a subscription whose callback was never called, if it is the only way to the deed."""
@@ -195,21 +231,67 @@ class Facts:
     def guarded_doer(self) -> Answer | None:
         """Return a deed that no call of its function came to, because of a condition."""
         for module, function in self._functions:
-            count = max((self.trace.count(module.path, s.lineno) for s in function.body), default=0)
-            for doer in self._doers_in(function) if count else ():
-                if self.trace.count(module.path, doer.lineno):
-                    continue
-                guard = self._guard(module, function, doer)
-                if guard is not None:
-                    values: dict[str, Value] = {
-                        "name": f"{function.name}()",
-                        "count": count,
-                        "line": doer.lineno,
-                        "row": guard.lineno,
-                        "guard": shown(module.text.code(guard.test)),
-                    }
-                    return (module.path, guard.lineno), values
+            for doer in self._doers_in(function):
+                if (kept := self._kept_out(module, function, doer)) is not None:
+                    return kept
         return None
+
+    def constant(self, *, true: bool) -> Answer | None:
+        """Return the only condition near what failed that was always true, or never."""
+        found = []
+        for module, node in self._conditions():
+            first = self.trace.count(module.path, node.body[0].lineno)
+            count = self.trace.count(module.path, node.lineno)
+            leaves = isinstance(node.body[-1], LEAVES) and len(node.body) == 1
+            if count >= LEAST_TRIES and first == (count if true else 0) and not leaves:
+                found.append((module, node, count))
+        if len(found) != 1:
+            return None
+        module, node, count = found[0]
+        values: dict[str, Value] = {
+            "row": node.lineno,
+            "guard": self._with_values(module, node),
+            "count": count,
+        }
+        return (module.path, node.lineno), values
+
+    def kept_state(self) -> Answer | None:
+        """Return the line that sets what a condition asks for, if no line sets it back."""
+        for module, node in self._conditions():
+            for name in (n for n in read_in(node.test) if n.startswith("self.")):
+                answer = self._set_once(module, node, name)
+                if answer is not None:
+                    return answer
+        return None
+
+    def _set_once(self, module: Module, node: ast.If, name: str) -> Answer | None:
+        ran: list[tuple[Module, ast.stmt]] = []
+        other: list[tuple[Module, ast.stmt]] = []
+        for each, writer in self._writers({name}):
+            function = self.function_at((each.path, writer.lineno))
+            if function is not None and function.name != "__init__":
+                lines = ran if self.trace.count(each.path, writer.lineno) else other
+                lines.append((each, writer))
+        values_ = {ast.unparse(w.value) for _, w in ran if isinstance(w, ast.Assign)}
+        constant = all(
+            isinstance(w, ast.Assign) and isinstance(w.value, ast.Constant) for _, w in ran
+        )
+        if not ran or not constant or len(values_) != 1:
+            return None
+        for each, writer in other:
+            function = self.function_at((each.path, writer.lineno))
+            kept = self._kept_out(each, function, writer) if function is not None else None
+            if kept is not None:
+                return None  # (there is a line for it, and another rule tells why it did not run)
+        each, writer = ran[0]
+        values: dict[str, Value] = {
+            "line": writer.lineno,
+            "code": shown(each.line(writer.lineno)),
+            "name": name,
+            "row": node.lineno,
+            "guard": shown(module.text.code(node.test)),
+        }
+        return (each.path, writer.lineno), values
 
     def repeated_doer(self) -> Answer | None:
         """Return the line of what is done too often."""
@@ -232,7 +314,7 @@ class Facts:
 
     def unset_field(self) -> Answer | None:
         """Return the function that leaves the wrong field as it is in a new message."""
-        message = self._message()
+        message = self._message() if self.topic or self.service else None
         if not self.field or message is None or self._setters(*message):
             return None
         name, function, row = message
@@ -245,16 +327,11 @@ class Facts:
 
     def writer_of_field(self) -> Answer | None:
         """Return the line that made the wrong value of a field."""
-        message = self._message()
-        setters = self._setters(*message) if message is not None and self.field else []
-        if message is None or not setters:
+        message = self._message() if self.field and (self.topic or self.service) else None
+        made = self._last_setter(message) if message is not None else None
+        if message is None or made is None:
             return None
-        last = self._order()
-        module = self.source.module_of(message[1])
-        at = max(setters, key=lambda s: last.get((module.path, s.lineno), -1))
-        if (module.path, at.lineno) not in last:
-            return None
-        module, at = self._made(module, at, last)
+        module, at = made
         values: dict[str, Value] = {
             "row": message[2],
             "field": self.field,
@@ -263,7 +340,19 @@ class Facts:
             "code": shown(module.line(at.lineno)),
             "wanted": self.wanted,
         }
+        around = [n for n in module.around(at) if isinstance(n, ast.If | Function)][:1]
+        for guard in (n for n in around if isinstance(n, ast.If)):
+            test = module.text.code(guard.test)
+            inside = any(
+                guard.body[0].lineno <= at.lineno <= (s.end_lineno or 0) for s in guard.body
+            )
+            values |= {"guard": shown(test if inside else f"not ({test})"), "head": guard.lineno}
         return (module.path, at.lineno), values
+
+    def writer_in_branch(self) -> Answer | None:
+        """Return the line that made the wrong value of a field, if a condition led there."""
+        answer = self.writer_of_field()
+        return answer if answer is not None and "guard" in answer[1] else None
 
     # what they need ----------------------------------------------------------------------------------
 
@@ -271,11 +360,50 @@ class Facts:
         return shown(self.source.module_at(place[0]).line(place[1]))
 
     def _doers_in(self, function: Function) -> list[ast.Call]:
-        wanted = ("publish",) if self.topic else ("info", "warn", "warning", "error")
+        published = self._how == "published"
+        wanted = ("publish",) if published else ("info", "warn", "warning", "error")
         if self.service:
             return []
         calls = [n for n in ast.walk(function) if isinstance(n, ast.Call)]
         return [c for c in calls if dotted(c.func).rpartition(".")[2] in wanted]
+
+    def _conditions(self) -> Iterator[tuple[Module, ast.If]]:
+        """Yield the conditions in the functions that did what failed, or should have done it."""
+        for module in self.source.known_modules:
+            for node in module.nodes:
+                if isinstance(node, ast.If) and not self.distance(module.path, node.lineno, None):
+                    yield module, node
+
+    def _with_values(self, module: Module, guard: ast.If) -> str:
+        """Return a condition with the values that its names had: `x > 11.0; x = 3.2 ... 9.4`."""
+        place = (module.path, guard.lineno)
+        seen = []
+        for code, (low, high) in self.trace.ranges.get(place, {}).items():
+            seen.append(f"{code} = {low:.4g}" + (f" ... {high:.4g}" if low != high else ""))
+        for code, values in self.trace.kinds.get(place, {}).items():
+            seen.append(f"{code} = {', '.join(values)}")
+        names = {dotted(n.func) for n in ast.walk(guard.test) if isinstance(n, ast.Call)}
+        for name in dict.fromkeys(read_in(guard.test)):
+            if name.partition(".")[2] in self.source.methods and name not in names:
+                seen.append(f"{name} = <bound method>")
+        return shown("; ".join([module.text.code(guard.test), *seen]))
+
+    def _kept_out(self, module: Module, function: Function, node: ast.AST) -> Answer | None:
+        """Return the condition that kept a part of a function from running in all its calls."""
+        count = max((self.trace.count(module.path, s.lineno) for s in function.body), default=0)
+        row = getattr(node, "lineno", 0)
+        guard = self._guard(module, function, node) if count else None
+        if guard is None or self.trace.count(module.path, row):
+            return None
+        values: dict[str, Value] = {
+            "name": f"{function.name}()",
+            "count": count,
+            "line": row,
+            "row": guard.lineno,
+            "guard": self._with_values(module, guard),
+            "test": shown(module.text.code(guard.test)),
+        }
+        return (module.path, guard.lineno), values
 
     def _guard(self, module: Module, function: Function, doer: ast.AST) -> ast.If | None:
         """Return the condition that kept a call from running: around it, or one that leaves before it."""
@@ -327,6 +455,14 @@ class Facts:
         target = f"{name}.{self.field}"
         return [s for each, s in self._writers({target}) if each is module]
 
+    def _last_setter(self, message: tuple[str, Function, int]) -> tuple[Module, ast.stmt] | None:
+        """Return the line that made the value which the field had when the message went out."""
+        last, module = self._order(), self.source.module_of(message[1])
+        ran = [s for s in self._setters(*message) if (module.path, s.lineno) in last]
+        if not ran:
+            return None
+        return self._made(module, max(ran, key=lambda s: last[module.path, s.lineno]), last)
+
     def _order(self) -> dict[tuple[str, int], int]:
         wrong = self._wrong
         if wrong is None:
@@ -361,12 +497,3 @@ class Facts:
         for part in self.field.split("."):
             found = found.get(part) if isinstance(found, dict) else None
         return shown(str(found))
-
-
-def _read(node: ast.AST) -> Iterator[str]:
-    """Yield the names that a part of a program reads: those of attributes of self, and plain ones."""
-    for part in ast.walk(node):
-        if isinstance(part, ast.Name | ast.Attribute) and isinstance(part.ctx, ast.Load):
-            name = dotted(part)
-            if name:
-                yield name

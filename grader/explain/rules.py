@@ -35,7 +35,10 @@ class Rule:
         return any(symptom.startswith(one) for one in self.of)
 
 
-MISSING = ("topic.never", "topic.none_then", "topic.no_reaction", "topic.too_few", "log.missing")
+MISSING = (
+    *("topic.never", "topic.none_then", "topic.no_reaction", "topic.too_few", "log.missing"),
+    "run.no_lines",
+)
 VALUES = ("topic.wrong_value", "service.wrong_answer", "world.")
 
 RULES: tuple[Rule, ...] = (
@@ -62,11 +65,10 @@ RULES: tuple[Rule, ...] = (
         "timer_not_called",
         MISSING,
         msg("A timer never calls its callback"),
+        msg("Line {line} makes a timer: {name}. It did not call its callback once in the run."),
         msg(
-            "Line {line} makes a timer: {name}. It did not call its callback once in the {seconds} s of the run."
-        ),
-        msg(
-            "The period is in seconds. Look at its value in line {line}, and at what stops the timer."
+            "The period is in seconds. Look at its value in line {line}, at what stops the timer, and "
+            "whether the node to which it belongs is spun."
         ),
         lambda facts: facts.idle_timer(),
     ),
@@ -99,8 +101,37 @@ RULES: tuple[Rule, ...] = (
             "{name} ran {count} times, and line {line} never: the condition in line {row} ({guard}) "
             "did not let it."
         ),
-        msg("Look at what {guard} was, and at the lines that set the values in it."),
+        msg("Look at what {test} was, and at the lines that set the values in it."),
         lambda facts: facts.guarded_doer(),
+    ),
+    Rule(
+        "never_true",
+        (*MISSING, *VALUES),
+        msg("A condition was never true"),
+        msg("The condition in line {row} was evaluated {count} times, and was never true: {guard}"),
+        msg("Compare the values in line {row} with those for which it should be true."),
+        lambda facts: facts.constant(true=False),
+    ),
+    Rule(
+        "state_kept",
+        (*MISSING, *VALUES, "topic.not_silent", "log.too_"),
+        msg("A value is never set back"),
+        msg(
+            "Line {line} ({code}) sets {name}, and no line sets it back in the run: the condition in "
+            "line {row} ({guard}) stays as it is from then on."
+        ),
+        msg("Set {name} back where the state that it stands for is over."),
+        lambda facts: facts.kept_state(),
+    ),
+    Rule(
+        "always_true",
+        (*VALUES, "topic.not_silent", "topic.reacts_too_often", "log.too_often", "log.forbidden"),
+        msg("A condition was always true"),
+        msg(
+            "The condition in line {row} was evaluated {count} times, and was true each time: {guard}"
+        ),
+        msg("Compare the values in line {row} with those for which it should not be true."),
+        lambda facts: facts.constant(true=True),
     ),
     Rule(
         "too_often",
@@ -111,12 +142,38 @@ RULES: tuple[Rule, ...] = (
         lambda facts: facts.repeated_doer(),
     ),
     Rule(
+        "several_timers",
+        ("run.twice", "run.wrong_period", "topic.several_at_once"),
+        msg("The lines come from more than one timer"),
+        msg(
+            "One line of the node logs for {count} timers, which are created in these lines: {lines}."
+        ),
+        msg(
+            "Keep one of them. A new timer does not stop an old one, also if it gets the same name: "
+            "self.destroy_timer(...) does."
+        ),
+        lambda facts: facts.several_timers(),
+    ),
+    Rule(
         "field_not_set",
         VALUES,
         msg("No line sets a field"),
         msg("No line of {name} sets {field}, so that it keeps the value of a new message."),
         msg("Set {field} before the message goes out in line {line}."),
         lambda facts: facts.unset_field(),
+    ),
+    Rule(
+        "value_in_branch",
+        VALUES,
+        msg("A value is made in this line"),
+        msg(
+            "Line {row} sends {field} = {value}. It was last set in line {line} ({code}), which runs "
+            "if {guard} (line {head})."
+        ),
+        msg(
+            "Here {field} must be {wanted}. Look at the condition in line {head}, and at line {line}."
+        ),
+        lambda facts: facts.writer_in_branch(),
     ),
     Rule(
         "value_from",

@@ -1,7 +1,4 @@
-"""Mistakes in what is read behind a dot: attributes and methods that an object does not have.
-
-These come late: their patterns also match errors that have a more precise cause.
-"""
+"""What is read behind a dot: attributes and methods that an object does not have."""
 
 from __future__ import annotations
 
@@ -13,26 +10,32 @@ from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.alike import is_typo, meant_by, plain_letters
 from grader.mistakes.example import DEAD, NODE, example
-from grader.mistakes.fixes import lines, node_names, node_timer, rename
-from grader.mistakes.imports import RCLPY
+from grader.mistakes.fixes import lines, node_names, node_scope, node_timer, rename
+from grader.mistakes.imports import RCLPY, ROS_1
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import OWN_ATTRIBUTE, Raised, RecognisedMistake, of_self
-from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Module
-from grader.package.source.names import dotted, last_part
-from grader.package.source.node import LOG_METHODS
+from grader.package.source.names import dotted, own_name
+from grader.package.source.node import LOG_METHODS, NODE_METHODS
 from grader.package.source.node_here import node_here
-from grader.package.source.place import function_at
+from grader.package.source.place import function_at, statement_at
 from grader.package.source.scopes import class_of, scope_of
 
 ATTRIBUTE = (
     r"AttributeError: (?:module |type object )?'(?P<type>[\w.]{1,200})'(?: object)? has no "
     r"attribute '(?P<name>\w{1,120})'"
 )
-
-
+OF_FUNCTION = (
+    r"AttributeError: '(?:function|method|builtin_function_or_method)' object has no attribute "
+    r"'(?P<name>\w{1,120})'"
+)
+NO_SETTER = (
+    r"property '(?P<name>\w{1,120})' of '\w{1,120}' object has no setter"
+    r"|can't set attribute '(?P<old>\w{1,120})'|(?P<only>handle) cannot be modified after"
+)
+OWN_METHOD = r"TypeError: \w{1,120}\.(?P<name>\w{1,120})\(\) (?:takes|missing|got)"
 ELSEWHERE = {
     "create_wall_timer": "create_timer",
     "createTimer": "create_timer",
@@ -41,50 +44,37 @@ ELSEWHERE = {
     "advertise": "create_publisher",
     "create_subscriber": "create_subscription",
     "getLogger": "get_logger",
-    "logger": "get_logger",
 }
 """Methods of nodes in C++, in ROS 1 and in other libraries, and those of rclpy."""
-SET_ELSEWHERE = msg(
-    "self.{name} does not exist until a line assigns to it. Line {lines} does so, but had not run "
-    "for this object when Python came to this line."
-)
 
-
-SET_IN_METHOD = msg(
-    "self.{name} does not exist until a line assigns to it. Line {lines} does so, in the method "
-    "{method}, which had not run for this object when Python came to this line."
-)
+CALLBACK = '''\
+    def timer_callback(self):
+        """Say hello once; the timer calls this for as long as the node spins."""
+        self.get_logger().info('Hello time: ' + str(self.counter_))
+        self.counter_ += 1
+'''
+OUTSIDE = CALLBACK.replace("\n    ", "\n").removeprefix("    ")
+MAIN = '''\
+def main(args=None):
+    """Run the node until Ctrl+C."""
+    rclpy.init(args=args)
+    node = MyFirstNode()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+'''
+IN_CLASS = "".join(f"    {line}" for line in MAIN.splitlines(keepends=True))
 
 
 def _close_attribute(raised: Raised, name: str) -> str:
     attributes = raised.source.attributes
-    spelt = [
-        other
-        for other in attributes
-        if other != name and plain_letters(other) == plain_letters(name)
-    ]
+    plain = plain_letters(name)
+    spelt = [one for one in attributes if one != name and plain_letters(one) == plain]
     return spelt[0] if len(spelt) == 1 else meant_by(name, attributes, cutoff=0.75)
-
-
-def _close_method(raised: Raised, match: re.Match[str]) -> str:
-    """Return the method that is meant: of the node, of rclpy or of the logger."""
-    name = match["name"]
-    if name == "logger" and not _is_only_called(raised, name):
-        return ""  # (get_logger would lack its ())
-    if _is_of_node(raised, match["type"]) and name in ELSEWHERE:
-        return ELSEWHERE[name]
-    if of_self(raised, match):
-        own = [c for c in raised.source.family if c.name == match["type"] and c.bases]
-        if not own and not _is_only_called(raised, name):
-            return ""
-        if _close_attribute(raised, name) and not _is_only_called(raised, name):
-            return ""
-        return meant_by(name, {*NODE_METHODS, *raised.source.methods}, cutoff=0.75)
-    if match["type"] == "rclpy":
-        return meant_by(name, RCLPY, cutoff=0.7)
-    if not _is_of_node(raised, match["type"]):
-        return ""
-    return meant_by(name, (*NODE_METHODS, *LOG_METHODS), cutoff=0.7)
 
 
 def _is_only_called(raised: Raised, name: str) -> bool:
@@ -95,71 +85,101 @@ def _is_only_called(raised: Raised, name: str) -> bool:
     return bool(around) and all(isinstance(a, ast.Call) and a.func is use for a, use in around)
 
 
-def _is_of_node(raised: Raised, kind: str) -> bool:
-    """Whether an object of this type can have the methods of a node or of a logger."""
-    logger = kind.endswith("Logger")
-    return logger or kind in ("Node", "super") or kind in raised.source.known_classes
-
-
 def _is_written(raised: Raised, name: str) -> bool:
     """Whether a file of the student has a name: one that only rclpy writes is not misspelt."""
     return any(name in module.text.text for module in raised.source.modules)
 
 
-def _method_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    if not _is_written(raised, match["name"]):
-        return None
-    close = _close_method(raised, match)
-    return raised.finding("method_misspelt", name=match["name"], close=close) if close else None
+def _close(raised: Raised, match: re.Match[str]) -> str:
+    """Return the attribute or method that is meant; "" if none is certain."""
+    name, kind = match["name"], match["type"]
+    of_node = kind.endswith("Logger") or kind in ("Node", "super", *raised.source.known_classes)
+    if kind == "rclpy":
+        return meant_by(name, RCLPY, cutoff=0.7)
+    if of_node and name in ELSEWHERE:
+        return ELSEWHERE[name]
+    if of_self(raised, match):
+        called = _is_only_called(raised, name)
+        is_node = any(c.bases for c in raised.source.family if c.name == kind)
+        if not called and (not is_node or _close_attribute(raised, name)):
+            return ""
+        return meant_by(name, {*NODE_METHODS, *raised.source.methods}, cutoff=0.75)
+    if of_node:
+        return meant_by(name, (*NODE_METHODS, *LOG_METHODS), cutoff=0.7)
+    suggested = re.search(r"Did you mean: '(\w{1,120})'", raised.error)
+    other = suggested[1] if suggested else ""
+    return other if other and is_typo(name, other) else ""
+
+
+def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """What stands before the dot has no such attribute: tell which name is meant, or what it is."""
+    name, kind, line = match["name"], match["type"], raised.module.line(raised.line)
+    private = name.startswith("__") and not name.endswith("__") and kind != "super"
+    if private or not _is_written(raised, name) or (raised.inside and name not in line):
+        return None  # (no name of the student's, or one that Python writes otherwise)
+    written = _instead(raised, name, kind, line)
+    if written is not None:
+        params = {"name": written[0], "written": written[1]}
+        return replace(raised.finding("attribute_unknown", params=params), variant="written")
+    if close := _close(raised, match):
+        return raised.finding("attribute_unknown", name=name, close=close)
+    found = raised.finding("attribute_unknown", name=name)
+    owner = class_of(raised.module, function_at(raised.module, raised.line))
+    if name in NODE_METHODS and of_self(raised, match) and owner and not owner[0].bases:
+        return replace(found, variant="no_node", words={**found.words, "type": kind})
+    return found
+
+
+def _instead(raised: Raised, name: str, kind: str, line: str) -> tuple[str, str] | None:
+    """Return what the line has, and what it should have, if that is certain."""
+    source, spins = raised.source, name in ("spin", "spin_once")
+    node = node_here(source, raised.module, raised.line)
+    of_class = kind in source.class_names and name in source.attributes
+    spun = re.search(rf"(?<![\w.])(\w{{1,60}})\.{name}\(\)", line)
+    object_of = spun[1] if spun and spins and kind in source.known_classes else ""
+    ways = (
+        (source.held_node if name in NODE_METHODS else "", f"self.{name}", f".{name}"),
+        (
+            node if name in {*NODE_METHODS, *ROS_1} else "",
+            f"rclpy.{name}",
+            f".{ROS_1.get(name, name)}",
+        ),
+        (node if of_class else "", f"{kind}.{name}", f".{name}"),
+        (f"rclpy.{name}" if object_of else "", f"{object_of}.{name}()", f"({object_of})"),
+        ("__init__" if kind == "super" and "init" in name else "", name, ""),
+        (".value" if kind == "Parameter" else "", f".{name}", ""),
+    )
+    return next(((old, f"{owner}{new}") for owner, old, new in ways if owner and old in line), None)
 
 
 def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """No line that has run for this object gave the attribute a value."""
     name = match["name"]
-    if not of_self(raised, match) or name in raised.module.functions:
+    if not of_self(raised, match) or not _is_written(raised, name):
         return None
-    if name in NODE_METHODS and (found := _without_node(raised, name)) is not None:
-        return found
+    at = raised.source.module.functions.get(name)
+    if at is not None:
+        return raised.finding("callback_outside", at=at, name=name)
+    if name in NODE_METHODS or _close(raised, match):
+        return None
+    lines_that_set = _set_in(raised, name)
+    if lines_that_set:
+        params = {"name": name, "lines": ", ".join(map(str, lines_that_set))}
+        return replace(raised.finding("attribute_not_set", params=params), variant="set_here")
     close = _close_attribute(raised, name)
-    elsewhere = _set_elsewhere(raised, name) or _without_self(raised, name)
-    if elsewhere is not None:
-        return elsewhere
     found = raised.finding("attribute_not_set", name=name, close=close)
-    if close or node_names.counts(raised.source, name):
-        return found
-    if _is_only_called(raised, name):
-        return replace(found, variant="no_method")
-    return replace(found, variant="object" if _is_object(raised, name) else "value")
+    counts = close or node_names.counts(raised.source, name)
+    return found if counts else replace(found, variant="value")
 
 
-def _set_elsewhere(raised: Raised, name: str) -> RecognisedMistake | None:
-    """Lines of the same class set the attribute, but none of them ran before this one."""
+def _set_in(raised: Raised, name: str) -> list[int]:
+    """Return the lines of the same class that set an attribute; none if another class does too."""
     module = raised.module
     here = class_of(module, function_at(module, raised.line))
     sets = [part for part in module.nodes if _sets(module, part, f"self.{name}")]
     owners = [class_of(module, scope_of(module, part)) for part in sets]
-    methods = [owner[1] for owner in owners if owner is not None and here and owner[0] is here[0]]
-    if not sets or len(methods) != len(sets):
-        return None
-    rows = ", ".join(map(str, sorted({getattr(part, "lineno", 0) for part in sets})))
-    found = raised.finding("attribute_not_set", params={"name": name, "lines": rows})
-    if len(set(methods)) != 1 or methods[0].name == "__init__":
-        return replace(found, variant="set_here")
-    return replace(found, variant="set_later", words={**found.words, "method": methods[0].name})
-
-
-def _without_self(raised: Raised, name: str) -> RecognisedMistake | None:
-    """A variable of __init__ that no line of it reads has the name of the attribute."""
-    here = class_of(raised.module, function_at(raised.module, raised.line))
-    inits = [s for s in here[0].body if getattr(s, "name", "") == "__init__"] if here else []
-    inside = [part for init in inits for part in ast.walk(init)]
-    sets = [n for n in inside if isinstance(n, ast.Assign) and list(targets_of(n)) == [name]]
-    uses = [n for n in inside if isinstance(n, ast.Name) and n.id == name]
-    if len(sets) != 1 or len(uses) != 1:
-        return None
-    params = {"name": name, "written": f"self.{name}"}
-    found = raised.finding("attribute_not_set", at=sets[0], params=params)
-    return replace(found, variant="local", words={**found.words, "line": str(raised.line)})
+    own = [owner for owner in owners if owner is not None and here and owner[0] is here[0]]
+    return sorted({getattr(part, "lineno", 0) for part in sets}) if len(own) == len(sets) else []
 
 
 def _sets(module: Module, part: ast.AST, name: str) -> bool:
@@ -173,117 +193,150 @@ def _sets(module: Module, part: ast.AST, name: str) -> bool:
     return value is not None and all(dotted(n) != name for n in ast.walk(value) if n is not part)
 
 
-def _is_object(raised: Raised, name: str) -> bool:
-    """Whether the code uses something of the attribute: a method or another attribute."""
-    parents = raised.module.parents
-    uses = [n for n in raised.module.nodes if dotted(n) == f"self.{name}"]
-    return any(isinstance(parents.get(use), ast.Attribute) for use in uses)
-
-
-def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """What stands before the dot has no such attribute: tell what it is, or which name is meant."""
-    name, kind, line = match["name"], match["type"], raised.module.line(raised.line)
-    private = name.startswith("__") and not name.endswith("__") and kind != "super"
-    if private or (raised.inside and name not in line):
-        return None  # (no name of the student's, or one that Python writes otherwise)
-    node = node_here(raised.source, raised.module, raised.line)
-    written = _meant(raised, match, node)
-    if written is not None:
-        params = {"name": written[0], "written": written[1]}
-        return replace(raised.finding("attribute_unknown", params=params), variant="written")
-    variant = {"NoneType": "none", "rclpy": "module"}.get(kind, "")
-    if variant:
-        return replace(raised.finding("attribute_unknown", name=name), variant=variant)
-    if kind == "Parameter" and not name.lower().startswith("get_param"):
-        found = raised.finding("attribute_unknown", name=f".{name}", written=".value")
-        return replace(found, variant="parameter")
-    return _similar(raised, match)
-
-
-def _similar(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
-    """Python's own suggestion, if it is the same name with a typing mistake."""
-    name, kind = match["name"], last_part(match["type"])
-    suggested = re.search(r"Did you mean: '(\w{1,120})'", raised.error)
-    other = suggested[1] if suggested and _is_written(raised, name) else ""
-    if other and is_typo(name, other):
-        return raised.finding("attribute_unknown", name=name, close=other)
-    found = raised.finding("attribute_unknown", name=name)
-    found = replace(found, words={**found.words, "type": kind})
-    own = [c for m in raised.source.modules for c in m.classes if c.name == kind]
-    if own and "type object" in match[0]:
-        return replace(found, variant="class_kept")
-    if len(own) == 1 and own[0] not in raised.source.family:
-        words = {**found.words, "line": str(own[0].lineno)}
-        return replace(found, variant="own_class", words=words)
-    if other:
-        return replace(found, variant="similar", words={**found.words, "other": other})
-    return found
-
-
-NO_NODE = msg(
-    "{name} belongs to the node. The class {type} does not inherit from Node, so its objects "
-    "do not have it."
-)
-
-
-def _without_node(raised: Raised, name: str) -> RecognisedMistake | None:
-    """A method of the node is called on an object that is no node."""
-    held = raised.source.held_node
-    if held:
-        params = {"name": f"self.{name}", "written": f"{held}.{name}"}
-        found = raised.finding("attribute_not_set", params=params)
-        return replace(found, variant="held", words={**found.words, "held": held})
-    owner = class_of(raised.module, function_at(raised.module, raised.line))
-    if owner is None or owner[0].bases:
+def _not_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """Something is read from a function that the line, or the one that keeps it, does not call."""
+    part = _kept_in(raised, _before_dot(raised, match["name"]))
+    if part is None or not dotted(part) or isinstance(part, ast.Call) or raised.inside:
         return None
-    found = raised.finding("attribute_not_set", name=name)
-    return replace(found, variant="no_node", words={**found.words, "type": owner[0].name})
+    code = raised.source.module_of(part).text.code(part)
+    return raised.finding("not_called", at=part, name=code, written=f"{code}()")
 
 
-def _meant(raised: Raised, match: re.Match[str], node: str) -> tuple[str, str] | None:
-    """Return what the line has, and what it should have, if that is certain."""
-    name, kind, line = match["name"], match["type"], raised.module.line(raised.line)
-    if kind == "super" and "init" in name:
-        return name, "__init__"
-    if kind == "rclpy" and name in NODE_METHODS and node:
-        given = re.search(rf"\brclpy\.{name}\((?:self\b|node\b|['\"])", line)
-        return None if given else (f"rclpy.{name}", f"{node}.{name}")
-    if kind in raised.source.class_names and name in raised.source.attributes and node:
-        code = f"{kind}.{name}"
-        return (code, f"{node}.{name}") if code in line else None
-    spun = re.search(rf"(?<![\w.])(\w{{1,60}})\.{name}\(\)", line)
-    if kind in raised.source.known_classes and name in ("spin", "spin_once") and spun:
-        return spun[0], f"rclpy.{name}({spun[1]})"
+def _before_dot(raised: Raised, name: str) -> ast.expr | None:
+    """Return what the line reads an attribute from; None if it is not one thing."""
+    statement = statement_at(raised.module, raised.line)
+    parts = list(ast.walk(statement)) if statement is not None else []
+    found = [n.value for n in parts if isinstance(n, ast.Attribute) and n.attr == name]
+    return found[0] if len(found) == 1 else None
+
+
+def _kept_in(raised: Raised, part: ast.expr | None) -> ast.expr | None:
+    """Return what the only line that sets a variable gives it; the part itself if there is none."""
+    code = dotted(part) if part is not None else ""
+    sets = [n for n in raised.source.all_nodes if isinstance(n, ast.Assign | ast.AnnAssign)]
+    kept = [n.value for n in sets if code and code in targets_of(n) and n.value is not None]
+    return kept[0] if len(kept) == 1 and dotted(kept[0]) else part
+
+
+def _taken(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The class sets an attribute, or has a method, with the name of one of Node's."""
+    given = match.groupdict()
+    name = given.get("name") or given.get("old") or given.get("only") or ""
+    method = raised.source.methods.get(name)
+    if method is not None:
+        found = raised.finding("name_taken", at=method, name=name)
+        return replace(found, variant="method") if name in NODE_METHODS else None
+    for part in raised.source.own_nodes:
+        stored = isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store)
+        if stored and isinstance(part, ast.Attribute) and own_name(part) == name:
+            return raised.finding("name_taken", at=part, name=name)
     return None
 
 
-_node = Family("node", links.FIRST_NODE)
+def _main_in_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    function = raised.assignment.function
+    found = node_scope.inner_function(raised.source, function)
+    if match["function"] != function or found is None:
+        return None
+    return raised.finding("main_in_class", at=found)
+
+
+_node = Family("node", links.PYTHON_CLASSES)
 KINDS = (
     _node(
-        "method_misspelt",
-        "class",
-        msg("A method or attribute of the node is misspelt"),
-        msg("Python finds a method or an attribute only by its exact name."),
-        msg("Write {close} instead of {name}."),
-        links.RCLPY,
-        raised={ATTRIBUTE: _method_misspelt},
-        fixed_by=(node_timer.misspelt, rename.attribute),
+        "main_in_class",
+        "start",
+        msg("The entry point's function is inside the class"),
+        msg(
+            "The entry point ends in :{function}, so Python looks for a function {function} at the "
+            "top level of the module. An indented def belongs to what is above it."
+        ),
+        msg(
+            "Move def {function}(…) and all of its lines to the left by the same number of spaces, "
+            "so that def begins at the margin."
+        ),
+        links.DEVELOPING,
+        raised={
+            r"AttributeError: module '[\w.]{1,200}' has no attribute '(?P<function>\w{1,120})'": (
+                _main_in_class
+            )
+        },
+        fixed_by=(node_scope.at_margin,),
         examples=(
             example(
-                "create_timer_misspelt",
-                Replace(NODE, "create_timer", "create_timmer"),
+                "main_in_class",
+                Replace(NODE, MAIN, IN_CLASS),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "callback_outside",
+        "timer",
+        msg("The callback is outside of the class"),
+        msg("A function at the margin is not a method of the class, so self does not have it."),
+        msg(
+            "Put def {name}(self): and its lines at the end of the class, indented by 4 more spaces "
+            "than now."
+        ),
+        fixed_by=(node_scope.into_class,),
+        examples=(
+            example(
+                "callback_outside_class",
+                Replace(NODE, CALLBACK, OUTSIDE),
+                fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "name_taken",
+        "class",
+        msg("A name that Node uses gets another meaning"),
+        msg(
+            "Your class inherits {name} from Node. If you define {name} again, your own replaces "
+            "the one of Node, which the node needs."
+        ),
+        msg(
+            "Use another name for your value, for example self.{name}_, on this line and "
+            "wherever you use it."
+        ),
+        fixes={
+            "method": msg(
+                "Give your method another name than {name}, here and where the timer gets it."
+            ),
+        },
+        raised={NO_SETTER: _taken, OWN_METHOD: _taken},
+        examples=(
+            example(
+                "attribute_timers",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.timers = []"),
                 fails="run.starts",
             ),
             example(
-                "logger_misspelt",
-                Replace(NODE, "self.get_logger().info", "self.get_loger().info"),
-                fails="run.output",
-                blocks=DEAD,
+                "callback_is_create_timer",
+                Replace(NODE, "def timer_callback", "def create_timer"),
+                Replace(NODE, "self.timer_callback)", "self.create_timer)"),
+                fails="run.starts",
             ),
+        ),
+    ),
+    _node(
+        "not_called",
+        "callback",
+        msg("The () after a function is missing"),
+        msg("{name} is a function: only calling it, with (), gives its result."),
+        msg("Write {written} instead of {name}."),
+        links.PYTHON_ERRORS,
+        raised={OF_FUNCTION: _not_called},
+        fixed_by=(lines.written,),
+        examples=(
             example(
-                "error_at_stop",
-                Replace(NODE, "        node.destroy_node()\n", "        node.destroy()\n"),
-                fails="run.interrupt",
+                "get_clock_not_called",
+                Replace(
+                    NODE, "self.counter_ += 1", "self.get_clock.now()\n        self.counter_ += 1"
+                ),
+                fails="run.output",
+                blocks=("run.interrupt",),
             ),
         ),
     ),
@@ -293,69 +346,27 @@ KINDS = (
         msg("An attribute is read that __init__ did not set"),
         msg("self.{name} does not exist until a line assigns to it."),
         msg("Give it a value in __init__: self.{name} = {start}"),
-        links.PYTHON_CLASSES,
         close=msg("Write self.{close} instead of self.{name}."),
+        whys={
+            "set_here": msg(
+                "self.{name} does not exist until a line assigns to it. Line {lines} does so, but had not "
+                "run for this object when Python came to this line."
+            )
+        },
         fixes={
-            "no_node": msg(
-                "Pass the node to {type} when it is made, as self in {type}(self). Keep it in its "
-                "__init__(self, node) with self.node = node, and write self.node.{name} here."
-            ),
-            "held": msg(
-                "Write {written} instead of {name}. Do the same wherever self. stands before another "
-                "method of the node."
-            ),
             "value": msg(
-                "Give it a value in __init__, above the line that creates the timer: self.{name} = "
-                "and the value that it has at the beginning."
+                "Give it a value in __init__, before this line can run: self.{name} = and the value that it "
+                "has at the beginning. If a method is meant, write its def in the class, or its right name."
             ),
             "set_here": msg(
                 "See why Python did not run line {lines} before this line: it may be further down, "
                 "in a branch or a loop that was not entered, or in a function that was not called. "
                 "Move it to where it always runs first, as a rule to the beginning of __init__."
             ),
-            "local": msg("Write {written} instead of {name} on that line."),
-            "set_later": msg(
-                "Set self.{name} in __init__ too, before this line can run, or call {method} "
-                "before this line can run."
-            ),
-            "no_method": msg(
-                "If {name} is a method of yours, write its def in the class. If it is one of ROS, look it up "
-                "in the documentation of your distro: it may have another name there, as from one release "
-                "to the next. If nothing needs the call, delete it."
-            ),
-            "object": msg(
-                "Delete this line if it belongs to another example. If the node needs it, create "
-                "self.{name} in __init__ first."
-            ),
-        },
-        whys={
-            "local": msg(
-                "Without self., {name} is a variable of __init__ alone. Line {line} reads {written}, which no line "
-                "sets."
-            ),
-            "no_node": NO_NODE,
-            "held": msg(
-                "This class is no node: it does not inherit from Node. Its node is {held}, which has "
-                "this method."
-            ),
-            "set_here": SET_ELSEWHERE,
-            "set_later": SET_IN_METHOD,
-            "no_method": msg("self.{name}() calls a method, and the class has no method {name}."),
         },
         raised={OWN_ATTRIBUTE: _not_set},
-        fixed_by=(lines.written, node_names.close_attribute, node_names.counter),
+        fixed_by=(rename.attribute, node_names.counter),
         examples=(
-            example(
-                "logger_in_an_attribute_that_is_not_set",
-                Replace(NODE, "self.get_logger().info", "self.logger_.info"),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-            example(
-                "period_attribute_not_set",
-                Replace(NODE, "create_timer(1.0", "create_timer(self.timer_period"),
-                fails="run.starts",
-            ),
             example(
                 "counter_set_by_uncalled_method",
                 Replace(NODE, "        self.counter_ = 0\n", ""),
@@ -366,26 +377,6 @@ KINDS = (
                 ),
                 fails="run.output",
                 blocks=DEAD,
-            ),
-            example(
-                "helper_without_a_node",
-                Replace(NODE, "self.get_logger().info(", "Speaker().speak("),
-                Replace(
-                    NODE,
-                    "class MyFirstNode",
-                    "class Speaker:\n    def speak(self, text):\n        self.get_logger().info(text)\n\n\nclass MyFirstNode",
-                ),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-            example(
-                "node_kept_in_an_attribute",
-                Replace(NODE, "class MyFirstNode(Node)", "class MyFirstNode"),
-                Replace(
-                    NODE, "super().__init__('my_first_node')", "self.node = Node('my_first_node')"
-                ),
-                Replace(NODE, "node = MyFirstNode()", "node = MyFirstNode().node"),
-                fails="run.starts",
             ),
             example(
                 "publisher_of_another_example",
@@ -430,82 +421,64 @@ KINDS = (
         links.RCLPY,
         close=msg("Write {close} instead of {name}."),
         whys={
+            "close": msg("Python finds a method or an attribute only by its exact name."),
             "written": msg(
                 "What stands before the dot has nothing of that name. Here it is meant in another way than "
                 "{name}."
             ),
-            "parameter": msg(
-                "get_parameter returns an object of the type Parameter. Its value is in .value, or in "
-                "get_parameter_value()."
+            "no_node": msg(
+                "{name} belongs to the node. The class {type} does not inherit from Node, so its objects "
+                "do not have it."
             ),
-            "none": msg(
-                "A value on that line is None: nothing was assigned to it, or a function returned "
-                "nothing."
-            ),
-            "class_kept": msg(
-                "Without (), {type} is the class itself. Only an object of it has what its __init__ sets."
-            ),
-            "module": msg("The module rclpy has nothing with the name {name}."),
         },
         fixes={
             "written": msg("Write {written} instead of {name}."),
-            "similar": msg(
-                "Look up what a {type} can do. It has the similar name {other}: write that only if "
-                "it does what you want."
-            ),
-            "own_class": msg(
-                "Write a name that the class {type} has (line {line}), or let its __init__ set "
-                "self.{name}."
-            ),
-            "parameter": msg("Write {written} instead of {name} behind get_parameter(…)."),
-            "none": msg("Find the line that should give it its value, and see what that does."),
-            "module": msg(
-                "Compare the name with the documentation of rclpy. Many of a node's functions are "
-                "methods of the node: self.name(…) in the class."
+            "no_node": msg(
+                "Pass the node to {type} when it is made, as self in {type}(self). Keep it in its "
+                "__init__(self, node) with self.node = node, and write self.node.{name} here."
             ),
         },
         seen=r"AttributeError: (?:'\w{1,120}' object|type object '\w{1,120}'|module "
         r"'[\w.]{1,200}') has no attribute '(?P<name>\w{1,120})'",
         raised={ATTRIBUTE: _unknown},
-        fixed_by=(lines.written,),
+        fixed_by=(lines.written, node_timer.misspelt, rename.attribute),
         examples=(
             example(
-                "create_timer_of_rclpy_with_the_node",
-                Replace(NODE, "self.create_timer(1.0,", "rclpy.create_timer(self, 1.0,"),
+                "create_timer_misspelt",
+                Replace(NODE, "create_timer", "create_timmer"),
                 fails="run.starts",
             ),
             example(
-                "logger_of_rclpy",
-                Replace(NODE, "self.get_logger()", "rclpy.get_logger('my_first_node')"),
+                "logger_misspelt",
+                Replace(NODE, "self.get_logger().info", "self.get_loger().info"),
                 fails="run.output",
                 blocks=DEAD,
             ),
             example(
-                "class_for_self",
-                Replace(NODE, "self.counter_ += 1", "MyFirstNode.counter_ += 1"),
-                fails="run.output",
-                blocks=("run.interrupt",),
+                "error_at_stop",
+                Replace(NODE, "        node.destroy_node()\n", "        node.destroy()\n"),
+                fails="run.interrupt",
             ),
             example(
-                "class_kept_for_an_object",
+                "loginfo_of_ros_1",
+                Replace(NODE, "self.get_logger().info", "rclpy.loginfo"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "helper_without_a_node",
+                Replace(NODE, "self.get_logger().info(", "Speaker().speak("),
                 Replace(
                     NODE,
                     "class MyFirstNode",
-                    "class Texts:\n    def __init__(self):\n        self.text = 'Hello time: '\n\n\nclass MyFirstNode",
+                    "class Speaker:\n    def speak(self, text):\n        self.get_logger().info(text)\n\n\nclass MyFirstNode",
                 ),
-                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.texts = Texts"),
-                Replace(NODE, "'Hello time: ' + str", "self.texts.text + str"),
                 fails="run.output",
                 blocks=DEAD,
             ),
             example(
                 "node_spins_itself",
                 Replace(NODE, "rclpy.spin(node)", "node.spin()"),
-                fails="run.starts",
-            ),
-            example(
-                "init_of_super_half",
-                Replace(NODE, "super().__init__(", "super().__init("),
                 fails="run.starts",
             ),
         ),

@@ -57,17 +57,6 @@ KINDS = (
                 fails="run.starts",
             ),
             example(
-                "init_file_imports_the_node",
-                Write(
-                    f"{INNER}/__init__.py",
-                    "from my_robot_controller.my_first_node import MyFirstNode\n\n"
-                    "HELLO = 'Hello time: '\n",
-                ),
-                Replace(NODE, IMPORT, f"{IMPORT}\nfrom my_robot_controller import HELLO\n"),
-                Replace(NODE, "'Hello time: '", "HELLO"),
-                fails="run.starts",
-            ),
-            example(
                 "helper_imports_the_node",
                 Write(
                     HELPER,
@@ -75,23 +64,6 @@ KINDS = (
                     "def make_text(number):\n    return 'Hello time: ' + str(number)\n",
                 ),
                 Replace(NODE, IMPORT, f"{IMPORT}\nfrom .text_helper import make_text\n"),
-                USES_HELPER,
-                fails="run.starts",
-            ),
-            example(
-                "modules_import_each_other",
-                Write(
-                    HELPER,
-                    "import my_robot_controller.my_first_node as node\n\n"
-                    "PREFIX = node.HELLO + ' time: '\n\n\n"
-                    "def make_text(number):\n    return PREFIX + str(number)\n",
-                ),
-                Replace(
-                    NODE,
-                    IMPORT,
-                    f"{IMPORT}\nfrom my_robot_controller.text_helper import make_text\n\n"
-                    "HELLO = 'Hello'\n",
-                ),
                 USES_HELPER,
                 fails="run.starts",
             ),

@@ -76,12 +76,6 @@ KINDS = (
                 blocks=UNINSTALLED,
             ),
             example(
-                "entry_in_inner_package",
-                *AGAIN,
-                fails="entry_point.mapping",
-                blocks=UNINSTALLED,
-            ),
-            example(
                 "node_in_inner_package",
                 *AGAIN,
                 Move(NODE, f"{WITHIN}/{NODE}"),

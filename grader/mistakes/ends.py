@@ -1,7 +1,6 @@
-"""Mistakes at the ends of a node: callbacks of subscriptions and services, requests, fields.
+"""Mistakes at the ends of a node: topics and services, their callbacks, messages and fields.
 
-A topic or a service calls its callback with arguments, and gets an answer from it: that is where
-these differ from a timer.
+rclpy refuses what it gets at the line of the student's that passes it: the text says what it takes.
 """
 
 from __future__ import annotations
@@ -9,47 +8,44 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.callback import never_ends_in
 from grader.mistakes.kind import Family
-from grader.mistakes.order import attribute_needed_early
-from grader.mistakes.recognised import OWN_ATTRIBUTE, Raised, RecognisedMistake, Suspect
+from grader.mistakes.recognised import FromError, Raised, RecognisedMistake, always
 from grader.package.source.module import Function
-from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.names import called_name, calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
-from grader.package.source.sleeps import SLEEPS
+from grader.package.source.place import statement_at
 
-ENDS = {"create_subscription": "callback", "create_service": "callback"}
-BARE = r"^TypeError:?\s*$"  # rclpy raises it without a text
+ENDS = ("create_subscription", "create_service")
+TAKES = {
+    "create_publisher": "(Type, 'name', 10)",
+    "create_subscription": "(Type, 'name', self.callback, 10)",
+    "create_service": "(Type, 'name', self.callback)",
+    "create_client": "(Type, 'name')",
+}
+"""What makes an end of a topic or of a service, with what it takes."""
+REFUSED = (
+    r"rclpy_resolve_name\(\): incompatible function arguments|callback should be either be callable"
+    r"|The service type provided is not valid|has no attribute '_TYPE_SUPPORT'"
+    r"|Expected QoSProfile or int, but received|is not callable|positional argument"
+    r"|Failed to create (?:subscription|publisher): "
+)
+SENT = (
+    r"Expected <class '[\w.]*\.(?P<wanted>\w+)'>, got <class '[\w.]*?(?P<name>\w+)'>|Metaclass_"
+    r"|^TypeError:?\s*$|Service classes can not be instantiated"
+    r"|'(?:property|member_descriptor|getset_descriptor)'"
+    r"|AttributeError: '\w{1,120}' object attribute '\w{1,120}' is read-only"
+)
+PARTS = ("Request", "Response", "Goal", "Result", "Feedback")
 ARGUMENTS = (
     r"\.?(?P<function>\w{1,120})\(\) (?:takes (?:\d+|from \d+ to \d+) positional arguments? but \d+ "
     r"(?:was|were) given|missing \d+ required positional arguments?: .*)"
 )
-ASSERTION = r"Assertion `Py(?P<kind>\w{1,30})_Check\(field\)' failed"
-BAD_ARGUMENT = r"TypeError: bad argument type for built-in operation"
-NO_SERVICE_TYPE = r"The service type provided is not valid"
-STR_TYPE = (
-    r"(?:type object 'str'|'str' object) has no attribute '_TYPE_SUPPORT'"  # (kilted: object)
-)
-NOT_INSTANTIATED = r"Service classes can not be instantiated"
-TWO_TYPES = r"RCLError: Failed to create (?:subscription|publisher): "
-NO_DEPTH = r"Expected QoSProfile or int, but received <class '(?:method|function)'>"
-OF_TYPE = (
-    r"'(?:property|member_descriptor|getset_descriptor)'|"
-    r"AttributeError: '\w{1,120}' object attribute '\w{1,120}' is read-only"
-)
-NO_PART = r"AttributeError: '(?:float|int|str|bool)' object has no attribute '(?P<name>\w{1,120})'"
-PARTS = ("Request", "Response", "Goal", "Result", "Feedback")
-VALUES = {
-    "Float": "2.0",
-    "Long": "1",
-    "Unicode": "'text'",
-    "Bool": "True",
-    "Bytes": "b'a'",
-}
+FIELD = r"Assertion `Py\w{1,30}_Check\(field\)' failed|TypeError: bad argument type for built-in"
+NO_PART = r"AttributeError: '(?:float|int|str|bool)' object has no attribute '[xyzw]'"
 
 
 @dataclass(frozen=True)
@@ -73,59 +69,64 @@ def ends(source: NodeSource) -> Iterator[End]:
         kind = last_part(name)
         if kind in ENDS:
             named = {word.arg: word.value for word in call.keywords}
-            given = call.args[2] if len(call.args) > 2 else named.get(ENDS[kind])
+            given = call.args[2] if len(call.args) > 2 else named.get("callback")
             yield End(call, kind, given)
 
 
-def _called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """The callback is called where the end is made."""
+def _refused(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The line makes an end, and rclpy refuses it; or a callback is called or in quotes there."""
     del match
+    statement = statement_at(raised.module, raised.line)
+    for call, name in calls_in(statement) if statement is not None else ():
+        kind = last_part(name)
+        if kind in TAKES and f"{kind}() missing" not in raised.error:
+            return raised.finding("end_arguments", at=call, name=kind, written=kind + TAKES[kind])
     for end in ends(raised.source):
-        here = raised.line is None or end.call.lineno <= raised.line <= _last(end.call)
-        if here and isinstance(end.callback, ast.Call) and end.method in raised.source.methods:
-            return raised.finding("end_callback_called", at=end.call, name=end.method)
+        given = end.callback
+        if isinstance(given, ast.Constant) or (
+            isinstance(given, ast.Call) and end.method in raised.source.methods
+        ):
+            written = end.kind + TAKES[end.kind]
+            return raised.finding("end_arguments", at=end.call, name=end.kind, written=written)
     return None
 
 
-def _called_early(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """The callback is called in __init__, before the line that sets what it needs."""
-    early = attribute_needed_early(raised, match)
-    for end in ends(raised.source) if early is not None else ():
-        inside = early is not None and end.call in ast.walk(early.needs)
-        if inside and isinstance(end.callback, ast.Call) and end.method in raised.source.methods:
-            return raised.finding("end_callback_called", at=end.call, name=end.method)
-    return None
+def _sent(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A type is used in place of a message, or a message of another type is sent."""
+    for node in raised.source.all_nodes:
+        used = _type_in(node, raised.interfaces)
+        if used is not None:
+            name = dotted(used)
+            found = raised.finding("other_message", at=used, name=name, written=f"{name}()")
+            return replace(found, variant="field" if used is node else "type")
+    line = raised.module.line(raised.line)
+    is_sent = (
+        match[0].startswith(("Expected", "Service")) or "call_async" in line or ".call(" in line
+    )
+    return raised.finding("other_message") if is_sent else None
 
 
-def _last(node: ast.expr) -> int:
-    return node.end_lineno or node.lineno
+def _type_in(node: ast.AST, types: set[str]) -> ast.expr | None:
+    """Return the type that is assigned or sent in place of a message, or whose field is read."""
+    value = node.value if isinstance(node, ast.Assign | ast.Attribute) else None
+    if isinstance(node, ast.Attribute):
+        of_type = isinstance(value, ast.Name) and value.id in types and node.attr.islower()
+        return node if of_type else None
+    if isinstance(node, ast.Call) and called_name(node) in ("publish", "call_async", "call"):
+        value = node.args[0] if node.args else None
+    part = isinstance(value, ast.Attribute) and value.attr in PARTS
+    return value if part or (isinstance(value, ast.Name) and value.id in types) else None
 
 
-def _text(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """The callback is a text."""
-    del match
-    for end in ends(raised.source):
-        if isinstance(end.callback, ast.Constant) and isinstance(end.callback.value, str):
-            return raised.finding("end_callback_text", at=end.call, name=end.callback.value)
-    return None
-
-
-def _arguments(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """The callback of a service does not take the request and the response."""
+def _service_callback(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The callback of a service does not take request and response, or does not return the response."""
+    called = match.groupdict().get("function")
     for end in ends(raised.source):
         method = raised.source.methods.get(end.method)
-        if end.kind == "create_service" and method is not None and end.method == match["function"]:
+        if end.kind != "create_service" or method is None or called not in (None, end.method):
+            continue
+        if called or not _returns(method):
             return raised.finding("service_callback", at=method, name=end.method)
-    return None
-
-
-def _no_response(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """The callback of a service does not return the response, at least not always."""
-    del match
-    for end in ends(raised.source):
-        method = raised.source.methods.get(end.method)
-        if end.kind == "create_service" and method is not None and not _returns(method):
-            return raised.finding("response_not_returned", at=method, name=end.method)
     return None
 
 
@@ -133,342 +134,87 @@ def _returns(method: Function) -> bool:
     """Whether each way through a function returns a value that is not a constant."""
     returned = [node for node in ast.walk(method) if isinstance(node, ast.Return)]
     good = all(node.value and not isinstance(node.value, ast.Constant) for node in returned)
-    return bool(returned) and good and _ends(method.body)
+    return good and _ends(method.body)
 
 
 def _ends(body: list[ast.stmt]) -> bool:
-    """Whether the last statement returns, in each of its branches."""
+    """Whether the last statement leaves the function, in each of its branches."""
     last = body[-1] if body else None
     if isinstance(last, ast.If):
         return _ends(last.body) and _ends(last.orelse)
-    if isinstance(last, ast.With):
+    if isinstance(last, ast.With | ast.Try):
         return _ends(last.body)
-    if isinstance(last, ast.Try):
-        return _ends(last.body) or _ends(last.finalbody)
     return isinstance(last, ast.Return | ast.Raise)
 
 
-def _class_of_part(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """A variable was set to SetPen.Request without parentheses."""
-    del match
-    for node in raised.source.all_nodes:
-        value = node.value if isinstance(node, ast.Assign) else None
-        if isinstance(value, ast.Attribute) and value.attr in PARTS:
-            return raised.finding("service_part_class", at=value, name=dotted(value))
-    return None
+def _field(variant: str = "") -> FromError:
+    def found(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+        del match
+        if variant and not raised.interfaces:
+            return None
+        return replace(raised.finding("field_type"), variant=variant)
 
-
-def _class_published(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """publish() gets the type itself."""
-    del match
-    for call in raised.source.calls_of("publish"):
-        if call.args and isinstance(call.args[0], ast.Name) and call.args[0].id[:1].isupper():
-            return raised.finding("published_class", at=call, name=call.args[0].id)
-    types = raised.interfaces
-    for node in raised.source.own_nodes:
-        value = node.value if isinstance(node, ast.Assign) else None
-        if isinstance(value, ast.Name) and value.id in types:
-            return raised.finding("message_class", at=value, name=value.id)
-    return None
-
-
-def _other_request(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """A request is sent to a client of another type."""
-    del match
-    code = raised.module.line(raised.line)
-    if "call_async" not in code and ".call(" not in code:
-        return None
-    return raised.finding("request_of_other_type")
-
-
-def _type_and_name(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """A service or a client gets its name first."""
-    del match
-    for call, name in raised.source.calls:
-        first = call.args[0] if call.args else None
-        if last_part(name) in ("create_service", "create_client") and isinstance(
-            first, ast.Constant
-        ):
-            return raised.finding("service_arguments", at=call, name=last_part(name))
-    return None
-
-
-def _no_service_type(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    del match
-    for call, name in raised.source.calls:
-        first = call.args[0] if call.args else None
-        if last_part(name) not in ("create_service", "create_client") or first is None:
-            continue
-        if isinstance(first, ast.Attribute) and first.attr in PARTS:
-            return raised.finding("service_type", at=call, name=dotted(first.value))
-    return None
-
-
-def _instantiated(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """A service's type is called as if it were a message."""
-    del match
-    line = raised.line
-    for call, name in raised.source.calls:
-        if line == call.lineno and isinstance(call.func, ast.Name):
-            return raised.finding("service_instantiated", at=call, name=name)
-    return None
-
-
-def _two_types(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """Two ends of the node use one topic with different types."""
-    del match
-    types: dict[str, tuple[str, ast.Call]] = {}
-    for call, name in raised.source.calls:
-        if last_part(name) not in ("create_publisher", "create_subscription"):
-            continue
-        topic = call.args[1] if len(call.args) > 1 else None
-        if not isinstance(topic, ast.Constant):
-            continue
-        kind, key = dotted(call.args[0]), str(topic.value).strip("/")
-        if key in types and types[key][0] != kind:
-            return raised.finding("topic_of_two_types", at=call, name=str(topic.value))
-        types.setdefault(key, (kind, call))
-    return None
-
-
-def _depth(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    del match
-    for end in ends(raised.source):
-        if isinstance(end.callback, ast.Constant) and isinstance(end.callback.value, int):
-            return raised.finding("end_order", at=end.call)
-    return None
-
-
-def _type_in_place(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """A field is read of a message's type, not of the message that came."""
-    del match
-    types = raised.interfaces
-    for node in raised.source.own_nodes:
-        whole = node.value if isinstance(node, ast.Attribute) else None
-        if not isinstance(node, ast.Attribute) or not isinstance(whole, ast.Name):
-            continue
-        if whole.id in types and node.attr.islower():
-            return raised.finding("field_of_type", at=node, name=f"{whole.id}.{node.attr}")
-    return None
-
-
-def _replaced(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """A part of a message that has fields of its own is replaced by a number."""
-    part = match["name"]
-    targets: dict[str, ast.Assign] = {}
-    for node in raised.source.own_nodes:
-        target = node.targets[0] if isinstance(node, ast.Assign) else None
-        if isinstance(node, ast.Assign) and isinstance(target, ast.Attribute):
-            targets.setdefault(dotted(target), node)
-    for node in raised.source.own_nodes:
-        if isinstance(node, ast.Attribute) and node.attr == part:
-            whole = dotted(node.value)
-            if whole in targets and _is_number_for_part(raised, targets[whole]):
-                return raised.finding("field_replaced", at=targets[whole], name=f"{whole}.{part}")
-    for whole, node in targets.items():
-        value = node.value
-        is_number = isinstance(value, ast.Constant) and isinstance(value.value, int | float)
-        if is_number and part in ("x", "y", "z", "w") and "." in whole:
-            return raised.finding("field_replaced", at=node, name=f"{whole}.{part}")
-    return None
-
-
-def _is_number_for_part(raised: Raised, set_by: ast.Assign) -> bool:
-    """Whether a line can set a part of a message, and gives it a number or another plain value."""
-    whole, value = set_by.targets[0], set_by.value
-    known = bool(raised.interfaces) and isinstance(whole, ast.Attribute)
-    text = isinstance(value, ast.Constant) and isinstance(value.value, str)
-    own = isinstance(whole, ast.Attribute) and dotted(whole.value) == "self"
-    return known and not own and not text and not isinstance(value, ast.JoinedStr)
-
-
-def _field_type(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
-    wanted = VALUES.get(match.groupdict().get("kind") or "", "")
-    found = raised.finding("field_type", wanted=wanted)
-    return RecognisedMistake(
-        kind=found.kind,
-        params=found.params,
-        words=found.words,
-        variant="" if wanted else "unknown",
-        where=found.where,
-    )
-
-
-def _callbacks(source: NodeSource) -> list[Function]:
-    """Return the methods that ROS calls: those of timers, subscriptions and services."""
-    names = [timer.method for timer in source.timers] + [end.method for end in ends(source)]
-    return [source.methods[name] for name in dict.fromkeys(names) if name in source.methods]
-
-
-def _stuck(suspect: Suspect) -> RecognisedMistake | None:
-    """Look for what keeps a callback from returning."""
-    for method in _callbacks(suspect.source):
-        for call, name in calls_in(method):
-            if last_part(name) in ("spin", "spin_once", "spin_until_future_complete"):
-                return suspect.finding("spins_inside", call, name=last_part(name))
-            if last_part(name) == "call" and name.startswith("self."):
-                return suspect.finding("waits_for_service", call, name=name)
-        for node in ast.walk(method):
-            if isinstance(node, ast.While) and ".done()" in ast.unparse(node.test):
-                return suspect.finding("waits_for_service", node, name="while")
-        loop = never_ends_in(method)
-        if loop is not None:
-            return suspect.finding("waits_inside", loop, name=_word(loop))
-        slept = [call for call, name in calls_in(method) if name in SLEEPS]
-        if slept:
-            return suspect.finding("waits_inside", slept[0], name=dotted(slept[0].func))
-    return None
-
-
-def _spins_in_callback(suspect: Suspect) -> RecognisedMistake | None:
-    """Look for a callback that spins the node which calls it."""
-    found = _stuck(suspect)
-    return found if found is not None and found.kind == "node.spins_inside" else None
-
-
-def _word(node: ast.AST) -> str:
-    return dotted(node.func) if isinstance(node, ast.Call) else "while"
-
-
-def _printed(suspect: Suspect) -> RecognisedMistake | None:
-    """Look for a print() in a callback, where a log line is missing."""
-    for method in _callbacks(suspect.source):
-        for call, name in calls_in(method):
-            if name == "print":
-                return suspect.finding("prints_inside", call, name=method.name)
-            if name.endswith("get_logger().debug"):
-                return suspect.finding("debug_inside", call, name=method.name)
-    return None
+    return found
 
 
 _node = Family("node", links.FIRST_NODE)
-RETURNS = msg(
-    "The answer of a service is what its callback returns: the response that it was given."
-)
-BLOCKS = msg(
-    "A node runs one callback at a time. Nothing else of it runs until the callback returns: no "
-    "timer, no subscription, no answer to a call."
-)
-LATER = msg("ROS calls the callback later, when something comes. It needs the method itself.")
 KINDS = (
-    _node(
-        "end_callback_called",
-        "topic",
-        msg("The callback is called, not passed on"),
-        LATER,
-        msg("Write self.{name} without parentheses."),
-        raised={r"Error|Exception": _called, OWN_ATTRIBUTE: _called_early},
-    ),
-    _node(
-        "end_callback_text",
-        "topic",
-        msg("The callback is a text"),
-        LATER,
-        msg("Write self.{name} without quotes."),
-        raised={r"Error|Exception": _text},
-    ),
     _node(
         "service_callback",
         "service",
-        msg("The callback of the service does not take request and response"),
-        msg("A service calls its callback with two arguments after self: request and response."),
-        msg("Write: def {name}(self, request, response):"),
+        msg("The callback of the service does not take request and response, or returns none"),
+        msg(
+            "A service calls its callback with two arguments after self: request and response. The "
+            "answer of the service is the response that the callback returns."
+        ),
+        msg(
+            "Write: def {name}(self, request, response): and end it with return response, on each way "
+            "through it."
+        ),
         links.SERVICES,
-        raised={ARGUMENTS: _arguments},
+        raised={ARGUMENTS: _service_callback, r"^TypeError:?\s*$": _service_callback},
     ),
     _node(
-        "response_not_returned",
-        "service",
-        msg("The callback of the service does not return the response"),
-        RETURNS,
-        msg("End {name} with: return response, on each way through it."),
-        links.SERVICES,
-        raised={BARE: _no_response},
-    ),
-    _node(
-        "service_part_class",
-        "service",
-        msg("The type of a request or response is used in place of an object"),
-        msg("A request is an object: the parentheses after the type make one."),
-        msg("Write {name}() with parentheses."),
-        links.SERVICES,
-        raised={BARE: _class_of_part},
-    ),
-    _node(
-        "published_class",
+        "end_arguments",
         "topic",
-        msg("publish() gets the type of the message"),
-        msg("A message is an object: the parentheses after the type make one."),
-        msg("Make a message with {name}(), fill it, and publish it."),
-        raised={r"Metaclass_": _class_published},
+        msg("What makes an end of a topic or a service does not get what it takes"),
+        msg(
+            "{name} takes the type first, without parentheses, then the name as a text. A callback is the "
+            "method itself, without parentheses and quotes: ROS calls it later with what comes. "
+            "A topic has one type in all of its ends."
+        ),
+        msg("Compare this line with {written}."),
+        raised={REFUSED: _refused},
     ),
     _node(
-        "request_of_other_type",
-        "service",
-        msg("The request has another type than the client"),
-        msg("A client sends requests of the service type that create_client got, and no other."),
-        msg("Make the request with the Request() of the type that you gave create_client."),
-        links.SERVICES,
-        raised={BARE: _other_request},
-    ),
-    _node(
-        "service_arguments",
-        "service",
-        msg("The type and the name of the service are in the wrong order"),
-        msg("create_service and create_client take the type first, then the name as a text."),
-        msg("Write {name}(Type, 'name', …): first the type, then the name in quotes."),
-        links.SERVICES,
-        raised={STR_TYPE: _type_and_name},
-    ),
-    _node(
-        "service_type",
-        "service",
-        msg("The type of the service is only a part of it"),
-        msg("create_service and create_client need the whole type, request and response."),
-        msg("Pass {name} alone."),
-        links.SERVICES,
-        raised={NO_SERVICE_TYPE: _no_service_type},
-    ),
-    _node(
-        "service_instantiated",
-        "service",
-        msg("The type of the service is used as if it were a message"),
-        msg("A service has two messages: what is asked, and what is answered."),
-        msg("Write {name}.Request() for a request, {name}.Response() for an answer."),
-        links.SERVICES,
-        raised={NOT_INSTANTIATED: _instantiated},
-    ),
-    _node(
-        "topic_of_two_types",
+        "other_message",
         "topic",
-        msg("The node uses one topic with two types"),
-        msg("A topic has one type, in the whole ROS graph."),
-        msg("Compare the names: one of the two ends on {name} needs another topic."),
-        raised={TWO_TYPES: _two_types},
+        msg("What is sent is no message of the right type"),
+        msg(
+            "A publisher sends messages of the type that create_publisher got, and a client requests of "
+            "the type that create_client got. A message or a request is an object: parentheses after the "
+            "type, such as Type() or Type.Request(), make one."
+        ),
+        msg(
+            "Compare the type of what this line uses with the one that made the publisher or the client."
+        ),
+        fixes={
+            "type": msg("Write {written} with parentheses."),
+            "field": msg("Read the field of the callback's argument in place of {name}."),
+        },
+        raised={SENT: _sent},
     ),
     _node(
-        "end_order",
+        "topic_name_invalid",
         "topic",
-        msg("The callback and the depth are in the wrong order"),
-        msg("create_subscription takes the type, the name, the callback, and then the depth."),
-        msg("Write create_subscription(Type, 'name', self.callback, 10)."),
-        raised={NO_DEPTH: _depth},
-    ),
-    _node(
-        "field_of_type",
-        "topic",
-        msg("A field is read of the type, not of the message"),
-        msg("The type has no values. The message that came is the argument of the callback."),
-        msg("Read the field of the callback's argument in place of {name}."),
-        raised={OF_TYPE: _type_in_place},
-    ),
-    _node(
-        "field_replaced",
-        "topic",
-        msg("A part of the message is replaced by a number"),
-        msg("A part such as linear has fields of its own. A number in its place has none."),
-        msg("Set the field inside: {name}."),
-        raised={NO_PART: _replaced},
+        msg("ROS does not allow this name"),
+        msg(
+            "Names of topics and services consist of letters, digits and _, with / between the "
+            "parts; no part begins with a digit."
+        ),
+        msg("Remove spaces and other characters from the name."),
+        links.NAMES,
+        raised={r"Invalid(?:Topic|Service)NameException": always("topic_name_invalid")},
     ),
     _node(
         "field_type",
@@ -478,55 +224,12 @@ KINDS = (
             "Each field has a type, which the interface decides. ROS ends the program if the value "
             "does not fit."
         ),
-        msg("Set the fields to values of their types; here a value such as {wanted} is expected."),
-        fixes={"unknown": msg("Compare the values that you set with the types of the fields.")},
-        raised={ASSERTION: _field_type, BAD_ARGUMENT: _field_type},
-    ),
-    _node(
-        "spins_inside",
-        "spin",
-        msg("A callback spins the node"),
-        BLOCKS,
-        msg("Remove {name} from the callback: {function} spins the node."),
-        links.EXECUTORS,
-        behind={"run.stuck": _stuck, "run.stops": _spins_in_callback},
-    ),
-    _node(
-        "waits_for_service",
-        "service",
-        msg("A callback waits for the answer of a service"),
-        msg(
-            "The answer can only be read while the node spins, and it does not spin until the "
-            "callback returns: it waits for ever."
-        ),
-        msg(
-            "Use call_async(request), and read the answer in a callback given to add_done_callback."
-        ),
-        links.SERVICES,
-    ),
-    _node(
-        "waits_inside",
-        "callback",
-        msg("A callback does not return"),
-        BLOCKS,
-        msg("Remove {name} from the callback: a timer does the repeating and the waiting."),
-        links.EXECUTORS,
-    ),
-    _node(
-        "prints_inside",
-        "logger",
-        msg("print() is used in place of the logger"),
-        msg("print() only writes to this terminal; no other program sees it on /rosout."),
-        msg("Write self.get_logger().info(…) in place of print(…)."),
-        links.LOGGING,
-        behind={"log.missing": _printed},
-    ),
-    _node(
-        "debug_inside",
-        "logger",
-        msg("The line is logged at the level DEBUG"),
-        msg("By default, records of the level DEBUG are neither shown nor published."),
-        msg("Write self.get_logger().info(…) in place of .debug(…)."),
-        links.LOGGING,
+        msg("Compare the values that you set with the types of the fields."),
+        fixes={
+            "part": msg(
+                "A part such as linear has fields of its own: set linear.x, and not linear to a number."
+            )
+        },
+        raised={FIELD: _field(), NO_PART: _field("part")},
     ),
 )

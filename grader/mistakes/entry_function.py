@@ -9,24 +9,20 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
-from grader.mistakes.example import BODY_OF_MAIN, INNER, NODE, example
+from grader.mistakes.example import BODY_OF_MAIN, NODE, example
 from grader.mistakes.fixes import node_life, node_main, node_names
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect
-from grader.package.edit.tree import Copy, Replace, Write
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
+from grader.package.edit.tree import Replace
 from grader.package.source.guard import guarded_code
 from grader.package.source.module import Function
-from grader.package.source.names import calls_in, dotted
+from grader.package.source.names import dotted
 from grader.package.source.node import NodeSource
 from grader.package.source.sleeps import SLEEPS
 
 WAITS = ("input", *SLEEPS)
 NO_FUNCTION = r"AttributeError: module '[\w.]{1,200}' has no attribute '(?P<function>\w{1,120})'"
 MAIN = 'def main(args=None):\n    """Run the node until Ctrl+C."""\n'
-ASKS = msg(
-    "{name} waits until someone types a line and presses Enter. Until then no line after it runs, "
-    "so the program does not reach rclpy.spin, and nothing calls the node's callbacks."
-)
 LOOKED_FOR = msg(
     "The entry point ends in :{function}, so Python looks for a function {function} at the top "
     "level of the module."
@@ -54,11 +50,8 @@ def _function_missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake
 
 def _absent(raised: Raised) -> RecognisedMistake:
     """Return that there is no function, and what the class is called."""
-    own, entry = raised.source.node_class, raised.source.entry
-    found = raised.finding("main_missing", made=own.name if own is not None else "MyNode")
-    if entry.tree.body:
-        return found
-    return replace(found, variant="no_code", words={**found.words, "path": entry.path})
+    own = raised.source.node_class
+    return raised.finding("main_missing", made=own.name if own is not None else "MyNode")
 
 
 def _function_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -72,23 +65,7 @@ def _function_misspelt(raised: Raised, match: re.Match[str]) -> RecognisedMistak
 def _main_wants(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     if match["function"] != raised.assignment.function:
         return None
-    main = raised.source.main
-    found = raised.finding("main_wants_args", at=main)
-    wanted = [a.arg for a in main.args.args] if main is not None else []
-    return (
-        found
-        if main is None or wanted in (["args"], ["self"])
-        else replace(found, variant="several")
-    )
-
-
-def _main_takes_none(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """The function uses `args`, as the tutorial's does, and has no such parameter."""
-    main = raised.source.main
-    if main is None or match["name"] != "args" or ast.unparse(main.args):
-        return None
-    inside = raised.line is not None and main.lineno <= raised.line <= (main.end_lineno or 0)
-    return raised.finding("main_takes_none", at=main) if inside else None
+    return raised.finding("main_wants_args", at=raised.source.main)
 
 
 def _main_empty(suspect: Suspect) -> RecognisedMistake | None:
@@ -106,18 +83,6 @@ def _hands_class_on(source: NodeSource) -> bool:
     return any(not isinstance(source.module_of(n).parents.get(n), ast.ClassDef) for n in used)
 
 
-def _waits_first(suspect: Suspect) -> RecognisedMistake | None:
-    """Look for a wait in the entry function, above the line that creates the node."""
-    main = suspect.function
-    for call, name in calls_in(main) if main is not None else ():
-        if suspect.source.is_node_class(call.func):
-            break
-        if name in WAITS:
-            found = suspect.finding("waits_first", call, name=f"{name}()")
-            return replace(found, variant="input" if name == "input" else "")
-    return None
-
-
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
@@ -131,7 +96,6 @@ KINDS = (
         ),
         links.DEVELOPING,
         whys={
-            "no_code": msg("The file {path} has only comments, and no code."),
             "guarded": msg(
                 "The entry point ends in :{function}, so Python looks for a function {function} at "
                 "the top level of the module. The lines below this guard run only if the file is "
@@ -139,11 +103,6 @@ KINDS = (
             ),
         },
         fixes={
-            "no_code": msg(
-                "If your node is open in the editor, save it into this file. If it is in another file "
-                "or in a copy of the package, copy its code into this one. If you have not written "
-                "it, write it here."
-            ),
             "guarded": msg(
                 "Put these lines into the function: write def {function}(args=None): instead of "
                 "this line. Then write at the end of the file, without indentation, "
@@ -154,17 +113,6 @@ KINDS = (
         raised={NO_FUNCTION: _function_missing},
         fixed_by=(node_main.out_of_guard, node_names.main, node_main.appended),
         examples=(
-            example(
-                "node_in_a_copy",
-                Copy(NODE, f"{INNER}/my_first_node copy.py"),
-                Write(NODE, "#!/usr/bin/env python3\nimport rclpy\nfrom rclpy.node import Node\n"),
-                fails="run.starts",
-            ),
-            example(
-                "node_of_one_comment",
-                Write(NODE, "#!/usr/bin/env python3\n"),
-                fails="run.starts",
-            ),
             example(
                 "main_under_guard",
                 Replace(NODE, "def main(args=None):", "if __name__ == '__main__':"),
@@ -210,13 +158,7 @@ KINDS = (
         "start",
         msg("The entry point's function needs an argument, but is called without any"),
         msg("The executable calls {function}() without arguments."),
-        msg("Give the argument a default: def {function}(args=None):"),
-        fixes={
-            "several": msg(
-                "Give each parameter of {function} a default in this line, with the value that you want: "
-                "name=value."
-            ),
-        },
+        msg("Give each parameter of {function} a default, as in: def {function}(args=None):"),
         seen=r"TypeError: (?P<function>main)\(\) missing \d{1,3} required positional argument",
         raised={
             r"(?<![\w.])(?P<function>\w{1,120})\(\) missing \d{1,3} required positional": _main_wants
@@ -226,22 +168,6 @@ KINDS = (
             example(
                 "main_wants_args",
                 Replace(NODE, "def main(args=None)", "def main(args)"),
-                fails="run.starts",
-            ),
-        ),
-    ),
-    _node(
-        "main_takes_none",
-        "start",
-        msg("The entry point's function uses args, but does not take it"),
-        msg("A function knows a name that it gets only if its parentheses have it."),
-        msg("Write def {function}(args=None): on this line."),
-        raised={NAME_ERROR: _main_takes_none},
-        fixed_by=(node_life.main_takes_arguments,),
-        examples=(
-            example(
-                "main_takes_none",
-                Replace(NODE, "def main(args=None)", "def main()"),
                 fails="run.starts",
             ),
         ),
@@ -271,42 +197,6 @@ KINDS = (
                     NODE,
                     BODY_OF_MAIN,
                     "    pass\n",
-                ),
-                fails="run.starts",
-            ),
-        ),
-    ),
-    _node(
-        "waits_first",
-        "start",
-        msg("The program waits before the node spins"),
-        msg(
-            "Until input(), sleep() or a loop is done, nothing after it runs, and there is no node."
-        ),
-        msg("Remove {name}. What must happen again and again belongs in a timer's callback."),
-        whys={
-            "input": ASKS,
-        },
-        fixes={
-            "input": msg("Write the value in the code instead of {name}, or delete this line."),
-        },
-        behind={"run.no_node": _waits_first},
-        examples=(
-            example(
-                "waits_for_input",
-                Replace(
-                    NODE,
-                    "    rclpy.init(args=args)\n",
-                    "    input('Press Enter to start')\n    rclpy.init(args=args)\n",
-                ),
-                fails="run.starts",
-            ),
-            example(
-                "sleeps_before_init",
-                Replace(
-                    NODE,
-                    "    rclpy.init(args=args)\n",
-                    ("    import time\n    time.sleep(3600)\n    rclpy.init(args=args)\n"),
                 ),
                 fails="run.starts",
             ),

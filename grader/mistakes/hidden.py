@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import LOG_LINE, NODE, SILENT, STEP_LINE, example
 from grader.mistakes.fixes import node_try
-from grader.mistakes.hidden_error import corrected, hidden_error
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
@@ -18,7 +16,6 @@ from grader.package.source.module import Function
 from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 
-RAISES = msg("This except catches the error and does not show it. Line {line} raises {error}.")
 LOG_OF_NUMBER = "            self.get_logger().info('Hello time: ' + self.counter_)\n"
 
 
@@ -67,37 +64,8 @@ def _swallows(suspect: Suspect) -> RecognisedMistake | None:
             if not isinstance(node, ast.Try) or _all_harmless(node.body):
                 continue
             for handler in filter(hides, node.handlers):
-                found = suspect.finding("error_hidden", suspect.place_at(handler))
-                error = hidden_error(suspect.source, suspect.assignment, node)
-                if error is not None:
-                    found = _with_error(found, *error)
-                return _with_narrower(suspect.source, found, node, handler)
+                return suspect.finding("error_hidden", suspect.place_at(handler))
     return None
-
-
-def _with_narrower(
-    source: NodeSource, found: RecognisedMistake, tried: ast.Try, handler: ast.ExceptHandler
-) -> RecognisedMistake:
-    """Add how the except is written that catches only Ctrl+C, if its try has to stay."""
-    text = source.module_of(tried).text
-    if node_try.can_go(source, tried):
-        return found
-    old, new = node_try.header(text, handler), node_try.narrower(handler)
-    words = {**found.words, "head": " ".join(old.split()), "narrower": new, "row": handler.lineno}
-    return replace(found, words=words, variant=f"{found.variant}_kept".lstrip("_"))
-
-
-def _with_error(
-    found: RecognisedMistake, error: str, line: int, behind: RecognisedMistake
-) -> RecognisedMistake:
-    """Add the hidden error, its line, and how it is corrected."""
-    from grader.mistakes.catalogue import CATALOGUE  # noqa: PLC0415 - has this file's records
-
-    values = {**behind.params, **behind.words}
-    correction = CATALOGUE[behind.kind].fix_text(values, behind.variant)
-    at = behind.where.line if behind.where is not None else None
-    words = {**found.words, "error": error, "line": line, "correction": correction}
-    return replace(found, words={**words, "at": at or line}, variant="error")
 
 
 def _all_harmless(body: list[ast.stmt]) -> bool:
@@ -115,24 +83,9 @@ KINDS = (
             "the error, and no traceback says why."
         ),
         msg(
-            "Remove this except (and its try), and run the node again: now the traceback shows "
-            "the line with the error."
+            "Remove this except (and its try), or let it catch only KeyboardInterrupt. Run the node "
+            "again: now the traceback shows the line with the error."
         ),
-        whys={"error": RAISES, "error_kept": RAISES},
-        fixes={
-            "error": msg(
-                "Remove this except and its try, and indent the lines of the try as far as the try "
-                "is indented now. Correct line {at} too: {correction}"
-            ),
-            "kept": msg(
-                "Write {narrower} instead of {head} in line {row}, and run the node again: now the "
-                "traceback shows the line with the error."
-            ),
-            "error_kept": msg(
-                "Write {narrower} instead of {head} in line {row}. Correct line {at} too: "
-                "{correction}"
-            ),
-        },
         behind={
             "run.no_lines": _swallows,
             "run.constant_counter": _swallows,
@@ -141,21 +94,7 @@ KINDS = (
             "run.ended_early": _swallows,
             "run.no_node": _swallows,
         },
-        fixed_by=(corrected,),
         examples=(
-            example(
-                "misspelt_step_hidden",
-                Replace(
-                    NODE,
-                    LOG_LINE + STEP_LINE,
-                    "        try:\n"
-                    "            self.get_logger().info('Hello time: ' + str(self.counter_))\n"
-                    "            self.conter_ += 1\n"
-                    "        except Exception:\n"
-                    "            pass\n",
-                ),
-                fails="run.output",
-            ),
             example(
                 "error_hidden_in_callback",
                 Replace(

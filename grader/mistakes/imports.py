@@ -11,11 +11,12 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.alike import meant_by
-from grader.mistakes.example import DEAD, INNER, NODE, example
-from grader.mistakes.fixes import lines, node_imports, node_life, node_names, node_objects, rename
+from grader.mistakes.example import INNER, NODE, example
+from grader.mistakes.fixes import lines, node_imports, node_life, rename
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake, Suspect, always
+from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace, Write
+from grader.package.source.module import Module
 from grader.package.source.place import statement_at
 from grader.report.model import Where
 
@@ -29,14 +30,28 @@ OTHER_PACKAGES = (
     *("turtlesim", "turtlesim_msgs", "nav_msgs", "tf2_ros", "tf2_msgs", "visualization_msgs"),
     *("trajectory_msgs", "shape_msgs", "stereo_msgs", "diagnostic_msgs", "example_interfaces"),
     *("action_msgs", "std_srvs", "cv_bridge", "cv2", "tf_transformations", "nav2_msgs"),
+    *(
+        "numpy",
+        "pandas",
+        "scipy",
+        "matplotlib",
+        "requests",
+        "serial",
+        "PIL",
+        "pygame",
+        "torch",
+        "yaml",
+    ),
+    *("tensorflow", "sklearn", "pynput", "transforms3d", "keyboard", "smbus", "RPi", "tqdm"),
 )
 """Packages that exist, but may not be installed: their names are not misspelt."""
-LIBRARIES = (
-    *("numpy", "pandas", "scipy", "matplotlib", "requests", "serial", "PIL", "pygame", "torch"),
-    *("tensorflow", "sklearn", "colorama", "termcolor", "loguru", "schedule", "pynput", "rich"),
-    *("transforms3d", "keyboard", "smbus", "RPi", "pydantic", "tqdm"),
-)
-"""Libraries for Python that are no part of it."""
+ROS_1 = {
+    **{f"log{level}": f"get_logger().{level}" for level in ("info", "debug", "warn", "fatal")},
+    **{"logerr": "get_logger().error", "Publisher": "create_publisher", "Timer": "create_timer"},
+    **{"Subscriber": "create_subscription", "Service": "create_service"},
+    "get_param": "get_parameter",
+}
+"""What the node has in ROS 2 instead of the functions and classes of rospy."""
 RCLPY = ("init", "spin", "spin_once", "shutdown", "try_shutdown", "ok", "create_node", "logging")
 IMPORTS = {
     "Node": "from rclpy.node import Node",
@@ -86,6 +101,24 @@ HOMES = {
     **{"Rate": "rclpy.timer", "Future": "rclpy.task", "LoggingSeverity": "rclpy.logging"},
 }
 """The modules of rclpy in which its names are."""
+FROM = {
+    **dict.fromkeys(("Any", "Callable", "Dict", "List", "Optional", "Tuple", "Union"), "typing"),
+    **dict.fromkeys(("ABC", "abstractmethod"), "abc"),
+    **dict.fromkeys(("deque", "defaultdict", "namedtuple"), "collections"),
+    **dict.fromkeys(("partial", "cached_property"), "functools"),
+    **dict.fromkeys(("randint", "uniform"), "random"),
+    **dict.fromkeys(("sqrt", "floor", "ceil"), "math"),
+    **dict.fromkeys(("Thread", "Lock", "Event"), "threading"),
+    **{"sleep": "time", "timedelta": "datetime", "dataclass": "dataclasses", "Path": "pathlib"},
+    **dict.fromkeys(("Enum", "IntEnum"), "enum"),
+}
+"""Names of Python's modules that a file uses by themselves."""
+STANDARD = (
+    *("argparse", "asyncio", "collections", "copy", "datetime", "enum", "functools", "itertools"),
+    *("json", "logging", "math", "os", "pathlib", "random", "re", "signal", "subprocess", "sys"),
+    *("threading", "time", "traceback", "typing"),
+)
+"""Modules of Python whose names are hardly those of variables."""
 OF_SEVERAL = ("Timer", "Time", "Rate", "Future")
 """Names that Python's modules or messages have too, or that a node does not need."""
 NODE_IMPORT = "from rclpy.node import Node\n"
@@ -119,13 +152,26 @@ def main(args=None):
         pass
     rclpy.try_shutdown()
 """
+OF_ROS_1 = """#!/usr/bin/env python3
+import rospy
+
+counter = 0
+
+
+def timer_callback(event):
+    global counter
+    rospy.loginfo('Hello time: ' + str(counter))
+    counter += 1
+
+
+def main():
+    rospy.init_node('my_first_node')
+    rospy.Timer(rospy.Duration(1.0), timer_callback)
+    rospy.spin()
+"""
 OWN_NAME = msg(
     "This line imports {name} from {path}, a file of your own package. That file does not define "
     "{name}; case matters."
-)
-OTHER_FILE = msg(
-    "{path}, another file of your package, defines {name}. A file knows a name of another file only "
-    "after it has imported it."
 )
 OTHER_HOME = msg("rclpy has this name, but in another of its modules.")
 CLOSE = msg("Write {close} instead of {name}.")
@@ -138,51 +184,34 @@ def _no_ros(suspect: Suspect) -> RecognisedMistake | None:
     return suspect.finding("no_ros", Where(file=source.entry.path, line=1))
 
 
+def _for_ros_1(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """The file is written for rospy: nothing of it uses rclpy."""
+    del match
+    return None if raised.source.uses_ros else raised.finding("for_ros_1")
+
+
 def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    """An import names a module that is not there: a misspelt one, one of C++, or one that is not installed."""
     name = match["name"]
     head, dot, tail = name.partition(".")
-    part = _part_of_module(raised, name)
-    if part is not None:
-        return part
-    unused = node_names.unused_import(raised.module, raised.line)
+    module, _, last = name.rpartition(".")
+    plain = isinstance(statement_at(raised.module, raised.line), ast.Import)
+    if plain and module in MODULES and last[:1].isupper():
+        new = f"from {HOMES.get(last, module)} import {last}"
+        found = raised.finding("import_misspelt", name=f"import {name}", written=new)
+        return replace(found, variant="class")
     close = _module_of_names(raised, name)
     close = close or nearest(name, (*MODULES, *sys.stdlib_module_names), cutoff=0.75)
-    if head in (*OTHER_PACKAGES, *LIBRARIES):
-        close = ""
     if head in OTHER_CLIENTS:
-        close = "" if unused and raised.source.uses_ros else f"rclpy{dot}{tail}"
-    found = raised.finding("import_misspelt", name=name, close=close)
-    if head in (*OTHER_PACKAGES, *LIBRARIES) and not unused:
-        return replace(found, variant="not_installed")
-    return replace(found, variant="unused") if unused and not close else found
-
-
-def _part_of_module(raised: Raised, name: str) -> RecognisedMistake | None:
-    """What an import names behind a module of ROS or of Python is no module, but a name in it."""
-    module, _, last = name.rpartition(".")
-    whole = "is not a package" in raised.error and module in sys.stdlib_module_names
-    if not whole and not (module in MODULES and last[:1].isupper()):
-        return None
-    statement = statement_at(raised.module, raised.line)
-    if isinstance(statement, ast.ImportFrom) and statement.module == name:
-        return raised.finding("import_misspelt", name=name, close=module) if whole else None
-    given = statement.names if isinstance(statement, ast.Import) else []
-    if [alias.name for alias in given] != [name] or given[0].asname:
-        return None
-    read = any(isinstance(n, ast.Name) and n.id == last for n in raised.module.nodes)
-    new = IMPORTS.get(last, f"from {module} import {last}") if read else f"import {module}"
-    found = raised.finding("import_misspelt", name=f"import {name}", written=new)
-    return replace(found, variant="class")
-
-
-def _head(name: str) -> str:
-    """Return what is before the first dot."""
-    return name.partition(".")[0]
+        close = f"rclpy{dot}{tail}"
+    if head in OTHER_PACKAGES or head == "rospy":  # (beside rclpy)
+        return replace(raised.finding("import_misspelt", name=name), variant="not_installed")
+    return raised.finding("import_misspelt", name=name, close=close)
 
 
 def _no_name_in_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     name, module = match["name"], match["module"]
-    home = HOMES.get(name, "") if _head(module) == "rclpy" else ""
+    home = HOMES.get(name, "") if module.partition(".")[0] == "rclpy" else ""
     statement = statement_at(raised.module, raised.line)
     if home and home != module and isinstance(statement, ast.ImportFrom):
         code, new = raised.module.text.code(statement), f"from {home} import {name}"
@@ -196,36 +225,35 @@ def _no_name_in_module(raised: Raised, match: re.Match[str]) -> RecognisedMistak
     return raised.finding("import_name", name=name, close=close, module=module)
 
 
-def _of_the_lesson(raised: Raised, name: str) -> str:
-    """Return the import of an interface that the assignment uses; "" if it uses none so named."""
+def import_of(raised: Raised, name: str) -> str:
+    """Return the import of a name that no line imports; "" if none or several can be meant."""
+    if name in raised.module.imports:
+        return ""
+    return _of_ros(raised, name) or IMPORTS.get(name) or _of_python(raised.module, name)
+
+
+def _of_ros(raised: Raised, name: str) -> str:
+    """Return the import of an interface of the lesson, of a common one, or of a class of rclpy."""
     for kind in raised.assignment.types():
         package, part, interface = (*kind.split("/"), "", "")[:3]
         if interface == name:
             return f"from {package}.{part} import {name}"
-    return ""
-
-
-def _of_ros(name: str) -> str:
-    """Return the import of a common message, or of a class of rclpy; "" if several can be meant."""
-    homes = [module for module, names in INTERFACES.items() if name in names]
+    homes = [there for there, names in INTERFACES.items() if name in names]
     if len(homes) == 1 and name != "Empty":
         return f"from {homes[0]} import {name}"
     home = HOMES.get(name, "") if name not in OF_SEVERAL else ""
     return f"from {home} import {name}" if home else ""
 
 
-def _not_imported(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    name = match["name"]
-    statement = IMPORTS.get(name) or _of_the_lesson(raised, name) or _of_ros(name)
-    if not statement or name in raised.module.imports:
-        return None
-    for node in raised.module.nodes if name == "Node" else ():
-        if not isinstance(node, ast.ImportFrom) or node.module != "rclpy":
-            continue
-        if [alias.name for alias in node.names] == ["node"]:
-            found = raised.finding("import_missing", at=node, name=name, statement=IMPORTS[name])
-            return replace(found, variant="module")
-    return raised.finding("import_missing", name=name, statement=statement)
+def _of_python(module: Module, name: str) -> str:
+    """Return the import of a name of Python's own modules that the file uses; "" if unknown."""
+    uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
+    read = [isinstance(module.parents.get(use), ast.Attribute) for use in uses]
+    if name in module.names or not uses:
+        return ""
+    if name in FROM and not any(read):
+        return f"from {FROM[name]} import {name}"
+    return f"import {name}" if name in STANDARD and all(read) else ""
 
 
 def _module_of_names(raised: Raised, name: str) -> str:
@@ -235,7 +263,7 @@ def _module_of_names(raised: Raised, name: str) -> str:
         return ""
     names = {alias.name for alias in statement.names}
     homes = {HOMES.get(each, "") for each in names}
-    if len(homes) == 1 and (_head(name) == "rclpy" or names == {"Node"}):
+    if len(homes) == 1 and (name.partition(".")[0] == "rclpy" or names == {"Node"}):
         return min(homes)
     kind = name.rpartition(".")[2]
     of_kind = [module for module in INTERFACES if module.endswith(f".{kind}")]
@@ -261,20 +289,6 @@ KINDS = (
         behind={"run.exits_at_once": _no_ros, "run.no_node": _no_ros, "run.never_spins": _no_ros},
         examples=(
             example(
-                "loop_without_node",
-                Write(
-                    NODE,
-                    (
-                        "#!/usr/bin/env python3\n"
-                        "def main():\n"
-                        "    for n in range(10):\n"
-                        "        print(f'Hello time: {n}')\n"
-                    ),
-                ),
-                fails="run.starts",
-                note="ten lines at once, without ROS",
-            ),
-            example(
                 "loop_without_ros",
                 Write(
                     NODE,
@@ -295,21 +309,22 @@ KINDS = (
         ),
     ),
     _node(
-        "import_node",
+        "for_ros_1",
         "start",
-        msg("Node is imported from another module than rclpy.node"),
-        msg("The class Node is in the module rclpy.node; rclpy itself has no Node."),
-        msg("Write: from rclpy.node import Node"),
-        seen=r"ImportError: cannot import name 'Node' from 'rclpy'",
-        raised={r"cannot import name 'Node' from 'rclpy'": always("import_node")},
-        fixed_by=(node_life.node_import,),
-        examples=(
-            example(
-                "import_of_node",
-                Replace(NODE, "from rclpy.node import Node", "from rclpy import Node"),
-                fails="run.starts",
-            ),
+        msg("The file is written for ROS 1"),
+        msg(
+            "rospy is the Python library of ROS 1. ROS 2 does not have it: its library is rclpy, "
+            "which has other functions and classes. Another name in the import is not enough."
         ),
+        msg(
+            "Write the node anew for ROS 2. Import it: import rclpy and from rclpy.node import "
+            "Node. Write a class that inherits from Node. In its __init__: "
+            "super().__init__('{node_name}') and self.create_timer({period}, self.{callback}). In "
+            "its method {callback}: self.get_logger().info(…). In {function}: rclpy.init(), an "
+            "object of your class, and rclpy.spin(node)."
+        ),
+        raised={r"No module named 'rospy'": _for_ros_1},
+        examples=(example("node_of_ros_1", Write(NODE, OF_ROS_1), fails="run.starts"),),
     ),
     _node(
         "own_module_alone",
@@ -341,27 +356,9 @@ KINDS = (
                 fails="run.starts",
             ),
             example(
-                "own_file_by_its_name",
-                Write(f"{INNER}/helpers.py", TEXT_OF),
-                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}import helpers as text\n"),
-                fails="run.starts",
-            ),
-            example(
-                "own_file_misspelt",
-                Write(f"{INNER}/helpers.py", TEXT_OF),
-                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}\nfrom helper import text_of\n"),
-                fails="run.starts",
-            ),
-            example(
                 "own_function_from_package",
                 Write(f"{INNER}/helpers.py", TEXT_OF),
                 Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}\nfrom {INNER} import text_of\n"),
-                fails="run.starts",
-            ),
-            example(
-                "own_file_beside_setup",
-                Write("helpers.py", TEXT_OF),
-                Replace(NODE, NODE_IMPORT, f"{NODE_IMPORT}\nfrom helpers import text_of\n"),
                 fails="run.starts",
             ),
         ),
@@ -398,31 +395,6 @@ KINDS = (
                 ),
                 fails="run.starts",
             ),
-            example(
-                "helper_misspelt",
-                Write(f"{INNER}/utils.py", "def text_of(number):\n    return str(number)\n"),
-                Replace(
-                    NODE,
-                    "from rclpy.node import Node\n",
-                    "from rclpy.node import Node\n\nfrom my_robot_controller.util import text_of\n",
-                ),
-                fails="run.starts",
-            ),
-            example(
-                "init_imports_a_missing_file",
-                Write(f"{INNER}/__init__.py", "from . import my_second_node\n"),
-                fails="run.starts",
-            ),
-            example(
-                "helper_beside_setup",
-                Write("utils.py", "def text_of(number):\n    return str(number)\n"),
-                Replace(
-                    NODE,
-                    "from rclpy.node import Node\n",
-                    "from rclpy.node import Node\n\nfrom my_robot_controller.utils import text_of\n",
-                ),
-                fails="run.starts",
-            ),
         ),
     ),
     _node(
@@ -441,14 +413,10 @@ KINDS = (
         links.PYTHON_ERRORS,
         close=CLOSE,
         fixes={
-            "unused": msg("Delete this line: {name} is not installed here, and no line uses it."),
+            "class": msg("Write {written} instead of {name}."),
             "not_installed": msg(
                 "Write the node without {name}: the exercise does not need it. Delete this line, and replace "
                 "what uses {name} in other lines."
-            ),
-            "class": msg(
-                "Write: {written}. After a plain import, only modules can be named; a class comes "
-                "after from … import."
             ),
         },
         whys={
@@ -458,56 +426,11 @@ KINDS = (
             ),
         },
         raised={r"No module named '(?P<name>[\w.]{1,200})'": _no_module},
-        fixed_by=(lines.written, node_names.without_unused, node_names.rclpy, rename.imported),
+        fixed_by=(lines.written, rename.imported),
         examples=(
-            example(
-                "service_of_std_msgs",
-                Replace(
-                    NODE,
-                    "from rclpy.node import Node\n",
-                    "from rclpy.node import Node\nfrom std_msgs.srv import Trigger\n",
-                ),
-                Replace(
-                    NODE,
-                    "        self.create_timer(1.0, self.timer_callback)\n",
-                    "        self.create_timer(1.0, self.timer_callback)\n"
-                    "        self.create_service(Trigger, 'again', self.again)\n",
-                ),
-                Replace(
-                    NODE,
-                    "\n\ndef main(",
-                    "\n    def again(self, request, response):\n        self.counter_ = 0\n"
-                    "        return response\n\n\ndef main(",
-                ),
-                fails="run.starts",
-            ),
-            example(
-                "import_of_class_in_one",
-                Replace(NODE, "from rclpy.node import Node", "import rclpy.node.Node"),
-                fails="run.starts",
-            ),
-            example(
-                "import_of_other_lesson",
-                Replace(
-                    NODE,
-                    "import rclpy\nfrom",
-                    "import rclpy\nfrom my_robot_interfaces.msg import Distance\nfrom",
-                ),
-                fails="run.starts",
-            ),
-            example(
-                "import_of_ros_1",
-                Replace(NODE, "import rclpy\nfrom", "import rclpy\nimport rospy\nfrom"),
-                fails="run.starts",
-            ),
             example(
                 "import_of_cpp_client",
                 Replace(NODE, "import rclpy\nfrom rclpy.node", "import rclcpp\nfrom rclcpp.node"),
-                fails="run.starts",
-            ),
-            example(
-                "module_of_rclpy_misspelt",
-                Replace(NODE, "from rclpy.node import", "from rclpy.nod import"),
                 fails="run.starts",
             ),
             example(
@@ -558,31 +481,8 @@ KINDS = (
         fixed_by=(lines.written, rename.imported, node_life.node_import),
         examples=(
             example(
-                "exception_of_rclpy_misspelt",
-                Replace(
-                    NODE,
-                    "import rclpy\nfrom",
-                    "import rclpy\nfrom rclpy.executors import ExternalShutdownExcepton\nfrom",
-                ),
-                fails="run.starts",
-            ),
-            example(
                 "init_imports_a_wrong_name",
                 Write(f"{INNER}/__init__.py", f"from {INNER}.my_first_node import helper\n"),
-                fails="run.starts",
-            ),
-            example(
-                "executor_from_rclpy",
-                Replace(
-                    NODE,
-                    NODE_IMPORT,
-                    f"from rclpy import SingleThreadedExecutor\n{NODE_IMPORT}",
-                ),
-                fails="run.starts",
-            ),
-            example(
-                "import_in_lower_case",
-                Replace(NODE, "from rclpy.node import Node", "from rclpy.node import node"),
                 fails="run.starts",
             ),
             example(
@@ -590,47 +490,6 @@ KINDS = (
                 Replace(NODE, "from rclpy.node import Node", "from rclpy.node import Nod"),
                 Replace(NODE, "MyFirstNode(Node)", "MyFirstNode(Nod)"),
                 fails="run.starts",
-            ),
-        ),
-    ),
-    _node(
-        "import_missing",
-        "start",
-        msg("A name is used without being imported"),
-        msg("Python knows only names that the file imports or defines."),
-        msg("Add the import at the top of the file: {statement}"),
-        whys={
-            "own": OTHER_FILE,
-        },
-        fixes={
-            "module": msg("Write {statement} on this line: it imports the module, not the class."),
-        },
-        raised={NAME_ERROR: _not_imported},
-        fixed_by=(
-            node_objects.class_import,
-            node_life.node_import,
-            node_names.missing_import,
-            lines.written,
-        ),
-        examples=(
-            example(
-                "import_of_module_missing",
-                Replace(NODE, "self.counter_ += 1", "self.counter_ += 1\n        time.sleep(0.1)"),
-                fails="run.output",
-                blocks=("run.interrupt",),
-            ),
-            example(
-                "function_of_other_file_not_imported",
-                Write(f"{INNER}/helpers.py", TEXT_OF),
-                Replace(NODE, "str(self.counter_)", "text_of(self.counter_)"),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-            example(
-                "import_node_missing",
-                Replace(NODE, "from rclpy.node import Node\n", ""),
-                fails="run.starts",
-                note="NameError while the class is defined",
             ),
         ),
     ),

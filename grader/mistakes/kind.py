@@ -76,9 +76,7 @@ class Kind:
     parameters), `raised` has functions by the pattern of an exception's last line, and `behind`
     functions by the symptom of a run. What the files alone show is recognised by the check.
     `fixed_by` are the fixes, in the order in which they are tried. `examples` are edits of a
-    right package that make the mistake. `deletes` are the variants whose fix takes away the statement
-    of the finding ("" is the fix without a variant): if its block has no other, the text says what
-    becomes of the block (`whole_block.py`).
+    right package that make the mistake.
 
     `of_shape` is of what a node is made of: its ends, names and types, which no value decides. `steps`
     are the parts of the fix that a source may have already, by the variant: these are left out.
@@ -97,7 +95,6 @@ class Kind:
     behind: Mapping[str, FromSource] = field(default_factory=dict)
     fixed_by: tuple[Fix, ...] = ()
     examples: tuple[Example, ...] = ()
-    deletes: tuple[str, ...] = ()
     of_shape: bool = False
     steps: Mapping[str, tuple[Step, ...]] = field(default_factory=dict)
 
@@ -131,7 +128,6 @@ class Parts(TypedDict, total=False):
     behind: Mapping[str, FromSource]
     fixed_by: tuple[Fix, ...]
     examples: tuple[Example, ...]
-    deletes: tuple[str, ...]
     of_shape: bool
     steps: Mapping[str, tuple[Step, ...]]
 

@@ -1,7 +1,4 @@
-"""Mistakes of Python that any line can have: names and calls.
-
-These come last: their patterns also match errors that have a more precise cause.
-"""
+"""Names that have no value: not imported, without self., misspelt, or used too early."""
 
 from __future__ import annotations
 
@@ -14,125 +11,130 @@ from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.alike import meant_by
-from grader.mistakes.example import DEAD, NODE, example
-from grader.mistakes.fixes import lines, node_life, rename
-from grader.mistakes.imports import IMPORTS
+from grader.mistakes.example import DEAD, INNER, NODE, example
+from grader.mistakes.fixes import lines, node_life, node_names, node_order, node_scope, rename
+from grader.mistakes.imports import IMPORTS, RCLPY, ROS_1, import_of
 from grader.mistakes.kind import Family
 from grader.mistakes.order import spun_names
 from grader.mistakes.recognised import NAME_ERROR, Raised, RecognisedMistake
-from grader.mistakes.scope import NODE_METHODS
 from grader.package.edit.tree import Replace, Write
-from grader.package.source.counter import targets_of
 from grader.package.source.imported import imports
-from grader.package.source.module import Function, Module
-from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.module import Function
+from grader.package.source.node import NODE_METHODS
 from grader.package.source.node_here import node_here
-from grader.package.source.place import function_at, statement_at
-from grader.package.source.scopes import bindings, has_self, visible_names
-
-MISSPELT = 0.85  # how like two names are of which one is the other with a typing mistake
-
+from grader.package.source.place import function_at, method_above
+from grader.package.source.scopes import bindings, class_of, has_self, visible_names
 
 ALONE = ("pass", "return", "break", "continue")
 """Words that are a statement by themselves."""
-TYPES = {
-    "void": "None",
-    **dict.fromkeys(("boolean", "Boolean"), "bool"),
-    **dict.fromkeys(("string", "char"), "str"),
-    **dict.fromkeys(("integer", "Integer", "long", "short", "unsigned"), "int"),
-    **dict.fromkeys(("double", "Double"), "float"),
-}
-"""Types of other languages, and those of Python."""
-NUMBERS_AND_TEXTS = ("bool", "int", "float", "str")
+DUNDERS = ("__init__", "__name__", "__main__")
+"""The names of Python with two underscores on both sides that a first node has."""
 
 
-ON_CLASS = msg(
-    "{function} works on an object: Python passes the object as self. Nothing is passed if the method "
-    "is called on the class."
-)
-
-
-OF_MODULE = ("init", "spin", "spin_once", "ok", "shutdown", "try_shutdown")
-"""Functions of rclpy's module, which a file calls through the module."""
-OF_ROS = ("spin", "spin_once", *NODE_METHODS)
-"""Calls of ROS: an error that comes from inside of them is not about their own brackets."""
-
-
-def _undefined(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
-    """Nothing defines the name: tell the one that is meant, if one is like it."""
+def _unknown(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    """Return what is meant by a name that has no value, the most certain way first."""
     name = match["name"]
-    statement = statement_at(raised.module, raised.line)
-    if isinstance(statement, ast.Expr) and raised.module.line(raised.line) == name:
-        return _alone(raised, name)
-    ways = (_class_for(raised, name), _of_rclpy(raised.module, name), _as_type(raised, name))
-    certain = next(filter(None, ways), None)
-    if certain is not None:
-        return _instead(raised.finding("name_unknown", name=name, close=certain))
+    for way in (_self, _of_node, _import, _certain, _close):
+        found = way(raised, name)
+        if found is not None:
+            return found
+    return raised.finding("name_unknown", name=name)
+
+
+def _instead(raised: Raised, name: str, close: str) -> RecognisedMistake:
+    """Return that another name is meant for certain."""
+    found = raised.finding("name_unknown", name=name, close=close, written=close)
+    return replace(found, variant="instead")
+
+
+def _is_method(raised: Raised, function: Function) -> bool:
+    return any(function in found.body for found in raised.module.classes)
+
+
+def _self(raised: Raised, name: str) -> RecognisedMistake | None:
+    """Self is used outside of a method, or in one whose first parameter has another name."""
+    if name != "self" or raised.line is None:
+        return None
+    function = function_at(raised.module, raised.line)
+    if function is None:
+        method = method_above(raised.module, raised.line)
+        found = raised.finding("self_outside", name=method.name if method is not None else "")
+        return replace(found, variant="method") if method is not None else found
+    first = (*function.args.posonlyargs, *function.args.args)[:1]
+    if _is_method(raised, function) and first:
+        found = raised.finding("self_outside", at=function, name=first[0].arg, written="self")
+        return replace(found, variant="parameter")
+    return None
+
+
+def _import(raised: Raised, name: str) -> RecognisedMistake | None:
+    statement = import_of(raised, name)
+    return raised.finding("import_missing", name=name, statement=statement) if statement else None
+
+
+def _of_node(raised: Raised, name: str) -> RecognisedMistake | None:
+    """A method or an attribute of the node is meant, or the node itself."""
+    source, function = raised.source, function_at(raised.module, raised.line)
+    if function is None:
+        return None
+    inside = _is_method(raised, function) and has_self(function)
+    if not inside and name != "self":  # (a function in a method knows its self)
+        inside = "self" in visible_names(raised.module, raised.line, name)
+    owner = class_of(raised.module, function)
+    inside = inside and (owner is None or owner[0] in {*source.family})
+    if inside and name in {*NODE_METHODS, *source.methods, *source.attributes}:
+        return raised.finding("self_missing", name=name)
+    if inside and name in {"node", *source.node_variables, *spun_names(source)}:
+        return _instead(raised, name, "self")
+    variables = sorted(source.node_variables)
+    if len(variables) != 1 or variables[0] not in visible_names(raised.module, raised.line, name):
+        return None
+    if name == "self":
+        return _instead(raised, name, variables[0])
+    own = name in {*NODE_METHODS, *source.methods}
+    return _instead(raised, name, f"{variables[0]}.{name}") if own else None
+
+
+def _certain(raised: Raised, name: str) -> RecognisedMistake | None:
+    """A word of Python is meant, a text that lacks its quotes, or something of ROS."""
+    line, dunder = raised.module.line(raised.line), f"__{name.strip('_')}__"
+    word = nearest(name.lower(), ALONE, cutoff=0.7) if line == name else ""
+    if name.startswith("_") and dunder in DUNDERS and dunder != name:
+        word = dunder
+    bound = name in raised.module.names or bindings(raised.module, name)
+    if name == "__main__" or (name == raised.assignment.node_name and not bound):
+        word = repr(name)
+    return _instead(raised, name, word) if word else _of_rclpy(raised, name, line)
+
+
+def _of_rclpy(raised: Raised, name: str, line: str) -> RecognisedMistake | None:
+    """A function of rclpy is called without its module, or one of ROS 1."""
+    used = re.search(r"\brospy\.(\w{1,60})", line)
+    if name == "rospy" and used is not None:
+        node = node_here(raised.source, raised.module, raised.line) or "node"
+        new = f"{node}.{ROS_1[used[1]]}" if used[1] in ROS_1 else f"rclpy.{used[1]}"
+        return _instead(raised, used[0], new)
+    known = [bound for bound, full, _ in imports(raised.module) if full == "rclpy"]
+    own = name in raised.module.names or not known or f"{name}(" not in line
+    return None if own or name not in RCLPY else _instead(raised, name, f"{known[0]}.{name}")
+
+
+def _close(raised: Raised, name: str) -> RecognisedMistake | None:
+    """A known name is like it, or is the only one that the code can mean."""
     seen = {*visible_names(raised.module, raised.line, name), *IMPORTS}
     known = (_known(raised, name) & seen) - {name, "None", "True", "False"}
     if bindings(raised.module, name):
         known = {other for other in known if other.lower() == name.lower()}
     known |= {other for other in dir(builtins) if other.lower() == name.lower() != name}
-    close = meant_by(name, known, 0.7)
     variables = raised.source.node_variables
     if name in spun_names(raised.source) and len(variables) == 1 and variables < seen - {name}:
-        return _instead(raised.finding("name_unknown", name=name, close=min(variables)))
-    found = raised.finding("name_unknown", name=name, close=close)
-    return _instead(found) if close and nearest(name, [close], cutoff=MISSPELT) else found
-
-
-def _alone(raised: Raised, name: str) -> RecognisedMistake:
-    """The name is the whole statement: a misspelt word, or a slip."""
-    word = nearest(name.lower(), ALONE, cutoff=0.7)
-    if word:
-        return _instead(raised.finding("name_unknown", name=name, close=word, written=word))
-    return replace(raised.finding("name_unknown", name=name), variant="alone")
-
-
-def _of_rclpy(module: Module, name: str) -> str | None:
-    """Return a function of rclpy with the name by which the file knows rclpy."""
-    known = [bound for bound, full, _ in imports(module) if full == "rclpy"]
-    uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
-    called = any(isinstance(module.parents.get(use), ast.Call) for use in uses)
-    return f"{known[0]}.{name}" if known and called and name in OF_MODULE else None
-
-
-def _as_type(raised: Raised, name: str) -> str | None:
-    """Return the type of Python for that of another language, if all uses of the name are types."""
-    module = raised.module
-    uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
-    around = [(module.parents.get(use), use) for use in uses]
-    types = [
-        use in (getattr(a, "annotation", None), getattr(a, "returns", None))
-        or (isinstance(a, ast.Call) and a.func is use and TYPES.get(name) in NUMBERS_AND_TEXTS)
-        for a, use in around
-    ]
-    return TYPES.get(name) if types and all(types) else None
-
-
-def _instead(found: RecognisedMistake) -> RecognisedMistake:
-    """Ask for the other name alone: it is certain that nothing else was meant."""
-    return replace(found, variant="instead")
-
-
-def _class_for(raised: Raised, name: str) -> str | None:
-    """Return the node's class if the unknown name stands where a node is created."""
-    source, statement = raised.source, statement_at(raised.module, raised.line)
-    value = statement.value if isinstance(statement, ast.Assign | ast.Expr) else None
-    made = isinstance(value, ast.Call) and dotted(value.func) == name and not value.args
-    if source.node_class is None or not name[:1].isupper() or len(source.family) != 1:
+        return _instead(raised, name, min(variables))
+    close = meant_by(name, known, 0.7)
+    if not close:
         return None
-    made = made and not source.makes_node()
-    return source.node_class.name if made or _of_class(raised, name) else None
-
-
-def _of_class(raised: Raised, name: str) -> bool:
-    """Whether everything that is read from the unknown name is set in the node's class."""
-    module, source = raised.module, raised.source
-    uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
-    set_there = {target for s in source.class_body for target in targets_of(s)}
-    read = [getattr(module.parents.get(use), "attr", "") for use in uses]
-    return bool(read) and set(read) <= set_there
+    if nearest(name, [close], cutoff=0.85):
+        return _instead(raised, name, close)
+    return raised.finding("name_unknown", name=name, close=close)
 
 
 def _known(raised: Raised, name: str) -> set[str]:
@@ -159,67 +161,139 @@ def _is_called(around: ast.AST | None, use: ast.Name) -> bool:
     return called or isinstance(around, ast.ClassDef | ast.ExceptHandler)
 
 
-def _argument(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
-    """A call has too few values: tell for which parameter, and of which function."""
-    function, owner = last_part(match["function"]), match["function"].rpartition(".")[0]
-    found = raised.finding("argument_missing", name=match["name"], function=match["function"])
-    own = {n.name for n in raised.source.all_nodes if isinstance(n, Function)}
-    if match["function"] == "spin":
-        node = node_here(raised.source, raised.module, raised.line)
-        words = {**found.words, "node": node}
-        return replace(found, words=words, variant="spin" if node else "spin_nothing")
-    names = re.findall(r"'(\w{1,120})'", match["names"])
-    if len(names) > 1 and function not in own:
-        params = {"name": ", ".join(names), "function": match["function"]}
-        return replace(raised.finding("argument_missing", params=params), variant="several")
-    if match["function"] == "get_logger" and _in_method(raised):
-        found = raised.finding("argument_missing", name="get_logger()", written="self.get_logger()")
-        return replace(found, variant="logger", words={**found.words, "function": "get_logger"})
-    if owner == "RcutilsLogger":
-        return replace(found, words={**found.words, "function": function}, variant="log")
-    if match["name"] == "self" and owner and owner in raised.module.line(raised.line):
-        return replace(found, variant="class")
-    known = function in own and (not owner or owner in raised.source.known_classes)
-    return replace(found, variant="own") if known else found
+def _used_before_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    name, function = match["name"], function_at(raised.module, raised.line)
+    later = node_order.set_after_use(function, name) if function is not None else None
+    imported = {n.asname or n.name for n in raised.module.nodes if isinstance(n, ast.alias)}
+    if function is None or later is None or name in raised.source.attributes or name in imported:
+        return None
+    use = node_order.first_use(function, name)
+    return raised.finding("used_before_set", at=use, name=name, line=str(later.lineno))
 
 
-def _in_method(raised: Raised) -> bool:
-    """Whether the line is in a method of the node's class."""
-    function = function_at(raised.module, raised.line)
-    bodies = [s for c in raised.source.family for s in c.body]
-    return function is not None and function in bodies and has_self(function)
-
-
-def _value_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """A value is called on that line, or by ROS, to which a timer gave it as a callback."""
-    statement = statement_at(raised.module, raised.line)
-    calls = [name for _, name in calls_in(statement)] if statement is not None else [""]
-    if all(name.startswith("rclpy.") or last_part(name) in OF_ROS for name in calls):
-        return _value_passed(raised, match)
-    value = _called_value(raised, calls)
-    found = raised.finding("not_callable", type=match["type"], name=value)
-    return found if value else replace(found, variant="open")
-
-
-def _called_value(raised: Raised, calls: list[str]) -> str:
-    """Return the only attribute of the node that is called and is no method; "" if there is none."""
-    attributes = [own for name in calls if (own := name.removeprefix("self.")) != name]
-    source = raised.source
-    known = [a for a in attributes if a in source.attributes and a not in source.methods]
-    return f"self.{known[0]}" if len(known) == 1 else ""
-
-
-def _value_passed(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """A timer gets a value instead of a callback."""
-    for timer in raised.source.timers:
-        if timer.callback is not None and timer.method not in raised.source.methods:
-            found = raised.finding("not_callable", at=timer.call, type=match["type"])
-            return replace(found, variant="passed")
-    return None
-
-
-_node = Family("node", links.FIRST_NODE)
+_node = Family("node", links.PYTHON_ERRORS)
 KINDS = (
+    _node(
+        "self_outside",
+        "class",
+        msg("self is used outside of a method"),
+        msg(
+            "self is the first parameter of a method and exists only inside it. This line is "
+            "outside of every method."
+        ),
+        msg("Move the line into the method that it belongs to."),
+        links.PYTHON_CLASSES,
+        whys={
+            "parameter": msg(
+                "The first parameter of a method is the object, whatever its name is. Here it is "
+                "called {name}, so nothing is called self."
+            )
+        },
+        fixes={
+            "method": msg(
+                "Indent the line as far as the other lines of {name}, the method above it."
+            ),
+            "parameter": msg("Write self instead of {name} in the brackets of this def."),
+        },
+        seen=r"NameError: name 'self' is not defined",
+        fixed_by=(node_scope.indented, lines.written),
+        examples=(
+            example(
+                "step_outside_callback",
+                Replace(NODE, "        self.counter_ += 1\n", "    self.counter_ += 1\n"),
+                fails="run.starts",
+            ),
+            example(
+                "self_misspelt",
+                Replace(NODE, "def timer_callback(self)", "def timer_callback(slef)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "self_missing",
+        "class",
+        msg("self. is missing"),
+        msg("Methods and attributes of the node are reached through the node: self.name."),
+        msg("Write self.{name} instead of {name}."),
+        links.PYTHON_CLASSES,
+        fixed_by=(node_scope.self_dot,),
+        examples=(
+            example(
+                "create_timer_without_self",
+                Replace(NODE, "self.create_timer", "create_timer"),
+                fails="run.starts",
+            ),
+            example(
+                "counter_logged_without_self",
+                Replace(NODE, "str(self.counter_)", "str(counter_)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
+        "import_missing",
+        "start",
+        msg("A name is used without being imported"),
+        msg("Python knows only names that the file imports or defines."),
+        msg("Add the import at the top of the file: {statement}"),
+        whys={
+            "own": msg(
+                "{path}, another file of your package, defines {name}. A file knows a name of another file "
+                "only after it has imported it."
+            )
+        },
+        fixed_by=(node_life.node_import, node_names.missing_import),
+        examples=(
+            example(
+                "import_of_module_missing",
+                Replace(NODE, "self.counter_ += 1", "self.counter_ += 1\n        time.sleep(0.1)"),
+                fails="run.output",
+                blocks=("run.interrupt",),
+            ),
+            example(
+                "function_of_other_file_not_imported",
+                Write(f"{INNER}/helpers.py", "def text_of(number):\n    return str(number)\n"),
+                Replace(NODE, "str(self.counter_)", "text_of(self.counter_)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "import_node_missing",
+                Replace(NODE, "from rclpy.node import Node\n", ""),
+                fails="run.starts",
+                note="NameError while the class is defined",
+            ),
+        ),
+    ),
+    _node(
+        "used_before_set",
+        "start",
+        msg("A variable is used before it has a value"),
+        msg(
+            "Python runs the lines of a function from top to bottom, and {name} has no value "
+            "until a line gives it one."
+        ),
+        msg("Move line {line} ({name} = …) above this line."),
+        seen=r"UnboundLocalError: .{0,60}'(?P<name>\w{0,60}node\w{0,60})'",
+        raised={r"UnboundLocalError: .{0,60}'(?P<name>\w{1,120})'": _used_before_set},
+        fixed_by=(node_order.moved_up,),
+        examples=(
+            example(
+                "node_made_after_try",
+                Replace(NODE, "    node = MyFirstNode()\n", ""),
+                Replace(
+                    NODE,
+                    "        rclpy.try_shutdown()\n",
+                    "        rclpy.try_shutdown()\n    node = MyFirstNode()\n",
+                ),
+                fails="run.starts",
+                note="the finally raises the same error once more",
+            ),
+        ),
+    ),
     _node(
         "name_unknown",
         "callback",
@@ -233,42 +307,15 @@ KINDS = (
             "define {name} first. If a line does, it must run before this line, and outside of "
             "other functions."
         ),
-        links.PYTHON_ERRORS,
         close=msg("Write {close} instead of {name}, or define {name} first."),
-        fixes={
-            "alone": msg(
-                "Delete this line if it was typed by accident: it contains only {name}, which "
-                "nothing defines."
-            ),
-            "instead": msg("Write {close} instead of {name}."),
-        },
+        fixes={"instead": msg("Write {close} instead of {name}.")},
         seen=r"NameError: name '(?P<name>\w{1,120})' is not defined",
-        raised={NAME_ERROR: _undefined},
-        fixed_by=(lines.written, rename.variable, lines.deleted_name),
-        deletes=("alone",),
+        raised={NAME_ERROR: _unknown},
+        fixed_by=(rename.variable, lines.written),
         examples=(
-            example(
-                "unknown_name_alone_in_except",
-                Replace(NODE, "        pass\n", "        ignored\n"),
-                fails="run.interrupt",
-            ),
             example(
                 "base_in_small_letters",
                 Replace(NODE, "class MyFirstNode(Node)", "class MyFirstNode(node)"),
-                fails="run.starts",
-            ),
-            example(
-                "pass_misspelt",
-                Replace(
-                    NODE,
-                    "    except KeyboardInterrupt:\n        pass",
-                    "    except KeyboardInterrupt:\n        pas",
-                ),
-                fails="run.interrupt",
-            ),
-            example(
-                "returns_void",
-                Replace(NODE, "def timer_callback(self):", "def timer_callback(self) -> void:"),
                 fails="run.starts",
             ),
             example(
@@ -277,24 +324,9 @@ KINDS = (
                 fails="run.starts",
             ),
             example(
-                "letter_alone",
-                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        s"),
+                "node_name_without_quotes",
+                Replace(NODE, "'my_first_node'", "my_first_node"),
                 fails="run.starts",
-            ),
-            example(
-                "class_of_another_example",
-                Replace(NODE, "node = MyFirstNode()", "node = MinimalPublisher()"),
-                fails="run.starts",
-            ),
-            example(
-                "name_error_in_callback",
-                Replace(
-                    NODE,
-                    "self.get_logger().info('Hello time: ' + str(self.counter_))",
-                    "self.get_logger().info('Hello time: ' + string(self.counter_))",
-                ),
-                fails="run.output",
-                blocks=DEAD,
             ),
             example(
                 "interrupt_misspelt",
@@ -305,129 +337,6 @@ KINDS = (
                 "node_of_other_name",
                 Replace(NODE, "node = MyFirstNode()", "my_node = MyFirstNode()"),
                 fails="run.starts",
-            ),
-        ),
-    ),
-    _node(
-        "not_callable",
-        "callback",
-        msg("A value is called like a function"),
-        msg("() after a name calls it, and a value of this type cannot be called."),
-        msg("Remove the () after {name}: it is a value, and no function."),
-        links.PYTHON_ERRORS,
-        whys={
-            "passed": msg(
-                "The timer calls what create_timer gets, so it must be a method or a function."
-            )
-        },
-        fixes={
-            "open": msg(
-                "This line calls a value of the type {type}. If the value is meant, remove the () behind "
-                "its name. If a function is meant, a line has given its name this value: give the value "
-                "another name there."
-            ),
-            "passed": msg(
-                "Pass the name of your method to create_timer: create_timer({period}, "
-                "self.{callback})"
-            ),
-        },
-        seen=r"TypeError: '(?P<type>int|float|str)' object is not callable",
-        raised={
-            r"'(?P<type>int|float|str)' object is not callable": _value_called,
-            r"TypeError: (?P<type>[\w.'\"-]{1,60}) is not a callable object": _value_passed,
-            r"UnboundLocalError: .{0,60}'(?P<type>arg_name)'": _value_passed,
-        },
-        examples=(
-            example(
-                "counter_called",
-                Replace(NODE, "str(self.counter_)", "str(self.counter_())"),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-            example(
-                "timer_gets_counter",
-                Replace(NODE, "self.timer_callback)", "self.counter_)"),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-        ),
-    ),
-    _node(
-        "argument_missing",
-        "callback",
-        msg("A call has too few arguments"),
-        msg("A parameter without a default needs a value in each call."),
-        msg("Write a value for {name} in the () of {function} on this line."),
-        links.PYTHON_ERRORS,
-        fixes={
-            "log": msg("Write the text in the () of {function} on this line: {sum}"),
-            "several": msg("Write a value for each of these in the () of {function}: {name}"),
-            "own": msg("Pass a value for {name} where {function} is called."),
-            "class": msg(
-                "This line uses the class itself, and not an object of it. Pass the object, if one was "
-                "made before, such as the node. If none was, write () after the name of the class."
-            ),
-            "logger": msg("Write {written} instead of {name}."),
-            "spin": msg("Write rclpy.spin({node}): spin needs the node that was created."),
-            "spin_nothing": msg(
-                "spin needs the node that was created: write what has it into the () of spin."
-            ),
-        },
-        whys={
-            "logger": msg(
-                "Without self., get_logger is a function that this file imports, and it needs a name. "
-                "The node has a logger of its own."
-            ),
-            "class": ON_CLASS,
-        },
-        raised={
-            r"TypeError: (?P<function>[\w.]{1,200})\(\) missing \d{1,3} required positional arguments?: (?P<names>'(?P<name>\w{1,120})'.{0,400})": _argument
-        },
-        fixed_by=(
-            node_life.spin,
-            lines.written,
-        ),
-        examples=(
-            example(
-                "method_called_on_its_class",
-                Write(
-                    "my_robot_controller/speaker.py",
-                    "class Speaker:\n    def words(self, number):\n"
-                    "        return 'Hello time: ' + str(number)\n",
-                ),
-                Replace(
-                    NODE,
-                    "import rclpy\n",
-                    "import rclpy\n\nfrom my_robot_controller.speaker import Speaker\n",
-                ),
-                Replace(
-                    NODE, "'Hello time: ' + str(self.counter_)", "Speaker.words(self.counter_)"
-                ),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-            example(
-                "init_wants_name",
-                Replace(NODE, "def __init__(self)", "def __init__(self, name)"),
-                Replace(NODE, "super().__init__('my_first_node')", "super().__init__(name)"),
-                fails="run.starts",
-            ),
-            example(
-                "get_logger_of_the_library",
-                Replace(
-                    NODE,
-                    "import rclpy\nfrom",
-                    "import rclpy\nfrom rclpy.logging import get_logger\nfrom",
-                ),
-                Replace(NODE, "self.get_logger()", "get_logger()"),
-                fails="run.output",
-                blocks=DEAD,
-            ),
-            example(
-                "log_without_text",
-                Replace(NODE, ".info('Hello time: ' + str(self.counter_))", ".info()"),
-                fails="run.output",
-                blocks=DEAD,
             ),
         ),
     ),

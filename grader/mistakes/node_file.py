@@ -13,18 +13,16 @@ from grader.mistakes.example import (
     SETUP,
     UNINSTALLED,
     UNSTARTED,
+    Example,
     example,
 )
 from grader.mistakes.fixes import layout
 from grader.mistakes.kind import Kind
-from grader.package.edit.tree import Chmod, Copy, Crlf, Delete, Move, Replace, Write
+from grader.package.edit.tree import Delete, Edit, Move, Replace, Write
 
 PLACE = msg(
     "Python imports the node as the module <package>.<file>, so the file must be in the inner "
     "folder, which has the package's name and contains __init__.py."
-)
-MOVE = msg(
-    "Move it into the inner folder, then build again. In the package's folder, run: mv {there} {wanted}"
 )
 OWN_COPIES = msg(
     "A build copies your files into build and install. Only the files in src are yours: each build "
@@ -36,6 +34,10 @@ NOTEBOOK = msg(
     "{path}"
 )
 BUILT = msg("Copy your code from {copy} into {path}, and edit only that file from now on.")
+
+
+def _example(name: str, *edits: Edit) -> Example:
+    return example(name, *edits, fails="source.node_file", blocks=UNSTARTED)
 
 
 KINDS = (
@@ -91,37 +93,12 @@ KINDS = (
             "Python imports the package."
         ),
         fix=msg(
-            "Delete the folder {folder}, or give it another name. Delete the workspace's build/ and "
-            "install/ too: they can still have a copy of it. Then build again."
+            "Give the folder {folder} another name, also where code imports from it, or delete it. Delete "
+            "the workspace's build/ and install/ too: they can still have a copy of it. Then build again."
         ),
-        fixes={
-            "imported": msg(
-                "Give the folder {folder} another name, for example {other}, and write this name where "
-                "code imports from the folder ({lines}). Delete the workspace's build/ and install/ too: "
-                "they can still have a copy of it. Then build again."
-            ),
-        },
         link=links.FIRST_NODE,
         examples=(
-            example(
-                "node_hidden_by_folder",
-                Write(f"{NODE.removesuffix('.py')}/__init__.py", ""),
-                fails="source.node_file",
-                blocks=UNSTARTED,
-            ),
-            example(
-                "folder_of_the_nodes_name_is_imported",
-                Write(f"{NODE.removesuffix('.py')}/__init__.py", ""),
-                Write(f"{NODE.removesuffix('.py')}/settings.py", "PERIOD = 1.0\n"),
-                Replace(
-                    NODE,
-                    "from rclpy.node import Node\n",
-                    "from rclpy.node import Node\nfrom .my_first_node.settings import PERIOD\n",
-                ),
-                Replace(NODE, "create_timer(1.0,", "create_timer(PERIOD,"),
-                fails="source.node_file",
-                blocks=UNSTARTED,
-            ),
+            _example("node_hidden_by_folder", Write(f"{NODE.removesuffix('.py')}/__init__.py", "")),
         ),
     ),
     Kind(
@@ -129,112 +106,29 @@ KINDS = (
         stage="file",
         title=msg("The node's file is in another folder"),
         why=PLACE,
-        fix=msg("Move it into the inner folder: its path in the package must be {wanted}."),
+        fix=msg(
+            "Move it, so that its path in the package is {wanted}. If setup.py names its old place, correct "
+            "that too. Then build again."
+        ),
         fixes={
             "init": msg(
                 "Give this file the node's name, and make an empty __init__.py. In the package's "
                 "folder, run: mv {init} {wanted} && touch {init}"
             ),
-            "init_empty": msg(
-                "Move the code from {init} into {wanted}, and leave __init__.py empty."
-            ),
-            "inside": MOVE,
-            "src_layout": msg(
-                "Move the whole folder out of src/. In the package's folder, run: mv src/{inner} . && "
-                "rmdir src. In setup.py, write packages=find_packages(exclude=['test']), without "
-                "where='src' and without package_dir. Then build again."
-            ),
-            "scripts": msg(
-                "Move it into the inner folder, and delete {code} from line {line} of setup.py: there is "
-                "no such file then. Then build again. In the package's folder, run: mv {there} {wanted}"
-            ),
-            "entry": msg(
-                "Move it into the inner folder, and let setup.py name it: write {module} instead of "
-                "{module_there} there. Then build again. In the package's folder, run: mv {there} "
-                "{wanted}"
+            "inside": msg(
+                "Move it into the inner folder. In the package's folder, run: mv {there} {wanted}. If "
+                "setup.py names its old place (in entry_points, scripts= or where=), correct that too. Then "
+                "build again."
             ),
             "folder": msg("Rename the folder {folder} to {inner}, to the letter: case matters."),
         },
-        whys={
-            "entry": msg(
-                "The exercise asks for the node in {wanted}. The entry point must name that file."
-            )
-        },
         link=links.PACKAGE,
-        fixed_by=(
-            layout.out_of_src,
-            layout.inner_folder,
-            layout.node_file,
-            layout.out_of_init,
-        ),
+        fixed_by=(layout.inner_folder, layout.node_file, layout.out_of_init),
         examples=(
-            example(
-                "node_among_the_scripts",
-                Move(NODE, "scripts/my_first_node.py"),
-                Replace(
-                    SETUP,
-                    "    entry_points={",
-                    "    scripts=['scripts/my_first_node.py'],\n    entry_points={",
-                ),
-                fails="source.node_file",
-                blocks=UNSTARTED,
-            ),
-            example(
-                "node_in_init",
-                Delete(INIT),
-                Move(NODE, INIT),
-                fails="source.node_file",
-                blocks=UNSTARTED,
-            ),
-            example(
-                "node_in_init_and_empty_file",
-                Delete(INIT),
-                Move(NODE, INIT),
-                Write(NODE, b""),
-                Chmod(NODE, 0o755),
-                fails="source.node_file",
-                blocks=UNSTARTED,
-            ),
-            example(
-                "node_in_init_and_only_comments_in_its_file",
-                Delete(INIT),
-                Move(NODE, INIT),
-                Write(NODE, "#!/usr/bin/env python3\n# My first node\n", 0o755),
-                fails="source.node_file",
-                blocks=UNSTARTED,
-            ),
-            example(
-                "inner_folder_with_capitals",
-                Move(INNER, "My_Robot_Controller"),
-                fails="source.node_file",
-                blocks=UNSTARTED,
-            ),
-            example(
-                "node_in_package_root",
-                Move(NODE, "my_first_node.py"),
-                fails="source.node_file",
-                blocks=UNSTARTED,
-            ),
-            example(
-                "inner_folder_in_src",
-                Move(NODE, f"src/{NODE}"),
-                Move(INIT, f"src/{INIT}"),
-                Replace(SETUP, "find_packages(exclude=['test'])", "find_packages(where='src')"),
-                fails="source.node_file",
-                blocks=UNSTARTED,
-            ),
-            example(
-                "node_in_scripts",
-                Move(NODE, "scripts/my_first_node.py"),
-                fails="source.node_file",
-                blocks=UNSTARTED,
-            ),
-            example(
-                "inner_folder_misnamed",
-                Move(INNER, "my_robot_controler"),
-                fails="source.node_file",
-                blocks=UNSTARTED,
-            ),
+            _example("node_in_init", Delete(INIT), Move(NODE, INIT)),
+            _example("inner_folder_with_capitals", Move(INNER, "My_Robot_Controller")),
+            _example("node_in_package_root", Move(NODE, "my_first_node.py")),
+            _example("node_in_scripts", Move(NODE, "scripts/my_first_node.py")),
         ),
     ),
     Kind(
@@ -248,12 +142,7 @@ KINDS = (
         link=links.FIRST_NODE,
         fixed_by=(layout.node_name,),
         examples=(
-            example(
-                "node_misnamed",
-                Move(NODE, "my_robot_controller/my_frist_node.py"),
-                fails="source.node_file",
-                blocks=UNSTARTED,
-            ),
+            _example("node_misnamed", Move(NODE, "my_robot_controller/my_frist_node.py")),
             example(
                 "node_misnamed_in_entry_too",
                 Move(NODE, f"{INNER}/first_node.py"),
@@ -261,18 +150,6 @@ KINDS = (
                 fails="source.node_file",
                 also={"entry_point.mapping": "setup.other_module"},
                 note="the node runs: it is read and judged under its own name",
-            ),
-            example(
-                "node_misnamed_without_exec_bit",
-                Move(NODE, f"{INNER}/hello.py"),
-                Chmod(f"{INNER}/hello.py", 0o644),
-                Crlf(f"{INNER}/hello.py"),
-                fails="source.node_file",
-                also={
-                    "source.exec_bit": "source.not_executable",
-                    "source.shebang": "source.crlf",
-                },
-                blocks=UNSTARTED,
             ),
         ),
     ),
@@ -297,16 +174,8 @@ KINDS = (
         ),
         fixes={
             "misnamed": msg(
-                "Its name must be exactly __init__.py, with two underscores on both sides. "
-                "Rename it, then build again. In the package's folder, run: mv {there} {path}"
-            ),
-            "ending": msg(
-                "An editor or a file manager has added {form} to its name, and may not show this "
-                "ending. Rename it, then build again. In the package's folder, run: mv {there} {path}"
-            ),
-            "blank": msg(
-                "There is a blank at the beginning or the end of its name. Rename it, then build "
-                "again. In the package's folder, run: mv {there} {path}"
+                "Its name must be exactly __init__.py, with two underscores on both sides, without a blank "
+                "or an ending. Rename it, then build again. In the package's folder, run: mv {there} {path}"
             ),
             "folder": msg(
                 "{path} is a folder. It must be a file, which may be empty. In the package's folder, "
@@ -325,16 +194,6 @@ KINDS = (
             example(
                 "init_with_single_underscores",
                 Move(INIT, f"{INNER}/_init_.py"),
-                fails="run.starts",
-            ),
-            example(
-                "init_saved_as_text",
-                Move(INIT, f"{INNER}/__init__.py.txt"),
-                fails="run.starts",
-            ),
-            example(
-                "init_with_a_blank_at_its_end",
-                Move(INIT, f"{INNER}/__init__.py "),
                 fails="run.starts",
             ),
         ),
@@ -371,21 +230,6 @@ KINDS = (
         link=links.FIRST_NODE,
         fixed_by=(layout.node_beside, layout.out_of_notebook),
         examples=(
-            example(
-                "node_empty_and_the_program_beside_setup",
-                Copy(NODE, "my_first_node.py"),
-                Write(NODE, b""),
-                fails="source.node_file",
-                blocks=UNSTARTED,
-            ),
-            example(
-                "node_empty_beside_a_rescue_file",
-                Move(NODE, f"{NODE}.save"),
-                Write(NODE, b""),
-                fails="source.node_file",
-                also={"source.exec_bit": "source.not_executable"},
-                blocks=UNSTARTED,
-            ),
             example(
                 "node_empty",
                 Write(NODE, b""),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import re
 from dataclasses import replace
 
@@ -81,11 +80,7 @@ def _lost_sum(suspect: Suspect) -> RecognisedMistake | None:
     if found is None:
         return None
     step = suspect.output.step
-    mistake = suspect.finding("sum_not_kept", found[0], name=found[1], step=step)
-    if isinstance(found[0], ast.Expr) and isinstance(found[0].value, ast.Compare):
-        equal = isinstance(found[0].value.ops[0], ast.Eq)
-        return replace(mistake, variant="compared" if equal else "compared_sizes")
-    return replace(mistake, variant="return" if isinstance(found[0], ast.Return) else "")
+    return suspect.finding("sum_not_kept", found[0], name=found[1], step=step)
 
 
 _node = Family("node", links.PYTHON_ERRORS)
@@ -119,12 +114,6 @@ KINDS = (
                 "null_for_none",
                 Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.last_ = null"),
                 fails="run.starts",
-            ),
-            example(
-                "number_to_text_of_matlab",
-                Replace(NODE, "str(self.counter_)", "num2str(self.counter_)"),
-                fails="run.output",
-                blocks=DEAD,
             ),
             example(
                 "true_in_lower_case",
@@ -177,26 +166,11 @@ KINDS = (
         "counter",
         msg("The result of the calculation is not kept"),
         msg(
-            "This line calculates a number, but assigns it to nothing: {name} stays as it is. "
-            "Python has no ++."
+            "This line calculates or compares, but assigns the result to nothing: {name} stays as it "
+            "is. Python has no ++, and == only compares."
         ),
-        msg("Write {name} += {step}"),
+        msg("Write in this line: {name} += {step}"),
         links.PYTHON_CLASSES,
-        whys={
-            "return": msg(
-                "return gives the sum to what calls {callback}. The timer calls it, and does not "
-                "keep what it gets: {name} stays as it is."
-            ),
-            "compared_sizes": msg(
-                "Python reads this line as a comparison, and keeps no result: {name} stays as it is. "
-                "One = assigns a value."
-            ),
-            "compared": msg(
-                "== only compares, and this line keeps no result: {name} stays as it is. One = "
-                "assigns a value."
-            ),
-        },
-        fixes={"return": msg("Write {name} += {step} instead of this return.")},
         behind={"run.constant_counter": _lost_sum},
         fixed_by=(node_words.kept_sum,),
         examples=(
@@ -208,16 +182,6 @@ KINDS = (
             example(
                 "sum_not_kept",
                 Replace(NODE, "self.counter_ += 1", "self.counter_ + 1"),
-                fails="run.output",
-            ),
-            example(
-                "sum_returned",
-                Replace(NODE, "self.counter_ += 1", "return self.counter_ + 1"),
-                fails="run.output",
-            ),
-            example(
-                "compared_instead_of_set",
-                Replace(NODE, "self.counter_ += 1", "self.counter_ == self.counter_ + 1"),
                 fails="run.output",
             ),
         ),

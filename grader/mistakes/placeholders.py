@@ -15,7 +15,6 @@ from grader.package.source.node import NodeSource
 CALLBACK = "callback"  # default names, if the student's source has none
 NODE = "node"
 COUNTER = "self.counter"
-CLASS = "MyNode"
 
 
 def placeholder_values(

@@ -13,7 +13,7 @@ from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.example import DEAD, LOG_LINE, NODE, example
+from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromError, Raised, RecognisedMistake, always, on_line
 from grader.package.edit.tree import Replace
@@ -23,13 +23,8 @@ from grader.package.source.names import called_name, dotted, own_name
 
 STARTERS = ("run", "Popen", "call", "check_call", "check_output", "execv", "execvp", "spawn")
 MOST_CODE = 60  # characters of a piece of code that a text shows
-NONE = msg(
-    "A function without return gives back None, and a name that was set to None has this value."
-)
-FUNCTION = msg(
-    "If {function} is meant to give a value, write return and the value at its end. If not, do not use "
-    "what it gives back."
-)
+Named = ast.Name | ast.Attribute | ast.Call
+TYPE = r"(?P<first>\w{1,60})"
 
 
 def _told(slug: str, variant: str = "") -> FromError:
@@ -44,79 +39,29 @@ def _told(slug: str, variant: str = "") -> FromError:
     return on_line(found)
 
 
-def _none_attribute(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """Something of None is used: tell what is None, and why if the source shows it."""
-    used = [
-        node.value
-        for node in _on_line(raised)
-        if isinstance(node, ast.Attribute) and node.attr == match["name"]
-    ]
-    code = raised.module.text.code(used[0]) if len(used) == 1 else ""
-    if not code or "\n" in code or len(code) > MOST_CODE:
-        return None
-    found = raised.finding("none_used", name=code)
-    function = _gives_nothing(raised, used[0])
-    if function is None:
-        return found
-    words = {**found.words, "function": function.name, "line": function.lineno}
-    return replace(found, words=words, variant="function")
+def _none(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    """Something is done with None: tell what is None, and why if the source shows it."""
+    attribute = match.groupdict().get("name")
+    parts = [n for n in _on_line(raised) if isinstance(n, Named)]
+    if attribute:
+        parts = _owners(parts, attribute)
+    code = {raised.module.text.code(part): _gives_nothing(raised, part) for part in parts}
+    known = {name: function for name, function in code.items() if function is not None}
+    if len(known) == 1:
+        [(name, function)] = known.items()
+        mistake = raised.finding("none_used", name=name)
+        words = {**mistake.words, "function": function.name, "line": function.lineno}
+        return replace(mistake, words=words, variant="function")
+    short = [name for name in code if len(name) <= MOST_CODE and "\n" not in name]
+    if attribute and len(short) == 1:
+        return raised.finding("none_used", name=short[0])
+    return replace(raised.finding("none_used"), variant="line")
 
 
-def _none_operand(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
-    """None is added, subtracted or compared: tell which part of the line it is, if one can be."""
-    del match
-    parts = [n for n in _on_line(raised) if isinstance(n, ast.Name | ast.Attribute | ast.Call)]
-    found = {
-        raised.module.text.code(part): function
-        for part in parts
-        if (function := _gives_nothing(raised, part)) is not None
-    }
-    if len(found) != 1:
-        return replace(raised.finding("none_used"), variant="line")
-    [(code, function)] = found.items()
-    mistake = raised.finding("none_used", name=code)
-    words = {**mistake.words, "function": function.name, "line": function.lineno}
-    return replace(mistake, words=words, variant="function")
-
-
-def _no_key(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """A key is missing; format() says the same of a name that it gets no value for."""
-    line = list(_on_line(raised))
-    calls = [called_name(n) for n in line if isinstance(n, ast.Call)]
-    read = [n.slice for n in line if isinstance(n, ast.Subscript)]
-    written = any(isinstance(n, ast.Constant) and repr(n.value) == match["name"] for n in read)
-    if not written and any(name in ("format", "format_map", "substitute") for name in calls):
-        return None
-    return _told("no_such_item", "key")(raised, match)
-
-
-def _too_many_values(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """The text before % has too few places; it can be a value that should be a number."""
-    left = [
-        n.left for n in _on_line(raised) if isinstance(n, ast.BinOp) and isinstance(n.op, ast.Mod)
-    ]
-    written = any(isinstance(n, ast.Constant | ast.JoinedStr) for n in left)
-    return _told("text_and_values", "" if written else "left")(raised, match)
-
-
-def _no_file(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """The path is relative, or a whole one, of a file that is read or written."""
-    calls = [n for n in _on_line(raised) if isinstance(n, ast.Call)]
-    if any(called_name(call) in STARTERS for call in calls):
-        return None
-    if any(_writes(call) for call in calls):
-        return _told("no_such_file", "written")(raised, match)
-    whole = match["name"].startswith("'/")
-    return _told("no_such_file", "whole" if whole else "")(raised, match)
-
-
-def _writes(call: ast.Call) -> bool:
-    """Whether a call opens a file to write it."""
-    given = [*call.args[:2], *(w.value for w in call.keywords if w.arg == "mode")]
-    modes = [n.value for n in given[-1:] if isinstance(n, ast.Constant)]
-    mode = str(modes[0]) if modes else ""
-    opens = called_name(call) == "open" and re.fullmatch(r"[wax][bt+]*", mode) is not None
-    return opens or called_name(call) in ("write_text", "write_bytes", "mkdir")
+def _owners(parts: list[Named], attribute: str) -> list[Named]:
+    """Return what stands before the dot and the name of an attribute."""
+    owners = [n.value for n in parts if isinstance(n, ast.Attribute) and n.attr == attribute]
+    return [n for n in owners if isinstance(n, Named)]
 
 
 def _on_line(raised: Raised) -> Iterator[ast.AST]:
@@ -131,20 +76,14 @@ def _on_line(raised: Raised) -> Iterator[ast.AST]:
 
 def _gives_nothing(raised: Raised, part: ast.AST) -> Function | None:
     """Return the student's function without a value of its own that gives this part its value."""
-    calls = [part] if isinstance(part, ast.Call) else []
-    name = dotted(part)
+    calls, name = [part] if isinstance(part, ast.Call) else [], dotted(part)
     if name and not calls:
-        assigned = [
-            node.value
-            for node in raised.source.own_nodes
-            if isinstance(node, ast.Assign) and name in targets_of(node)
-        ]
-        calls = [value for value in assigned if isinstance(value, ast.Call)]
-        if len(assigned) != len(calls):
-            calls = calls if len(calls) == 1 else []
-    functions = [_called(raised, call) for call in calls]
+        sets = [n for n in raised.source.own_nodes if isinstance(n, ast.Assign)]
+        values = [n.value for n in sets if name in targets_of(n)]
+        calls = [value for value in values if isinstance(value, ast.Call)]
+    functions = [_called(raised, call) for call in calls] if len(calls) == 1 else []
     found = [f for f in functions if f is not None and not _has_value(f)]
-    return found[0] if len(found) == 1 else None
+    return found[0] if found else None
 
 
 def _called(raised: Raised, call: ast.Call) -> Function | None:
@@ -163,15 +102,59 @@ def _has_value(function: Function) -> bool:
     return any(not isinstance(n, ast.Return) or n.value is not None for n in own)
 
 
+def _no_key(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A key is missing; format() says the same of a name that it gets no value for."""
+    line = list(_on_line(raised))
+    calls = [called_name(n) for n in line if isinstance(n, ast.Call)]
+    read = [n.slice for n in line if isinstance(n, ast.Subscript)]
+    written = any(isinstance(n, ast.Constant) and repr(n.value) == match["name"] for n in read)
+    if not written and any(name in ("format", "format_map", "substitute") for name in calls):
+        return _told("text_and_values", "format")(raised, match)
+    return _told("no_such_item", "key")(raised, match)
+
+
+def _no_file(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A file is read or written that is not there; not the program that a line starts."""
+    calls = [n for n in _on_line(raised) if isinstance(n, ast.Call)]
+    if any(called_name(call) in STARTERS for call in calls):
+        return None
+    written = any(_writes(call) for call in calls)
+    return _told("no_such_file", "written" if written else "")(raised, match)
+
+
+def _writes(call: ast.Call) -> bool:
+    """Whether a call opens a file to write it."""
+    given = [*call.args[:2], *(w.value for w in call.keywords if w.arg == "mode")]
+    modes = [n.value for n in given[-1:] if isinstance(n, ast.Constant)]
+    mode = str(modes[0]) if modes else ""
+    opens = called_name(call) == "open" and re.fullmatch(r"[wax][bt+]*", mode) is not None
+    return opens or called_name(call) in ("write_text", "write_bytes", "mkdir")
+
+
+def _value_called(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
+    """A value is called on that line, or by ROS, to which a timer gave it as a callback."""
+    params = {"type": match.groupdict("").get("type", "")}
+    found = raised.finding("not_callable", params=params)
+    by_ros = raised.inside or "spin" in raised.module.line(raised.line)
+    if not by_ros and "is not callable" in match[0]:
+        return found
+    for timer in raised.source.timers:
+        if timer.callback is not None and timer.method not in raised.source.methods:
+            found = raised.finding("not_callable", at=timer.call, params=params)
+            return replace(found, variant="passed")
+    return None
+
+
 NONE_IN = r"(?:'NoneType' and '\w{1,60}'|'\w{1,60}' and 'NoneType')"
-ROUND = msg("A call is written with (), not with []: replace the square brackets.")
 _node = Family("node", links.FIRST_NODE)
 KINDS = (
     _node(
         "none_used",
         "callback",
         msg("A value is None, and something else is needed"),
-        NONE,
+        msg(
+            "A function without return gives back None, and a name that was set to None has this value."
+        ),
         msg("Find the line that gives {name} its value, and see why it is None."),
         whys={
             "function": msg(
@@ -179,17 +162,20 @@ KINDS = (
             ),
         },
         fixes={
-            "function": FUNCTION,
+            "function": msg(
+                "If {function} is meant to give a value, write return and the value at its end. If not, do not use "
+                "what it gives back."
+            ),
             "line": msg("Find out which value on that line is None, and which line set it."),
         },
         raised={
-            r"AttributeError: 'NoneType' object has no attribute '(?P<name>\w{1,120})'": (
-                on_line(_none_attribute)
+            r"AttributeError: 'NoneType' object has no attribute '(?P<name>\w{1,120})'": on_line(
+                _none
             ),
-            rf"unsupported operand type\(s\) for .{{1,20}}: {NONE_IN}": on_line(_none_operand),
-            rf"not supported between instances of {NONE_IN}": on_line(_none_operand),
-            r"can only concatenate str \(not \"NoneType\"\)": on_line(_none_operand),
-            r"'NoneType' object is not (?:subscriptable|iterable)": on_line(_none_operand),
+            rf"unsupported operand type\(s\) for .{{1,20}}: {NONE_IN}": on_line(_none),
+            rf"not supported between instances of {NONE_IN}": on_line(_none),
+            r"can only concatenate str \(not \"NoneType\"\)": on_line(_none),
+            r"'NoneType' object is not (?:subscriptable|iterable)": on_line(_none),
         },
         examples=(
             example(
@@ -206,6 +192,44 @@ KINDS = (
         ),
     ),
     _node(
+        "not_callable",
+        "callback",
+        msg("A value is called like a function"),
+        msg("() after a name calls it, and a value of this type cannot be called."),
+        msg(
+            "This line calls a value of the type {type}. If the value is meant, remove the () behind "
+            "its name. If a function is meant, a line has given its name this value: give the value "
+            "another name there."
+        ),
+        links.PYTHON_ERRORS,
+        whys={
+            "passed": msg(
+                "The timer calls what create_timer gets, so it must be a method or a function."
+            )
+        },
+        seen=r"TypeError: '(?P<type>(?!NoneType)\w{1,60})' object is not callable",
+        fixes={"passed": msg("Write self.create_timer({period}, self.{callback})")},
+        raised={
+            r"TypeError: '(?P<type>\w{1,60})' object is not callable": _value_called,
+            r"TypeError: (?P<type>[\w.'\"-]{1,60}) is not a callable object": _value_called,
+            r"UnboundLocalError: .{0,60}'(?P<type>arg_name)'": _value_called,
+        },
+        examples=(
+            example(
+                "counter_called",
+                Replace(NODE, "str(self.counter_)", "str(self.counter_())"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "timer_gets_counter",
+                Replace(NODE, "self.timer_callback)", "self.counter_)"),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+        ),
+    ),
+    _node(
         "types_do_not_fit",
         "callback",
         msg("An operation gets a value of a type that it cannot use"),
@@ -215,78 +239,62 @@ KINDS = (
             "and int(…) a number of a text."
         ),
         whys={
-            "items": msg("name[…] reads one item. The type {first} has no items."),
             "function": msg("name[…] reads one item. A function has no items: it is called."),
-            "each": msg(
-                "Only a value that consists of items can be unpacked or used behind in. The type {first} has none."
-            ),
-            "set": msg("name[…] = … sets one item. The items of the type {first} cannot be set."),
-            "join": msg("join() puts texts together. One item of this list has the type {first}."),
-            "sign": msg(
-                "{operator} in front of a value needs a number. This value has the type {first}."
-            ),
-            "whole": msg("A whole number is needed here, and this value has the type {first}."),
-            "number": msg("int() makes a number only of digits. It cannot read {text}."),
-            "returned": msg("Python calls {operator} and needs a {first} from it."),
+            "one": msg("What this line does with a value does not work with the type {first}."),
+            "number": msg("int() and float() read only a number. They cannot read {text}."),
         },
         fixes={
-            "items": msg("Look in which line this value is set, or remove the […]."),
-            "function": ROUND,
-            "each": msg(
-                "Find out which value on this line has the type {first}, and which line gives it. To repeat "
-                "something n times, write range(n)."
+            "function": msg("A call is written with (), not with []: replace the square brackets."),
+            "one": msg(
+                "Find out which value on this line has the type {first}, and which line gives it. str(…) "
+                "makes a text of a number, int(…) a whole number, and range(n) repeats something n times."
             ),
-            "set": msg("Make a new value instead, or use a list."),
-            "join": msg("Convert each item to a text first: str(…)."),
-            "sign": msg("Find the line that gives this value: it must be a number there."),
-            "whole": msg("Convert the value with int(…), or write a number without a point."),
             "number": msg(
-                "Give int() a text that has only digits. float() also reads numbers with a point."
-            ),
-            "returned": msg(
-                "Look at each return in {operator}: its value must be a {first}. Without a return, the "
-                "value is None."
+                "Look at how this line gets {text}: follow it from the value with which it begins. It "
+                "has to be a number only, without a unit."
             ),
         },
         raised={
-            r"'(?P<first>method|function|builtin_function_or_method|type)' object is not subscriptable": (
+            **{
+                pattern: _told("types_do_not_fit", "one")
+                for pattern in (
+                    rf"'(?!method|function|builtin_function|type'){TYPE}' object is not subscriptable",
+                    rf"'{TYPE}' object is not iterable",
+                    rf"argument of type '{TYPE}' is not iterable",
+                    rf"cannot unpack non-iterable {TYPE} object",
+                    rf"'{TYPE}' object does not support item assignment",
+                    rf"expected str instance, {TYPE} found",
+                    rf"bad operand type for unary \S{{1,3}}: '{TYPE}'",
+                    rf"'{TYPE}' object cannot be interpreted as an integer",
+                    rf"__\w{{1,30}}__ returned non-{TYPE}",
+                    rf"can only concatenate {TYPE} \(not",
+                )
+            },
+            r"'(?:method|function|builtin_function_or_method|type)' object is not subscriptable": (
                 _told("types_do_not_fit", "function")
             ),
-            r"'(?P<first>\w{1,60})' object is not subscriptable": _told(
-                "types_do_not_fit", "items"
-            ),
-            r"'(?P<first>\w{1,60})' object is not iterable": _told("types_do_not_fit", "each"),
-            r"argument of type '(?P<first>\w{1,60})' is not iterable": (
-                _told("types_do_not_fit", "each")
-            ),
-            r"cannot unpack non-iterable (?P<first>\w{1,60}) object": (
-                _told("types_do_not_fit", "each")
-            ),
-            r"'(?P<first>\w{1,60})' object does not support item assignment": (
-                _told("types_do_not_fit", "set")
-            ),
-            r"expected str instance, (?P<first>\w{1,60}) found": _told("types_do_not_fit", "join"),
-            r"bad operand type for unary (?P<operator>\S{1,3}): '(?P<first>\w{1,60})'": (
-                _told("types_do_not_fit", "sign")
-            ),
-            r"'(?P<first>\w{1,60})' object cannot be interpreted as an integer": (
-                _told("types_do_not_fit", "whole")
-            ),
-            r"invalid literal for int\(\) with base 10: (?P<text>'[^'\n]{0,60}')": (
-                _told("types_do_not_fit", "number")
-            ),
-            r"(?P<operator>__\w{1,30}__) returned non-(?P<first>\w{1,30})": (
-                _told("types_do_not_fit", "returned")
-            ),
-            r"unsupported operand type\(s\) for (?P<operator>\S{1,3})(?: or \S{1,5})?: "
-            r"'(?P<first>\w{1,60})' and '(?P<second>\w{1,60})'": _told("types_do_not_fit"),
-            r"'(?P<operator>[<>=]{1,2})' not supported between instances of '(?P<first>\w{1,60})' and "
+            r"type '\w{1,60}' is not subscriptable": _told("types_do_not_fit", "function"),
+            r"(?:invalid literal for int\(\) with base 10|could not convert string to float): "
+            r"(?P<text>'[^'\n]{0,60}')": _told("types_do_not_fit", "number"),
+            rf"unsupported operand type\(s\) for (?P<operator>\S{{1,3}})(?: or \S{{1,5}})?: "
+            rf"'{TYPE}' and '(?P<second>\w{{1,60}})'": _told("types_do_not_fit"),
+            rf"'(?P<operator>[<>=]{{1,2}})' not supported between instances of '{TYPE}' and "
             r"'(?P<second>\w{1,60})'": _told("types_do_not_fit"),
         },
         examples=(
             example(
-                "start_is_a_text_compared",
-                Replace(NODE, LOG_LINE, f"        if self.counter_ < '5':\n    {LOG_LINE}"),
+                "info_in_square_brackets",
+                Replace(
+                    NODE,
+                    ".info('Hello time: ' + str(self.counter_))",
+                    ".info['Hello time: ' + str(self.counter_)]",
+                ),
+                fails="run.output",
+                blocks=DEAD,
+            ),
+            example(
+                "counter_is_tuple",
+                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0,"),
                 fails="run.output",
                 blocks=DEAD,
             ),
@@ -313,40 +321,39 @@ KINDS = (
         msg("The text and its values do not fit together"),
         msg(
             "With %, a text has one place for each value: %d for a whole number, %s for anything. "
-            "This text has another number of places than there are values."
+            "Between two numbers, % gives the remainder."
         ),
-        msg("Give the text one place for each value. A text with {{}} needs .format(…) and no %."),
+        msg(
+            "Give the text before % one place for each value, and each place a value of its type. A text with "
+            "{{}} needs .format(…) and no %. If the remainder is meant, the value before % has to be a number."
+        ),
         whys={
-            "type": msg(
-                "The place %d in a text needs a number, and gets a value of the type {first}."
-            ),
-            "left": msg(
-                "The value before % is a text on this line. Then % puts values into the places of the text, "
-                "such as %d, and this text has fewer places than there are values. Between two numbers, % "
-                "gives the remainder."
-            ),
+            "format": msg(
+                "format() puts the values of its () in the places of the text. A place with a name needs "
+                "name=value in the (), and {{}} takes the next value."
+            )
         },
         fixes={
-            "type": msg("Write %s in the text, or give it a number."),
-            "left": msg(
-                "If you want the remainder, find the line that gives the value before %, and make it a "
-                "number there. If you want to fill a text, give it one place for each value."
-            ),
+            "format": msg(
+                "Give each place of the text a value in the () of format, or write an f-string: it reads the "
+                "variables themselves. The first value has the number 0."
+            )
         },
         raised={
-            r"not all arguments converted during string formatting": on_line(_too_many_values),
+            r"not all arguments converted during string formatting": _told("text_and_values"),
             r"not enough arguments for format string": _told("text_and_values"),
-            r"%[a-z] format: a (?:real )?number is required, not (?P<first>\w{1,60})": (
-                _told("text_and_values", "type")
+            r"%[a-z] format: a (?:real )?number is required": _told("text_and_values"),
+            r"IndexError: Replacement index \d{1,9} out of range": (
+                _told("text_and_values", "format")
             ),
         },
         examples=(
             example(
-                "values_outside_of_brackets",
+                "format_without_values",
                 Replace(
                     NODE,
                     "'Hello time: ' + str(self.counter_)",
-                    "'%s: %d' % 'Hello time', self.counter_",
+                    "'Hello time: {self.counter_}'.format()",
                 ),
                 fails="run.output",
                 blocks=DEAD,
@@ -385,13 +392,6 @@ KINDS = (
                 fails="run.output",
                 blocks=("run.interrupt",),
             ),
-            example(
-                "item_of_an_empty_list",
-                Replace(NODE, "self.counter_ = 0", "self.counter_ = 0\n        self.seen = []"),
-                Replace(NODE, LOG_LINE, f"{LOG_LINE}        self.seen[0] = self.counter_\n"),
-                fails="run.output",
-                blocks=("run.interrupt",),
-            ),
         ),
     ),
     _node(
@@ -400,7 +400,8 @@ KINDS = (
         msg("A file is opened that is not there"),
         msg(
             "A path that does not begin with / is looked for in the folder in which ros2 run is "
-            "started, and not beside the file of the node."
+            "started, and not beside the file of the node. The folders of one computer do not exist on "
+            "another one."
         ),
         msg(
             "Write the values that the program takes from {name} into the program, in place of what "
@@ -409,10 +410,6 @@ KINDS = (
             "get_package_share_directory('{package}') returns (from ament_index_python.packages)."
         ),
         whys={
-            "whole": msg(
-                "There is no file {name} on the computer that runs the node. The folders of one computer do "
-                "not exist on another one."
-            ),
             "written": msg(
                 "Python creates a file that is opened to be written, but not the folder that contains it. "
                 "A path that does not begin with / begins in the folder in which ros2 run is started."
@@ -447,20 +444,15 @@ KINDS = (
         msg("except or raise gets something that is not an exception"),
         msg(
             "except takes the class of an exception, and several of them as (First, Second) with "
-            "commas. Python finds out only when an exception has come."
+            "commas. raise takes an exception, for example ValueError('text')."
         ),
         msg(
-            "Write the name of the class, without () and quotes. Put several names in round brackets."
+            "Write the name of the class, without quotes, behind except without (). Put several names in "
+            "round brackets."
         ),
         raised={
-            r"catching classes that do not inherit from BaseException": _told("not_an_exception"),
-            r"exceptions must derive from BaseException": _told("not_an_exception", "raised"),
-        },
-        whys={
-            "raised": msg("raise takes an exception, for example ValueError('text')."),
-        },
-        fixes={
-            "raised": msg("Write an exception behind raise, or remove that line."),
+            r"catching classes that do not inherit from BaseException"
+            r"|exceptions must derive from BaseException": _told("not_an_exception"),
         },
         examples=(
             example(
@@ -483,8 +475,9 @@ KINDS = (
             "Assign the object to a name in a line of its own, without with. Then indent the lines of "
             "the block as far as that line."
         ),
+        seen=r"'(?P<first>\w{1,60})' object does not support the context manager protocol",
         raised={
-            r"'(?P<first>\w{1,120})' object does not support the context manager protocol": (
+            rf"'{TYPE}' object does not support the context manager protocol": (
                 _told("not_for_with")
             )
         },

@@ -2,114 +2,44 @@
 
 from __future__ import annotations
 
-import ast
 import re
-from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
 from grader.mistakes import links
 from grader.mistakes.example import NODE, example
-from grader.mistakes.fixes import lines, node_parameters
+from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family, Step
 from grader.mistakes.recognised import Raised, RecognisedMistake
 from grader.package.edit.tree import Replace
-from grader.package.source.declared import Parameter, declared, declares_others
+from grader.package.source.declared import declared, declares_others
 from grader.package.source.follows_already import publishes
-from grader.package.source.names import called_name, calls_in, dotted, last_part
-from grader.package.source.place import place_of, statement_at
+from grader.package.source.names import called_name, calls_in
+from grader.package.source.place import statement_at
 
 UNDECLARED = r"ParameterNotDeclaredException: .*?: (?P<name>[\w.]{1,100})$"
-OTHER_TYPE = r"Expected <class '[\w.]*\.(?P<wanted>\w+)'>, got <class '[\w.]*?(?P<name>\w+)'>"
-NO_TEXT = r"rclpy_resolve_name\(\): incompatible function arguments"
-INVALID_NAME = r"Invalid(?:Topic|Service)NameException: Invalid (?:topic|service) name"
-OF_CLASS = r"'(?:property|member_descriptor|getset_descriptor)' object has no attribute"
-OPERAND = r"unsupported operand type\(s\) for .*'Parameter'|'Parameter' and '|must be real number, not Parameter"
-NO_MESSAGE = r"callback should be either be callable with one argument"
-ENDS = ("create_publisher", "create_subscription", "create_service", "create_client")
+OPERAND = (
+    r"unsupported operand type\(s\) for .*'Parameter'|'Parameter' and '"
+    r"|(?:must be|number,) (?:real number, )?not '?Parameter"
+)
 
 
 def _undeclared(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
-    """A parameter is used that the node has not declared."""
+    """A parameter is used that the node has not declared, or not yet."""
     name, source = match["name"], raised.source
-    words = {**raised.words, "name": name, "close": "", "type": ""}
-    found = RecognisedMistake(kind="parameter.not_declared", words=words, where=raised.where)
-    parameter = node_parameters.reading(source, raised.module, name, raised.line)
-    if parameter is None:
-        return found
-    found = replace(found, where=place_of(source, parameter.call))
     known = {p.name: p for p in declared(source)}
-    if name in known:
-        return _declared_late(raised, found, parameter, known[name])
-    close = nearest(name, known, cutoff=0.7)
-    if close and not declares_others(source):
-        return _misspelt(raised, found, parameter, known[close])
-    return found
-
-
-def _misspelt(
-    raised: Raised, found: RecognisedMistake, parameter: Parameter, known: Parameter
-) -> RecognisedMistake:
-    """The name that is read is nearly that of a declared parameter."""
-    code = raised.module.text.code(parameter.written)
-    written = f"{code[0]}{known.name}{code[-1]}" if code[:1] in "'\"" else repr(known.name)
-    params: dict[str, str] = {"name": code, "written": written}
-    words = {**found.words, **params, "row": known.call.lineno}
-    return replace(found, params=params, words=words, variant="misspelt")
-
-
-def _declared_late(
-    raised: Raised, found: RecognisedMistake, parameter: Parameter, known: Parameter
-) -> RecognisedMistake:
-    """The parameter is declared by another line, which runs later."""
-    source, line = raised.source, known.call.lineno
-    same = source.function_around(known.call) is source.function_around(parameter.call)
-    later = same and raised.module.has(known.call) and line > parameter.call.lineno
-    words = {**found.words, "row": line}
-    if not later:
-        return replace(found, words=words, variant="elsewhere")
-    params = {"parameter": known.name, "late": str(line)}
-    return replace(found, params=params, words=words, variant="late")
-
-
-def _other_type(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
-    return raised.finding("other_message", name=match["name"], wanted=match["wanted"])
-
-
-def _swapped(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """The call that makes an end of a topic or service has something else in place of the name."""
-    del match
-    for call, name in raised.source.calls:
-        if last_part(name) in ENDS and call.lineno == raised.line:
-            return raised.finding("end_arguments", at=call, name=last_part(name))
-    return None
-
-
-def _invalid_name(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
-    del match
-    return raised.finding("topic_name_invalid")
-
-
-def _of_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """A variable was set to a message's class without parentheses."""
-    del match
-    types = raised.interfaces
-    for node in raised.module.nodes:
-        named = node.value if isinstance(node, ast.Assign) else None
-        if isinstance(named, ast.Name) and named.id in types:
-            return raised.finding("message_class", name=named.id)
-    return None
-
-
-def _no_message(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    """The callback of a subscription does not take the message."""
-    del match
-    for call, name in raised.source.calls:
-        if last_part(name) == "create_subscription" and call.lineno == raised.line:
-            given = call.args[2] if len(call.args) > 2 else None
-            callback = dotted(given).rpartition(".")[2] if given is not None else ""
-            return raised.finding("callback_without_message", at=call, name=callback or "callback")
-    return None
+    close = "" if declares_others(source) or name in known else nearest(name, known, cutoff=0.7)
+    params = {"name": name, "close": close, "written": close} if close else {"name": name}
+    row = known[name].call.lineno if name in known else ""
+    variant = "misspelt" if close else "late" if name in known else ""
+    words = {**raised.words, "name": name, "close": close, "row": str(row)}
+    return RecognisedMistake(
+        kind="parameter.not_declared",
+        params=params,
+        words=words,
+        variant=variant,
+        where=raised.where,
+    )
 
 
 def _parameter_object(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
@@ -118,11 +48,8 @@ def _parameter_object(raised: Raised, match: re.Match[str]) -> RecognisedMistake
     statement = statement_at(raised.module, raised.line)
     calls = [call for call, _ in calls_in(statement)] if statement is not None else []
     found = [c for c in calls if called_name(c) in ("get_parameter", "declare_parameter")]
-    if len(found) != 1:
-        return raised.finding("parameter_object")
-    code = " ".join(raised.module.text.code(found[0]).split())
-    found_call = raised.finding("parameter_object", name=code, written=f"{code}.value")
-    return replace(found_call, variant="written")
+    code = raised.module.text.code(found[0]) if found else "self.get_parameter('…')"
+    return raised.finding("parameter_object", name=code, written=f"{code}.value")
 
 
 CALL_PUBLISH = msg(
@@ -130,10 +57,6 @@ CALL_PUBLISH = msg(
     "with parentheses."
 )
 PUBLISH_THERE = msg("Publish on {topic} in the callback of the subscription.")
-ELSEWHERE = msg(
-    "A parameter exists from the line on that declares it. Line {row} declares '{name}', but it has "
-    "not run for this node when this line reads it."
-)
 NAMED = msg(
     "Nodes find each other by the name of the topic alone: a publisher and a subscription meet if "
     "their names are equal, to the letter."
@@ -149,53 +72,6 @@ _parameter = Family("parameter", links.PARAMETERS)
 _service = Family("service", links.SERVICES)
 KINDS = (
     _node(
-        "other_message",
-        "topic",
-        msg("The message has another type than its publisher"),
-        msg("A publisher sends messages of the type that create_publisher gets, and no other."),
-        msg("Make the message with {wanted}(), or pass {name} to create_publisher."),
-        raised={OTHER_TYPE: _other_type},
-    ),
-    _node(
-        "end_arguments",
-        "topic",
-        msg("The type and the name are in the wrong order"),
-        msg(
-            "create_publisher, create_subscription, create_service and create_client take the type "
-            "first, then the name as a text."
-        ),
-        msg("Write {name}(Type, 'name', …): first the type, then the name in quotes."),
-        raised={NO_TEXT: _swapped},
-    ),
-    _node(
-        "callback_without_message",
-        "topic",
-        msg("The callback does not take the message"),
-        msg("A subscription calls its callback with one argument: the message that came."),
-        msg("Write def {name}(self, message): the message is the argument after self."),
-        raised={NO_MESSAGE: _no_message},
-    ),
-    _node(
-        "topic_name_invalid",
-        "topic",
-        msg("ROS does not allow this name"),
-        msg(
-            "Names of topics and services consist of letters, digits and _, with / between the "
-            "parts; no part begins with a digit."
-        ),
-        msg("Remove spaces and other characters from the name."),
-        links.NAMES,
-        raised={INVALID_NAME: _invalid_name},
-    ),
-    _node(
-        "message_class",
-        "topic",
-        msg("The type of the message is used in place of a message"),
-        msg("A message is an object: the parentheses after the type make one."),
-        msg("Write {name}() with parentheses."),
-        raised={OF_CLASS: _of_class},
-    ),
-    _node(
         "parameter_object",
         "parameter",
         msg(".value is missing behind a parameter"),
@@ -203,9 +79,8 @@ KINDS = (
             "get_parameter and declare_parameter return an object that has the name, the type and "
             "the value."
         ),
-        msg("Write self.get_parameter('…').value."),
+        msg("Write {written} instead of {name}."),
         links.PARAMETERS,
-        fixes={"written": msg("Write {written} instead of {name}.")},
         raised={OPERAND: _parameter_object},
         fixed_by=(lines.written,),
         examples=(
@@ -446,28 +321,19 @@ KINDS = (
         msg("Write self.declare_parameter('{name}', …) in __init__, with the default value."),
         close=msg("The name is '{name}', not '{close}'."),
         whys={
-            "misspelt": msg(
-                "A node has only the parameters that it declares, by exactly that name: line {row} "
-                "declares {written}, and this line reads {name}."
-            ),
             "late": msg(
-                "A parameter exists from the line on that declares it. Line {row} declares '{name}', "
-                "and it runs after this line."
+                "A parameter exists from the line on that declares it. Line {row} declares '{name}', but it has "
+                "not run for this node when this line reads it."
             ),
-            "elsewhere": ELSEWHERE,
         },
         fixes={
-            "misspelt": msg("Write {written} instead of {name} in this line."),
-            "late": msg("Move line {row}, which declares '{name}', above this line."),
-            "elsewhere": msg(
+            "misspelt": msg("The node declares '{close}': write this name instead of '{name}'."),
+            "late": msg(
                 "Declare '{name}' in __init__, before anything reads it: move line {row} there."
             ),
         },
         raised={UNDECLARED: _undeclared},
-        fixed_by=(
-            lines.written,
-            node_parameters.moved_up,
-        ),
+        fixed_by=(lines.written,),
         examples=(
             example(
                 "parameter_not_declared",
@@ -485,17 +351,6 @@ KINDS = (
                     "        self.create_timer(1.0,",
                     "        self.declare_parameter('period', 1.0)\n"
                     "        period = self.get_parameter('periode').value\n"
-                    "        self.create_timer(period,",
-                ),
-                fails="run.starts",
-            ),
-            example(
-                "parameter_declared_late",
-                Replace(
-                    NODE,
-                    "        self.create_timer(1.0,",
-                    "        period = self.get_parameter('period').value\n"
-                    "        self.declare_parameter('period', 1.0)\n"
                     "        self.create_timer(period,",
                 ),
                 fails="run.starts",

@@ -9,7 +9,7 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, SILENT, example
-from grader.mistakes.fixes import node_executor, node_main, node_rename
+from grader.mistakes.fixes import node_executor, node_main
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.mistakes.spin import executors
@@ -18,7 +18,6 @@ from grader.package.source.counter import targets_of
 from grader.package.source.guard import called_on_import
 from grader.package.source.module import Function
 from grader.package.source.names import dotted
-from grader.package.source.node import NodeSource
 
 SPINS = ("spin", "spin_once", "spin_until_future_complete")
 GUARD = msg(
@@ -72,34 +71,11 @@ def _spins_in_init(suspect: Suspect) -> RecognisedMistake | None:
     """Look for a spin in __init__; what is below it runs only after Ctrl+C."""
     init = suspect.source.methods.get("__init__")
     for call in suspect.source.calls_of("spin", within=init) if init is not None else ():
-        if not _stops_at(suspect.source, init, call):
-            continue
-        found = suspect.finding("spin_in_init", call, name=ast.unparse(call))
-        source, main = suspect.source, suspect.function
-        spun = main is not None and source.calls_of("spin", within=main)
-        name = source.node_class.name if source.node_class is not None else ""
-        if main is None or spun or not name:
-            return found
-        variable = min(source.node_variables, default="")
-        words = {**found.words, "variable": variable or "node", "made": name}
-        return replace(found, words=words, variant="kept" if variable else "alone")
-    return None
-
-
-def _stops_at(source: NodeSource, init: Function | None, call: ast.Call) -> bool:
-    """Whether __init__ runs a call itself, not a function in it, and has more lines below it."""
-    around = source.module_of(call).around(call)
-    inner = next((part for part in around if isinstance(part, Function | ast.Lambda)), None)
-    end = call.end_lineno or call.lineno
-    return inner is init and any(getattr(n, "lineno", 0) > end for n in ast.walk(init or call))
-
-
-def _none_is_spun(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
-    del match
-    for call in raised.source.calls_of("spin"):
-        name = dotted(call.args[0]) if call.args else ""
-        if raised.line in (None, call.lineno) and name:
-            return raised.finding("spin_of_none", at=call, name=name)
+        around = suspect.source.module_of(call).around(call)
+        inner = next((part for part in around if isinstance(part, Function | ast.Lambda)), None)
+        end = call.end_lineno or call.lineno
+        if inner is init and any(getattr(n, "lineno", 0) > end for n in ast.walk(init or call)):
+            return suspect.finding("spin_in_init", call, name=ast.unparse(call))
     return None
 
 
@@ -131,11 +107,7 @@ def _hides_class(raised: Raised, match: re.Match[str]) -> RecognisedMistake | No
     classes = {*raised.source.class_names, *(c.name for c in raised.module.classes)}
     for node in raised.module.nodes if name in classes else ():
         if isinstance(node, ast.Assign) and node.lineno == raised.line and name in targets_of(node):
-            new = node_rename.free_variable(raised.module, name) or f"{name}_1"
-            row = raised.module.line(node.lineno)
-            call = re.sub(rf"\b{re.escape(name)}(?=\s*=)", new, row, count=1)
-            params = {"name": name, "written": new, "call": call}
-            return raised.finding("variable_hides_class", at=node, params=params)
+            return raised.finding("variable_hides_class", at=node, name=name)
     return None
 
 
@@ -165,8 +137,8 @@ KINDS = (
         msg("The variable has the same name as the class"),
         msg("In a function that sets {name}, {name} means the variable, which has no value yet."),
         msg(
-            "Give the variable another name: write {call} in this line. If lines below it use {name}, "
-            "write {written} there."
+            "Give the variable another name than {name} in this line, and write that name where the "
+            "lines below it use the variable."
         ),
         links.PYTHON_CLASSES,
         raised={r"UnboundLocalError: .{0,60}'(?P<name>\w{1,120})'": _hides_class},
@@ -174,36 +146,6 @@ KINDS = (
             example(
                 "variable_hides_class",
                 Replace(NODE, "node = MyFirstNode()", "MyFirstNode = MyFirstNode()"),
-                fails="run.starts",
-            ),
-            example(
-                "class_and_variable_same_name",
-                Replace(NODE, "class MyFirstNode(Node)", "class node(Node)"),
-                Replace(NODE, "node = MyFirstNode()", "node = node()"),
-                fails="run.starts",
-            ),
-        ),
-    ),
-    _node(
-        "spin_of_none",
-        "spin",
-        msg("rclpy.spin gets None instead of a node"),
-        msg("{name} has no node at this point."),
-        msg(
-            "Find the line that gives {name} its value, and see why it is None: rclpy.spin needs the node."
-        ),
-        raised={
-            r"AttributeError: 'NoneType' object has no attribute '(?:executor|handle)'": _none_is_spun
-        },
-        examples=(
-            example(
-                "spin_of_none",
-                Replace(
-                    NODE,
-                    "        rclpy.spin(node)\n",
-                    "        node = None\n        rclpy.spin(node)\n",
-                ),
-                Replace(NODE, "        node.destroy_node()\n", ""),
                 fails="run.starts",
             ),
         ),
@@ -250,31 +192,9 @@ KINDS = (
         "timer",
         msg("__init__ spins the node, and never comes to its end"),
         msg("{name} waits until Ctrl+C. The lines below it do not run before that."),
-        msg("Remove this line: {function} spins the node after it was made."),
-        fixes={
-            "kept": msg(
-                "Remove this line. Write in {function}, below the line that creates the node, and in its "
-                "try, if there is one: rclpy.spin({variable})"
-            ),
-            "alone": msg(
-                "Remove this line. Write in {function} {variable} = {made}() instead of {made}(), and "
-                "on the next line rclpy.spin({variable})."
-            ),
-        },
+        msg("Remove this line. In {function}, spin the node after it was made: rclpy.spin({node})"),
         behind={"run.no_lines": _spins_in_init},
-        deletes=("",),
         examples=(
-            example(
-                "spin_only_in_init",
-                Replace(
-                    NODE,
-                    "        self.counter_ = 0\n",
-                    "        rclpy.spin(self)\n        self.counter_ = 0\n",
-                ),
-                Replace(NODE, "        rclpy.spin(node)\n", "        pass\n"),
-                fails="run.output",
-                blocks=SILENT,
-            ),
             example(
                 "spin_in_init",
                 Replace(

@@ -165,25 +165,39 @@ class ShortRun:
 
         A timer that stays due is one that nothing calls: its node is not spun.
         """
-        left = []
-        if self._scene is not None:
-            if self._scene.act():
+        while not self._acts():
+            left = self._timers_left()
+            is_due = 0 in left and self._waited < MOST_WAITED
+            self._waited = self._waited + 1 if is_due else 0
+            due = [*([most] if most >= 0 else []), *(each for each in left if each or is_due)]
+            timer = min(due, default=None)
+            if self._scene is not None:
+                due += [max(0, at + self._begin - self._now) for at in self._scene.next()]
+            if not due:
+                self.end("waits")
+            self._steps += 1
+            self._pass(min(due))
+            is_for_node = timer is not None and timer <= min(due)
+            if self._scene is None or not self._scene.is_plain or is_for_node:
                 return
-            if self._now - self._begin >= self._scene.limit:
-                self.end("time")
+
+    def _acts(self) -> bool:
+        """Let the scene do what is due; return whether the node may have something to do then."""
+        if self._scene is None:
+            return False
+        acted = bool(self._scene.act())
+        if not acted and self._now - self._begin >= self._scene.limit:
+            self.end("time")
+        return acted
+
+    def _timers_left(self) -> list[int]:
+        """Return how long (ns) it takes until each timer is due."""
+        left = []
         for timer in (timer for node in self._nodes for timer in list(node.timers)):
             with contextlib.suppress(Exception):  # (the node may have destroyed it)
                 if not timer.is_canceled():
                     left.append(max(0, timer.time_until_next_call()))
-        is_due = 0 in left and self._waited < MOST_WAITED
-        self._waited = self._waited + 1 if is_due else 0
-        due = [*([most] if most >= 0 else []), *(each for each in left if each or is_due)]
-        if self._scene is not None:
-            due += [max(0, at + self._begin - self._now) for at in self._scene.next()]
-        if not due:
-            self.end("waits")
-        self._steps += 1
-        self._pass(min(due))
+        return left
 
     def _pass(self, nanoseconds: int) -> None:
         self._now += max(0, nanoseconds)
@@ -260,8 +274,12 @@ class ShortRun:
         self.end("returned")
 
 
-def preload() -> None:
-    """Import what every node needs, so that no fork has to."""
+def preload(*, checked: bool) -> None:
+    """Import what every node needs, so that no fork has to.
+
+    If it is `checked`, a field of a message that gets a value of another type raises an exception.
+    """
+    os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1" if checked else ""
     import rclpy  # noqa: PLC0415
     import rclpy.executors  # noqa: F401, PLC0415
     from rclpy.type_support import check_for_type_support  # noqa: PLC0415
@@ -316,7 +334,7 @@ def main() -> None:
     out, nothing = os.dup(1), os.open(os.devnull, os.O_RDWR)
     for stream in (0, 1, 2):
         os.dup2(nothing, stream)
-    preload()
+    preload(checked=bool(asked.get("checked")))
     load(asked["modules"])
     sys.argv = ["node", *asked.get("words", ())]
     waiting = list(enumerate(asked["variants"]))[::-1]

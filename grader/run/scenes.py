@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from grader.course.assignment import Assignment
@@ -21,7 +21,7 @@ from grader.run.observer import SECOND, Event, Watch
 from grader.run.probe_link import LogRecord, NodeSeen, in_probe
 from grader.run.programs import full_name
 from grader.run.run import Run
-from grader.run.variants import MALFORMED, Trace, answers, trace_from
+from grader.run.variants import MALFORMED, Trace, Watched, answers, trace_from
 from grader.sandbox.base import Sandbox
 
 MODULES = ("messages", "short_scene")
@@ -69,10 +69,14 @@ def run_scenes(
     *,
     seconds: float,
     traced: Sequence[str] = (),
+    conditions: Sequence[Watched] = (),
+    checked: bool = False,
 ) -> list[SceneRun | None]:
     """Return what each variant did; None for those that were not run in `seconds` of processor time.
 
-    A variant is the new texts of files by their paths; `traced` are the files that are followed.
+    A variant is the new texts of files by their paths; `traced` are the files that are followed, and
+    `conditions` those in them whose values are kept. A field that gets a value of another type
+    raises an exception if the fields are `checked`; otherwise ROS may end the process.
     """
     plan = scene.plan
     begin = plan.start[scene.start]
@@ -80,7 +84,8 @@ def run_scenes(
         "variants": [{module_name(path): text for path, text in one.items()} for one in variants],
         "watched": [None] * len(variants),
         "traced": list(traced),
-        "conditions": [],
+        "conditions": [*map(asdict, conditions)],
+        "checked": checked,
         "words": begin.words(scene.assignment.package, plain=True),
         "each": EACH_SECONDS,
         "lines": MOST_LINES,
@@ -101,7 +106,7 @@ def run_scenes(
         with suppress(*MALFORMED):
             one = json.loads(said)
             if isinstance(one["index"], int) and 0 <= one["index"] < len(found):
-                found[one["index"]] = _seen(one, scene, traced)
+                found[one["index"]] = _seen(one, scene, traced, conditions)
     return found
 
 
@@ -136,13 +141,13 @@ def _replayed(scene: Scene) -> list[dict[str, Any]]:
     ]
 
 
-def _seen(one: Any, scene: Scene, traced: Sequence[str]) -> SceneRun:
+def _seen(one: Any, scene: Scene, traced: Sequence[str], conditions: Sequence[Watched]) -> SceneRun:
     """Read what a variant did; raises an error of Python if it has another form."""
     seen, used = one["seen"], float(one["used"])
     if seen is None:
         return SceneRun(_run(scene, {}, "killed"), "killed", used)
     ended = str(seen["ended"])
-    trace = trace_from(seen, traced, []) if traced and seen["trace"] else None
+    trace = trace_from(seen, traced, conditions) if traced and seen["trace"] else None
     return SceneRun(_run(scene, seen["scene"], ended), ended, used, trace)
 
 
@@ -183,7 +188,7 @@ def _run(scene: Scene, said: Mapping[str, Any], ended: str) -> Run:
         place = (round(x, 6), round(y, 6), round(theta, 6))
         seen.path.append(Pose(str(turtle), at, *place, put=any(put)))
     seen.events = [{**event, "at": _at(event["at"])} for event in said.get("events", ())]
-    spins = bool(seen.instants) and ended not in ("killed", "hangs")
+    spins = bool(seen.instants) and ended != "killed"  # (time goes on only while it spins)
     names = [str(name) for name in said.get("nodes", ())]
     nodes = tuple(NodeSeen(name, True, True, True, True, spins, False) for name in names)
     watch = Watch(clock="virtual", events=list(_events(said)), settled=spins)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -101,7 +101,8 @@ class Trace:
 
     `logged` has for each line of the log the places of the call and the number of the timer whose
     callback it came from, -1 if from none. `stand` is where threads were at the end. `values`
-    are those that pieces of code had first in a line.
+    are those that pieces of code had first in a line, `ranges` the least and the greatest of
+    numbers, `kinds` the different values that are none.
     """
 
     ended: str
@@ -113,6 +114,8 @@ class Trace:
     callbacks: tuple[TracedCallback, ...] = ()
     done: tuple[TracedDone, ...] = ()
     raised: tuple[str, tuple[Place, ...]] | None = None
+    ranges: Mapping[Place, Mapping[str, tuple[float, float]]] = field(default_factory=dict)
+    kinds: Mapping[Place, Mapping[str, tuple[str, ...]]] = field(default_factory=dict)
 
     def count(self, path: str, line: int) -> int:
         """Return how often a line ran."""
@@ -278,6 +281,20 @@ def trace_from(seen: Any, files: Sequence[str], conditions: Sequence[Watched]) -
         tuple(callbacks),
         tuple(done),
         (str(raised["text"]), places(raised["places"])) if raised else None,
+        {
+            (one.file, one.first): {
+                code: (float(each[0]), float(each[1]))
+                for code, each in zip(one.code, ranges)
+                if each
+            }
+            for one, ranges in zip(conditions, found["ranges"])
+        },
+        {
+            (one.file, one.first): {
+                code: tuple(map(str, each)) for code, each in zip(one.code, kinds) if each
+            }
+            for one, kinds in zip(conditions, found["kinds"])
+        },
     )
 
 

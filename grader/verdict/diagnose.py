@@ -16,7 +16,6 @@ from grader.course.assignment import OWN
 from grader.mistakes.catalogue import CATALOGUE, RANK
 from grader.mistakes.recognise import SYMPTOMS, behind_error, behind_symptom
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
-from grader.mistakes.whole_block import rest_of_block
 from grader.package.source.module import Module
 from grader.package.source.names import SPINS, calls_in, last_part, misnamed_init
 from grader.package.source.place import place_of, statement_at
@@ -29,7 +28,6 @@ from grader.verdict.circular import circular_import
 from grader.verdict.follows import followed
 from grader.verdict.node_files import source_around, source_of_node
 from grader.verdict.node_words import words_for
-from grader.verdict.other_version import other_version
 from grader.verdict.outcome import Failed
 from grader.verdict.own_modules import own_module
 from grader.verdict.run_facts import fact_of_run
@@ -129,7 +127,7 @@ def diagnose(
     except RecursionError:  # (a hostile source; the check's own diagnosis is kept)
         found = None
     if found is not None:
-        _explain(diagnosis, found, source_around(evidence, found.where))
+        _explain(diagnosis, found)
     elif symptom in RAISES:
         _say_where(diagnosis, failed, evidence)
     elif follows := failed.follows or _not_spun(symptom, evidence):
@@ -149,7 +147,7 @@ def _because(
     diagnosis: Diagnosis, fact: RecognisedMistake, evidence: Evidence, *, of_fact: bool
 ) -> Diagnosis:
     """Return the diagnosis of what a fact of the run explains, or a change, with that in front."""
-    _explain(diagnosis, fact, source_around(evidence, fact.where))
+    _explain(diagnosis, fact)
     _show_line(diagnosis, evidence)
     diagnosis.consequence_of, diagnosis.of_fact = _same_root(diagnosis, evidence), of_fact
     return diagnosis
@@ -199,9 +197,6 @@ def _root(
     given = source.name_given or source.created_node
     if symptom == "run.wrong_node_name" and given is not None:
         diagnosis.where = place_of(source, given)
-    other = other_version(symptom, source, evidence)
-    if other is not None and other.kind not in without:
-        return other
     text = str(diagnosis.mistakes[0].params.get("text", ""))
     lines = tuple(event.text for event in evidence.run.watch.counted)
     said = evidence.run.transcript
@@ -263,29 +258,22 @@ def _not_installed(error: str, evidence: Evidence) -> RecognisedMistake | None:
 def _no_init(package: str, init: str, evidence: Evidence) -> RecognisedMistake:
     """Return that there is no __init__.py, with the file that has nearly this name."""
     close = misnamed_init(names_in(evidence, package))
-    there, ending = f"{package}/{shown(close)}", close.removeprefix("__init__.py")
-    variant = "misnamed" if close else ""
-    if close.strip() != close:
-        variant = "blank"
-    elif ending.startswith(".") and ending != close:
-        variant = "ending"
+    there, variant = f"{package}/{shown(close)}", "misnamed" if close else ""
     return RecognisedMistake(
         kind="source.no_init_file",
         params={"there": there} if close else {},
-        words={"path": init, "there": shlex.quote(there), "form": ending},
+        words={"path": init, "there": shlex.quote(there)},
         variant=variant,
         where=Where(file=there if close else init),
     )
 
 
-def _explain(diagnosis: Diagnosis, found: RecognisedMistake, source: NodeSource | None) -> None:
+def _explain(diagnosis: Diagnosis, found: RecognisedMistake) -> None:
     """Use the texts of the root cause's catalogue entry."""
     kind = CATALOGUE[found.kind]
     values = {**found.params, **found.words}
     diagnosis.rationale = kind.rationale(values, found.variant)
     diagnosis.fix = kind.fix_text(values, found.variant)
-    if found.variant in kind.deletes:
-        diagnosis.fix = joined(diagnosis.fix, rest_of_block(source, found.where), by=" ")
     diagnosis.mistakes.insert(0, Mistake(id=found.kind, params=dict(found.params)))
     if found.where is not None and (found.where.line or diagnosis.where is None):
         diagnosis.where = found.where

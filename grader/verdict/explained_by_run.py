@@ -24,7 +24,7 @@ from grader.verdict.trial import Trial, root_of
 KIND = "node.change_helps"
 MOST_CONFIRMED = 2
 """The most changes of one check that are built and run."""
-CLEAR = ("topic.wrong_period", "topic.int_in_float", "service.no_answer", "log.wrong_level")
+CLEAR = ("topic.wrong_period", "topic.int_in_float", "log.wrong_level")
 """What was seen that has one cause, which its text names."""
 OF_OTHERS = ("foreign_sender", "foreign_server", "foreign_client", "only_when_marked")
 """What no change of a line corrects: another node does it, or the node does it only for the grader."""
@@ -52,7 +52,7 @@ def with_change_of_run(
         new = change.of(Files.of(evidence.submission))
         if Trial(result, evidence, translate).helps(new, on_top=0).helps:
             return _with(change, result, evidence, translate, fact)
-    return _with_fact(result, fact, evidence, translate) if fact is not None else result
+    return with_fact(result, fact, evidence, translate) if fact is not None else result
 
 
 def says_the_cause(result: CheckResult) -> bool:
@@ -67,18 +67,21 @@ def _is_at(step: Step, where: Where | None) -> bool:
     return where is None or (step.path == where.file and where.line in (None, step.line))
 
 
-def _with_fact(
+def with_fact(
     result: CheckResult, fact: Fact, evidence: Evidence, translate: Translator
 ) -> CheckResult:
     """Return the result with what a fact explains, unless a mistake behind it is known."""
     rule, values = BY_ID[fact.rule], fact.values
-    if says_the_cause(result):
-        return result
     where = Where(file=fact.path, line=fact.line)
+    if says_the_cause(result):
+        has_line = result.where is None or result.where.line is not None
+        return result if has_line else result.model_copy(update={"where": where})
     mistake = Mistake(id=rule.mistake, params={"line": fact.line})
-    for other in evidence.results.values():
-        if other.status == "failed" and mistake in other.mistakes and other.where == where:
-            return result
+    alike = [
+        other.id
+        for other in evidence.results.values()
+        if other.status == "failed" and mistake in other.mistakes and other.where == where
+    ]
     code = line_at(evidence, where)
     line = say("line {line}: {code}", line=fact.line, code=shown(code))
     actual = result.actual.partition("\n")[0]
@@ -88,6 +91,7 @@ def _with_fact(
         "where": where,
         "actual": "\n".join([actual, translate(Message(rule.title)), translate(line)]),
         "mistakes": [mistake, *result.mistakes],
+        "consequence_of": alike[0] if alike else "",
     }
     return result.model_copy(update=update)
 

@@ -12,28 +12,8 @@ from grader.run.variants import Values
 NEARLY, WHOLE = 8, 9
 """How far a node gets that counts, and that counts in the right period without a sleep."""
 FAR = 2  # lines, from which a change is of another place
-BY_RULE = (
-    *("returned", "falsy", "inexact", "unit", "field"),
-    *("bits", "power", "digits"),
-)
-"""The sorts of changes for each of which one rule of Python is the reason."""
-OWN_REASON = (
-    *("emptied", "moved_lines", "renamed", "out", "condition", "loop", "with", "else"),
-    *("word", *BY_RULE),
-)
-"""The sorts of changes that only their own reason explains."""
-CERTAIN = (
-    *("called", "not_called", "argument", "unkept", "gives_itself", "before_spin"),
-    *BY_RULE,
-)
-"""The sorts of changes that hardly help by chance: a rule of Python is their reason."""
-CAUTIOUS = ("deleted", "emptied", "loop", "condition", "word")
-"""The sorts of changes that show a place, but can take away what the program is meant to do."""
-MOVED = ("moved", "moved_down", "before_spin")
 ELSEWHERE = 10**6
 """The distance of a change in another file."""
-
-
 SHORT = 2
 """What each step that a node does not get further is worth, in costs of a change."""
 
@@ -54,7 +34,6 @@ class Step:
     line: int
     name: str
     written: str
-    form: str = ""
 
 
 @dataclass(frozen=True)
@@ -63,7 +42,8 @@ class FoundChange:
 
     `level` is how far the node gets with it. If it does not count, the text of its lines is right.
     `values` are code and the values that it has first at the place of the change, without it. It only
-    `shows` a place if it could take away what the program is meant to do.
+    `shows` a place if it could take away what the program is meant to do. It is `certain` if it hardly
+    helps by chance.
     """
 
     steps: tuple[Step, ...]
@@ -72,6 +52,7 @@ class FoundChange:
     level: int = WHOLE
     values: Values = ()
     shows: bool = False
+    certain: bool = False
 
     @property
     def counts(self) -> bool:
@@ -90,27 +71,26 @@ class FoundChange:
         return files
 
     def distance(self, where: Where | None) -> int:
-        """Return how many lines its first change is from a place: what is moved, or where to."""
+        """Return how many lines its first change is from a place."""
         step = self.steps[0]
         if where is None or where.file != step.path or not where.line:
             return ELSEWHERE
-        lines = [step.line, *([int(step.form)] if step.sort in MOVED else [])]
-        return min(abs(line - where.line) for line in lines)
+        return abs(step.line - where.line)
 
     @property
     def is_simple(self) -> bool:
         """Whether another diagnosis of its line can explain it, or none is needed."""
-        return self.counts and len(self.steps) == 1 and self.steps[0].sort not in OWN_REASON
+        return self.counts and len(self.steps) == 1 and not self.shows
 
     @property
     def is_cautious(self) -> bool:
         """Whether it only shows where the mistake is: another change may be meant."""
-        return len(self.steps) == 1 and self.steps[0].sort in CAUTIOUS
+        return len(self.steps) == 1 and self.shows
 
     @property
     def is_certain(self) -> bool:
         """Whether it shows by itself where the mistake is, whatever a diagnosis says."""
-        return self.level == WHOLE and len(self.steps) == 1 and self.steps[0].sort in CERTAIN
+        return self.level == WHOLE and len(self.steps) == 1 and self.certain
 
 
 @dataclass(frozen=True)

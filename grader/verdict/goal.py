@@ -8,28 +8,30 @@ come first.
 from __future__ import annotations
 
 import copy
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from grader.change.operator import Made, Operator, Site, Wanted, all_made
-from grader.change.table import TABLE
+from grader.change.operator import Wanted
+from grader.change.table import Candidate, candidates
 from grader.course.assignment import Assignment, CheckUse
 from grader.explain.facts import Facts
-from grader.explain.rules import explained
 from grader.package.source.node import NodeSource, read_node
 from grader.report.model import CheckResult
 from grader.run.observations import OURS
 from grader.run.run import Run
-from grader.run.scenes import Scene, SceneRun, run_scenes
+from grader.run.scenes import STUCK, Scene, SceneRun, run_scenes
+from grader.run.variants import Watched
 from grader.sandbox.base import Sandbox
 from grader.verdict.checks.actual_node import actual_path
 from grader.verdict.checks.all import CHECKS
 from grader.verdict.checks.declare import STARTED
 from grader.verdict.checks.parsed import data_of
 from grader.verdict.evidence import Evidence
-from grader.verdict.found_change import Fact, FoundChange, Sought, Step
+from grader.verdict.follow import conditions_of, fact_of
+from grader.verdict.found_change import FoundChange, Sought, Step
 from grader.verdict.of_node import NodeEvidence, views
 from grader.verdict.outcome import Failed, Passed
 
@@ -46,17 +48,10 @@ MOST_RUNS = 80
 BATCHES = (20, 60)
 """How many changes are run together: the best ones first."""
 MOST_FOUND = 3
+ALIKE = 5
+"""After how many changes of one operator the next one costs one more."""
 FAR = 3
 """What a change costs more at a place that has nothing to do with what failed."""
-
-
-@dataclass(frozen=True)
-class _Candidate:
-    row: Operator
-    made: Made
-    path: str
-    text: str
-    cost: int
 
 
 class Seeker:
@@ -78,11 +73,23 @@ class Seeker:
         search = _Search.of(self, evidence, result)
         return search.found(result) if search is not None else Sought()
 
-    def follow(self, scene: Scene, files: Sequence[str]) -> SceneRun | None:
+    def follow(self, scene: Scene, source: NodeSource) -> SceneRun | None:
         """Return the followed run of a node as it is; it is made once."""
         key = (scene.plan.name, scene.assignment.node_file, scene.start)
         if key not in self._followed:
-            (run,) = self.run(scene, [{}], FOLLOWED_SECONDS, traced=files)
+            files = [module.path for module in source.known_modules]
+            conditions = conditions_of(source)
+            for checked in (False, True):
+                (run,) = self.run(
+                    scene,
+                    [{}],
+                    FOLLOWED_SECONDS,
+                    traced=files,
+                    conditions=conditions,
+                    checked=checked,
+                )
+                if run is None or run.ended != "killed":
+                    break
             self._followed[key] = run
         return self._followed[key]
 
@@ -93,12 +100,22 @@ class Seeker:
         seconds: float,
         *,
         traced: Sequence[str] = (),
+        conditions: Sequence[Watched] = (),
+        checked: bool = False,
     ) -> list[SceneRun | None]:
         """Run variants of a scene; what they take is no longer left."""
         seconds = min(seconds, self.left)
         if seconds <= 0 or not variants:
             return [None] * len(variants)
-        runs = run_scenes(self._sandbox, scene, variants, seconds=seconds, traced=traced)
+        runs = run_scenes(
+            self._sandbox,
+            scene,
+            variants,
+            seconds=seconds,
+            traced=traced,
+            conditions=conditions,
+            checked=checked,
+        )
         self.left -= sum(run.used for run in runs if run is not None)
         return runs
 
@@ -134,12 +151,12 @@ class _Search:
 
     def found(self, result: CheckResult) -> Sought:
         """Follow the node, and look for changes."""
-        files = [module.path for module in self._source.known_modules]
-        base = self._seeker.follow(self._scene, files)
+        base = self._seeker.follow(self._scene, self._source)
         if base is None or base.trace is None:
             return Sought()
         statuses = self._judge.statuses({self._plan.name: base.run})
-        if statuses.get(self._use.id) != "failed":
+        status = statuses.get(self._use.id)
+        if status != "failed" and not (status == "skipped" and base.ended in STUCK):
             return Sought()  # (what is wrong does not show in a short run)
         facts = Facts(self._source, base.trace, base.run, self._use)
         seen = result.mistakes[-1] if result.mistakes else None
@@ -147,16 +164,16 @@ class _Search:
         facts.wanted = result.expected.partition(": ")[2]
         good, runs = self._that_help(self._candidates(facts), statuses)
         good.sort(key=lambda pair: (pair[1].row.shows, pair[0], pair[1].cost))
-        best = [one for left, one in good if left == good[0][0]]
+        best = _copies_first([one for left, one in good if left == good[0][0]])
         kept = self._with_other_values(best[: 2 * MOST_FOUND])
         fact = fact_of(facts, seen.id) if seen is not None else None
         return Sought(fact, tuple(map(_found, kept[:MOST_FOUND])), runs)
 
     def _that_help(
-        self, made: Sequence[_Candidate], statuses: Mapping[str, str]
-    ) -> tuple[list[tuple[int, _Candidate]], int]:
+        self, made: Sequence[Candidate], statuses: Mapping[str, str]
+    ) -> tuple[list[tuple[int, Candidate]], int]:
         """Return the changes with which the check passes, with the failures that are left; and the runs."""
-        good: list[tuple[int, _Candidate]] = []
+        good: list[tuple[int, Candidate]] = []
         count = 0
         for batch in _batches(made[:MOST_RUNS]):
             runs = self._seeker.run(self._scene, [{one.path: one.text} for one in batch], SECONDS)
@@ -165,7 +182,8 @@ class _Search:
                 now = self._judge.statuses({self._plan.name: run.run}) if run is not None else {}
                 if now and self._is_better(statuses, now):
                     left = sum(status == "failed" for status in now.values())
-                    by_chance = one.row.hides and _new_failures(statuses, now)
+                    may_hide = one.row.hides or self._use.kind in LIVES
+                    by_chance = may_hide and _new_failures(statuses, now)
                     good += [] if by_chance else [(left, one)]
             if any(not left and not one.row.shows for left, one in good):
                 break
@@ -176,16 +194,14 @@ class _Search:
         worse = any(now[one] == "failed" for one, was in before.items() if was == "passed")
         return now.get(self._use.id) == "passed" and not worse
 
-    def _candidates(self, facts: Facts) -> list[_Candidate]:
-        wanted, found = wanted_of(self._use, self._whole.asked), []
-        for module in self._source.known_modules:
-            for row, made, text in all_made(Site(module, wanted), TABLE):
-                near = facts.distance(module.path, made.at.lineno, made.at.end_lineno)
-                cost = row.cost + made.more + min(near, FAR)
-                found.append(_Candidate(row, made, module.path, text, cost))
-        return sorted(found, key=lambda one: one.cost)
+    def _candidates(self, facts: Facts) -> list[Candidate]:
+        found = candidates(self._source, wanted_of(self._use, self._whole.asked))
+        for at, one in enumerate(found):
+            near = facts.distance(one.path, one.made.at.lineno, one.made.at.end_lineno)
+            found[at] = replace(one, cost=one.cost + min(near, FAR))
+        return _mixed(found)
 
-    def _with_other_values(self, good: list[_Candidate]) -> list[_Candidate]:
+    def _with_other_values(self, good: list[Candidate]) -> list[Candidate]:
         """Return the changes that help with other drawn values too: the rest fits these by chance."""
         other = other_drawn(self._view.assignment)
         if other is None or not good:
@@ -201,16 +217,31 @@ class _Search:
         return kept
 
 
-def fact_of(facts: Facts, symptom: str) -> Fact | None:
-    """Return what the facts explain of a symptom; None if that is nothing."""
-    told = explained(facts, symptom)
-    if told is None:
-        return None
-    rule, (place, values) = told
-    plain = {
-        name: str(value) if isinstance(value, str) else value for name, value in values.items()
-    }
-    return Fact(rule.id, *place, plain)
+def _mixed(found: list[Candidate]) -> list[Candidate]:
+    """Return the changes with the cheapest first, and those of one operator not all in a row.
+
+    A program with many numbers has dozens of changes of numbers, and the time is for some dozens.
+    """
+    seen: Counter[str] = Counter()
+    ranked = []
+    for n, one in enumerate(sorted(found, key=lambda one: one.cost)):
+        ranked.append((one.cost + seen[one.row.sort] / ALIKE, n, one))
+        seen[one.row.sort] += 1
+    return [one for _, _, one in sorted(ranked, key=lambda each: each[:2])]
+
+
+def _copies_first(good: list[Candidate]) -> list[Candidate]:
+    """Return the changes with the last of those first that are the best one in another line.
+
+    Of two lines that are alike, the later one is the copy that was not adapted.
+    """
+    alike = [
+        one
+        for one in good
+        if (one.row, one.made.name, one.made.written, one.cost)
+        == (good[0].row, good[0].made.name, good[0].made.written, good[0].cost)
+    ]
+    return [alike[-1], *(one for one in good if one is not alike[-1])] if alike else good
 
 
 def _new_failures(before: Mapping[str, str], now: Mapping[str, str]) -> int:
@@ -218,7 +249,7 @@ def _new_failures(before: Mapping[str, str], now: Mapping[str, str]) -> int:
     return sum(now[one] == "failed" and was != "failed" for one, was in before.items())
 
 
-def _batches(made: Sequence[_Candidate]) -> Iterator[Sequence[_Candidate]]:
+def _batches(made: Sequence[Candidate]) -> Iterator[Sequence[Candidate]]:
     """Yield the changes in groups: if one of the first helps, the others are not run."""
     first = 0
     for size in BATCHES:
@@ -338,11 +369,20 @@ def wanted_of(use: CheckUse, assignment: Assignment) -> Wanted:
         uses += [one for one in other.checks if one.id == use.id]
     kept = [_wanted(one.with_) for one in uses]
     first = kept[0]
+    numbers = [n for n in first.numbers if all(n in one.numbers for one in kept)]
     return Wanted(
-        tuple(n for n in first.numbers if all(n in one.numbers for one in kept)),
+        (*numbers, *_periods(use, assignment)),
         tuple(dict.fromkeys(first.texts)),
         tuple(f for f in first.fields if all(f in one.fields for one in kept)),
     )
+
+
+def _periods(use: CheckUse, assignment: Assignment) -> list[float]:
+    """Return the periods (s) that any check asks for on the same topic."""
+    topic = use.with_.get("topic")
+    alike = [one.with_ for one in assignment.checks if topic and one.with_.get("topic") == topic]
+    found = [with_.get("period") for with_ in alike]
+    return [float(one) for one in found if isinstance(one, int | float)]
 
 
 def _wanted(given: Mapping[str, Any]) -> Wanted:
@@ -375,11 +415,13 @@ def _wanted(given: Mapping[str, Any]) -> Wanted:
     return Wanted(tuple(numbers), tuple(texts), tuple(fields))
 
 
-def _found(one: _Candidate) -> FoundChange:
+def _found(one: Candidate) -> FoundChange:
     step = Step(
         one.row.sort, one.path, one.made.at.lineno, _flat(one.made.name), _flat(one.made.written)
     )
-    return FoundChange((step,), {one.path: one.text}, one.cost, shows=one.row.shows)
+    return FoundChange(
+        (step,), {one.path: one.text}, one.cost, shows=one.row.shows, certain=one.row.certain
+    )
 
 
 def _flat(code: str) -> str:

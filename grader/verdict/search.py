@@ -14,14 +14,14 @@ from itertools import islice, pairwise
 
 from grader.base.i18n.message import Message, joined, say
 from grader.base.shown import shown
+from grader.change.operator import Wanted
+from grader.change.table import Candidate, candidates
 from grader.course.assignment import Assignment, Output
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.recognised import RecognisedMistake
 from grader.package.source.names import module_name, named_in
 from grader.package.source.node import NodeSource, read_node
 from grader.package.source.place import last_row, statement_of
-from grader.package.source.small_changes import SmallChange, small_changes
-from grader.package.source.small_values import Goal
 from grader.report.model import Where
 from grader.run.observer import number_reader
 from grader.run.variants import ShortRun, Values, Watched, run_variants
@@ -29,17 +29,9 @@ from grader.sandbox.base import Sandbox
 from grader.verdict.checks.actual_node import actual_path
 from grader.verdict.checks.parsed import data_of
 from grader.verdict.evidence import Evidence, Search
-from grader.verdict.found_change import (
-    CERTAIN,
-    NEARLY,
-    OWN_REASON,
-    WHOLE,
-    FoundChange,
-    Step,
-    rank_of,
-)
+from grader.verdict.found_change import NEARLY, WHOLE, FoundChange, Step, rank_of
 
-KIND, FIRST = "node.small_change", "node.one_of_two"
+KIND, FIRST = "node.change_helps", "node.one_of_two"
 SECONDS = 20.0
 """The most processor time for all changes, and again for two changes together."""
 LEAST_SECONDS = 40.0
@@ -56,8 +48,8 @@ LEAST_LINES = 6
 ENOUGH_LINES = 10
 """The lines, each at another instant, after which a node that is too slow for a short run counts too."""
 LONGEST = 90  # characters of a piece of code that a text shows
-OF_PERIOD = ("seconds", "unit")
-"""The sorts of changes that give another period: they have to give the right one."""
+OF_NUMBERS = ("number", "digits")
+"""The sorts of changes that can give another period: they have to give the right one."""
 TEXT, STEP = 5, 6
 """How far a node gets that logs the right text, and that has the right step but not the start."""
 
@@ -88,8 +80,18 @@ class _Tried:
     cost: int
     level: int
     ended: str
-    slept: bool = False
-    last: SmallChange | None = None
+    last: Candidate | None = None
+
+    @property
+    def counts(self) -> bool:
+        """Whether the node counts, in the right period if the change could have given another."""
+        of_number = bool(self.steps) and self.steps[-1].sort in OF_NUMBERS
+        return self.level >= (WHOLE if of_number else NEARLY)
+
+    @property
+    def shows(self) -> bool:
+        """Whether one of the changes could take away what the program is meant to do."""
+        return self.last is not None and self.last.row.shows
 
 
 class _Search:
@@ -107,28 +109,34 @@ class _Search:
         self._function = assignment.function
         self._source = source
         self._read = read
-        before, after = assignment.output.text.split("{n}")
         output = assignment.output
-        self._goal = Goal(before, after, output.start, output.step, output.period)
+        texts = (*output.text.split("{n}"), assignment.node_name)
+        numbers = (output.period, output.start, output.step)
+        self._wanted = Wanted(numbers, tuple(filter(None, texts)))
 
     def found(self) -> list[FoundChange]:
         """Return the changes that help, the smallest first."""
-        first = [self._step(change) for change in small_changes(self._source, self._goal)]
+        first = [self._step(change) for change in candidates(self._source, self._wanted)]
         base, *tried = self._run([_Tried((), {}, 0, 0, ""), *first])
         if base.level >= WHOLE:
             return []  # (what is wrong does not show in so short a run)
-        good = [one for one in tried if one.level >= NEARLY and one.level > base.level]
-        good = [one for one in good if one.level == WHOLE or one.steps[-1].sort not in OF_PERIOD]
+        good = [one for one in tried if one.level > base.level and one.counts]
         if not good:
             good = self._twice(base, tried)
         if not good and base.level < TEXT:
-            good = [
-                one for one in tried if one.level in (TEXT, STEP) and one.steps[0].sort == "value"
-            ]
+            good = [one for one in tried if one.level in (TEXT, STEP) and not one.shows]
         good.sort(key=lambda one: rank_of(one.level, one.cost))
         kept = self._without_skipped_blocks(good[:MOST_FOUND])
         return [
-            FoundChange(_told(one, base), one.texts, one.cost, one.level, seen)
+            FoundChange(
+                one.steps,
+                one.texts,
+                one.cost,
+                one.level,
+                seen,
+                shows=one.shows,
+                certain=one.last is not None and one.last.row.certain,
+            )
             for one, seen in zip(kept, self._values(kept))
         ]
 
@@ -180,32 +188,26 @@ class _Search:
             read = partial(self._changed, one.texts)
             source = read_node(read, self._source.entry.path, self._function)
             if source is not None:
-                changes = small_changes(source, self._goal)[:MOST_SECOND]
+                changes = candidates(source, self._wanted)[:MOST_SECOND]
                 pairs += [self._step(change, one) for change in changes]
         return [one for one in self._run(pairs) if one.level >= NEARLY]
 
     def _changed(self, texts: Mapping[str, str], path: str) -> bytes | None:
         return texts[path].encode() if path in texts else self._read(path)
 
-    def _step(self, found: SmallChange, before: _Tried | None = None) -> _Tried:
+    def _step(self, found: Candidate, before: _Tried | None = None) -> _Tried:
         steps, texts, cost = (before.steps, before.texts, before.cost) if before else ((), {}, 0)
-        change = found.change
-        step = Step(
-            change.sort,
-            found.path,
-            found.line,
-            one_line(change.name).removesuffix(":"),
-            one_line(change.written).removesuffix(":"),
-            one_line(change.form).removesuffix(":"),
-        )
+        made = found.made
+        name, written = (one_line(code).removesuffix(":") for code in (made.name, made.written))
+        step = Step(found.row.sort, found.path, made.at.lineno, name, written)
         new = {**texts, found.path: found.text}
-        return _Tried((*steps, step), new, cost + found.cost, 0, "", last=found)
+        return _Tried((*steps, step), new, cost + found.cost, 0, "", found)
 
     def _run(self, tried: Sequence[_Tried]) -> list[_Tried]:
         """Return the changes that were run, with how far the node gets."""
         texts = [_by_module(one.texts) for one in tried]
         return [
-            replace(one, level=level(run, self._output), ended=run.ended, slept=run.slept)
+            replace(one, level=level(run, self._output), ended=run.ended)
             for one, run in zip(tried, self._variants(texts))
             if run is not None
         ]
@@ -230,12 +232,12 @@ def _by_module(texts: Mapping[str, str]) -> dict[str, str]:
     return {module_name(path): text for path, text in texts.items()}
 
 
-def block_of(found: SmallChange) -> Watched | None:
+def block_of(found: Candidate) -> Watched | None:
     """Return the lines of the loop or condition whose head a change is in; None if there is none.
 
     A condition that only leaves the function or the loop is none.
     """
-    at = found.change.at
+    at = found.made.at
     for inner, outer in pairwise((at, *found.module.around(at))):
         heads = (getattr(outer, "test", None), getattr(outer, "iter", None))
         if isinstance(outer, ast.While | ast.For | ast.If) and inner in heads:
@@ -249,12 +251,13 @@ def block_of(found: SmallChange) -> Watched | None:
     return None
 
 
-def watched_at(found: SmallChange) -> Watched:
+def watched_at(found: Candidate) -> Watched:
     """Return the code whose values show what a change does: names in it, itself, and the new code."""
-    module, at = found.module, found.change.at
+    module, made = found.module, found.made
+    at = made.at
     statement = statement_of(module, at)
     names = [module.text.code(n) for n in named_in(at)] if isinstance(at, ast.expr) else []
-    code = [c for c in (*names, found.change.name, found.change.written) if not _is_literal(c)]
+    code = [c for c in (*names, made.name, made.written) if not _is_literal(c)]
     return Watched(found.path, statement.lineno, last_row(statement), tuple(dict.fromkeys(code)))
 
 
@@ -264,14 +267,6 @@ def _is_literal(code: str) -> bool:
     except (ValueError, SyntaxError):
         return False
     return True
-
-
-def _told(tried: _Tried, base: _Tried) -> tuple[Step, ...]:
-    """Return the steps of a change; a line without which the node does not sleep is told as that."""
-    last = tried.steps[-1]
-    if base.slept and not tried.slept and last.sort == "deleted":
-        return (*tried.steps[:-1], replace(last, sort="slept"))
-    return tried.steps
 
 
 def level(run: ShortRun, output: Output) -> int:
@@ -300,7 +295,6 @@ def recognised(change: FoundChange) -> RecognisedMistake:
     return RecognisedMistake(
         kind=KIND if change.counts else FIRST,
         params={"name": step.name, "written": step.written},
-        words={"form": step.form},
         variant="several" if len(change.steps) > 1 and change.counts else _variant(step),
         where=Where(file=step.path, line=step.line),
     )
@@ -310,7 +304,7 @@ def fix_text(change: FoundChange, where: Where | None) -> Message | str:
     """Return what to do, for one change or two; lines are named unless the place is shown."""
     texts: list[Message | str] = []
     for step in change.steps:
-        values = {"name": step.name, "written": step.written, "form": step.form}
+        values = {"name": step.name, "written": step.written}
         kind = CATALOGUE[KIND if change.counts else FIRST]
         text = kind.fix_text(values, _variant(step))
         here = where is not None and where.line == step.line and len(change.steps) == 1
@@ -321,7 +315,7 @@ def fix_text(change: FoundChange, where: Where | None) -> Message | str:
 def value_texts(change: FoundChange) -> list[Message]:
     """Return what the code of a change was when the grader ran the node without the change."""
     step, *more = change.steps
-    if more or step.sort in (*OWN_REASON, *CERTAIN):
+    if more or change.shows or change.certain:
         return []
     known = dict(change.values)
     if known.get(step.name) == known.get(step.written, ()):
@@ -357,7 +351,7 @@ def values_seen(found: Iterable[tuple[str, Sequence[str]]]) -> list[Message]:
 
 
 def _variant(step: Step) -> str:
-    long = max(len(step.name), len(step.written), len(step.form)) > LONGEST
+    long = max(len(step.name), len(step.written)) > LONGEST
     return "long" if long else step.sort
 
 

@@ -20,11 +20,11 @@ from grader.report.model import CheckResult, Mistake
 from grader.verdict.checks.all import STATIC
 from grader.verdict.evaluate import evaluate_again
 from grader.verdict.evidence import Evidence
-from grader.verdict.explained_by_run import with_change_of_run
+from grader.verdict.explained_by_run import with_change_of_run, with_fact
 from grader.verdict.fix import fixes_of, patch_text
-from grader.verdict.fix_text import matching_text, without_change
+from grader.verdict.follow import fact_behind
 from grader.verdict.found_change import FAR, FoundChange
-from grader.verdict.search import KIND, fix_text, recognised, value_texts, values_seen
+from grader.verdict.search import KIND, fix_text, recognised, value_texts
 from grader.verdict.trial import RUNS, Trial, Tried, root_of
 
 MOST_ALTERNATIVES = 2
@@ -35,8 +35,8 @@ VAGUE = {
     *("run.wrong_period", "run.never_spins"),
 }
 """What was seen that has many causes: its text alone helps little."""
-CAUSED_ELSEWHERE = ("node.text_not_a_number", "node.severity_changed")
-"""The mistakes of a line whose cause is a value from another one: a change of the line hides it."""
+CAUSED_ELSEWHERE = ("node.severity_changed",)
+"""Mistakes of a line whose cause is a value from another one: a change of the line hides it."""
 FURTHER = say("The change also corrects what would fail next.")
 SLIGHT = 2
 """The highest cost of a change of a mistake's own line that a certain change elsewhere does not replace."""
@@ -70,15 +70,8 @@ def _with_followed(
     """Return the result with what a followed run shows; None if that is nothing."""
     if evidence.with_fix is None or evidence.follow is None:
         return None
-    from grader.verdict.follow import followed  # noqa: PLC0415 - few packages need it
-
-    for mistake in result.mistakes:
-        shows = followed(evidence, mistake.id)
-        if shows is not None:
-            now = evaluate_again(result.id, evidence, translate, found=shows[0])
-            texts = [] if now.consequence_of else values_seen(shows[1])
-            return now.model_copy(update={"advice": [*now.advice, *map(translate, texts)]})
-    return None
+    fact = fact_behind(evidence, result)
+    return with_fact(result, fact, evidence, translate) if fact is not None else None
 
 
 def _needs_more(found: CheckResult, translate: Translator) -> bool:
@@ -179,7 +172,7 @@ def _speaks_of(root: Mistake, change: FoundChange) -> bool:
     given = {str(value) for value in root.params.values()}
     told = _names(" ".join(given))
     return any(
-        str(step.line) in given or told & _names(f"{step.name} {step.written} {step.form}")
+        str(step.line) in given or told & _names(f"{step.name} {step.written}")
         for step in change.steps
     )
 
@@ -218,6 +211,18 @@ def _with_known_fix(result: CheckResult, evidence: Evidence, translate: Translat
             return result if without else without_change(result, translate)
         without.add(root.id)
         result = evaluate_again(result.id, evidence, translate, without=without)
+
+
+def without_change(result: CheckResult, translate: Translator) -> CheckResult:
+    """Return the result of what was only seen, whose usual fix does not help: its text asks for it."""
+    if not any(mistake.id.startswith("run.") for mistake in result.mistakes):
+        return result
+    follow = say(
+        "The usual change for this was tried, and the check still fails with it. Follow the program step "
+        "by step to the line that logs: log the values that each step uses, and compare them with what "
+        "you expect."
+    )
+    return result.model_copy(update={"fix": translate(follow)})
 
 
 def _other_cause(
@@ -260,6 +265,6 @@ def _with_change(
 ) -> CheckResult:
     """Return a result with its fix, and with those that the check needs after it, if that is known."""
     rest = [FURTHER, *tried.later] if tried.files is not new and not result.consequence_of else []
-    patch, fix = patch_text(old, tried.files), matching_text(result, old, new, translate)
-    update = {"patch": patch, "fix": fix, "advice": [*result.advice, *map(translate, rest)]}
+    patch, advice = patch_text(old, tried.files), [*result.advice, *map(translate, rest)]
+    update = {"patch": patch, "advice": advice}
     return result.model_copy(update=update)

@@ -15,11 +15,10 @@ from grader.base.nearest import nearest
 from grader.mistakes.catalogue import CATALOGUE
 from grader.mistakes.recognise import behind_error, behind_symptom
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
-from grader.mistakes.scope import NODE_METHODS
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part, own_name
-from grader.package.source.node import NodeSource
+from grader.package.source.node import NODE_METHODS, NodeSource
 from grader.package.source.place import place_of
 from grader.package.source.sure_errors import sure_error
 from grader.report.model import Where
@@ -29,10 +28,9 @@ from lab.guide.state import StudentState
 
 UNSURE = frozenset(
     {
-        "node.adds_before_log",
-        *("node.error_hidden", "node.spin_once", "node.spin_missing", "node.sleep_loop"),
-        *("node.log_missing", "node.timer_missing", "node.time_for_count"),
-        *("node.debug_level", "node.log_option", "node.print_used", "node.starts_elsewhere"),
+        *("node.error_hidden", "node.spin_missing", "node.sleep_loop", "node.waits_inside"),
+        *("node.log_missing", "node.timer_missing"),
+        *("node.debug_level", "node.print_used"),
     }
 )
 """Kinds that right programs have too: only a run shows whether they are mistakes."""

@@ -18,7 +18,7 @@ BY_NAME = {package.name: package for package in BROKEN}
 
 @pytest.mark.parametrize(
     "name",
-    ["text_capital", "comma_missing", "printed"],
+    ["period_half", "comma_missing", "printed"],
 )
 def test_the_fix_in_a_report_makes_the_failed_check_pass(name: str, tmp_path: Path) -> None:
     handed_in = write(BY_NAME[name], tmp_path)

@@ -11,6 +11,7 @@ import pytest
 
 from grader.base.i18n.translator import Translator
 from grader.base.unheard import unheard
+from grader.change.table import BY_SORT
 from grader.package.submission import Submission
 from grader.report.model import CheckResult, Report, Where
 from grader.run.session import Session
@@ -34,7 +35,7 @@ BY_NAME = {package.name: package for package in (*BROKEN, *RIGHT)}
 NODE = "my_robot_controller/my_first_node.py"
 OUTPUT = marking.ASSIGNMENT.output
 SECOND = 10**9
-UNKNOWN = "error_hidden_in_callback"  # whose usual fix is said not to help
+UNKNOWN = "logged_as_debug"  # whose usual fix is said not to help
 KNOWN = "spin_in_init"
 
 
@@ -106,9 +107,10 @@ def found_with(
 
 def change(line: int, *sorts: str) -> FoundChange:
     """Return a change of the solution's file, at a line."""
-    steps = [Step(sort, NODE, line, "old", "new") for sort in sorts or ("value",)]
+    steps = [Step(sort, NODE, line, "old", "new") for sort in sorts or ("number",)]
     text = (SOLUTION / NODE).read_text() + "# changed\n"
-    return FoundChange(tuple(steps), {NODE: text}, 3)
+    row = BY_SORT[steps[-1].sort]
+    return FoundChange(tuple(steps), {NODE: text}, 3, shows=row.shows, certain=row.certain)
 
 
 def ids(result: CheckResult) -> list[str]:
@@ -121,7 +123,7 @@ def texts(result: CheckResult) -> dict[str, object]:
 
 def test_what_was_only_seen_is_replaced_by_a_change_that_helps(tmp_path: Path) -> None:
     result, _ = found_with(UNKNOWN, tmp_path, [change(14)], "solution")
-    assert ids(result) == ["node.small_change", "run.no_lines"]
+    assert ids(result) == ["node.change_helps", "run.no_lines"]
     assert "+# changed" in result.patch
     assert result.where == Where(file=NODE, line=14)
     assert "Write new instead of old." in result.fix
@@ -145,7 +147,7 @@ def test_a_known_mistake_keeps_its_reason_and_gets_a_change_of_its_line(tmp_path
 
 
 @pytest.mark.parametrize(
-    "sorts", [("emptied",), ("value", "value")], ids=["only pass", "two changes"]
+    "sorts", [("deleted",), ("number", "number")], ids=["only pass", "two changes"]
 )
 def test_a_known_mistake_gets_no_change_that_needs_words_of_its_own(
     sorts: tuple[str, ...], tmp_path: Path
@@ -157,9 +159,9 @@ def test_a_known_mistake_gets_no_change_that_needs_words_of_its_own(
 
 
 ELSEWHERE = {
-    "that may help by chance": change(1, "value"),
-    "in another period": replace(change(1, "unit"), level=NEARLY),
-    "of two places": change(1, "unit", "unit"),
+    "that may help by chance": change(1, "number"),
+    "in another period": replace(change(1, "digits"), level=NEARLY),
+    "of two places": change(1, "digits", "digits"),
 }
 
 
@@ -172,9 +174,9 @@ def test_a_known_mistake_gets_no_change_of_another_line(other: FoundChange, tmp_
 
 def test_a_certain_change_of_another_line_replaces_a_known_mistake(tmp_path: Path) -> None:
     before, _ = found_with(KNOWN, tmp_path / "before", [], KNOWN)
-    found = [change(1, "unit")]
+    found = [change(1, "digits")]
     result, _ = found_with(KNOWN, tmp_path / "helps", found, "solution")
-    assert ids(result) == ["node.small_change", *ids(before)[1:]]
+    assert ids(result) == ["node.change_helps", *ids(before)[1:]]
     assert result.where == Where(file=NODE, line=1)
     assert result.fix == "Write new instead of old."
     result, _ = found_with(KNOWN, tmp_path / "not", found, KNOWN)
@@ -184,9 +186,9 @@ def test_a_certain_change_of_another_line_replaces_a_known_mistake(tmp_path: Pat
 def test_a_certain_change_comes_before_a_costly_one_of_the_own_line(tmp_path: Path) -> None:
     before, _ = found_with(KNOWN, tmp_path / "before", [], KNOWN)
     assert before.where is not None
-    own, sure = change(before.where.line or 0), change(1, "unit")
+    own, sure = change(before.where.line or 0), change(1, "digits")
     result, _ = found_with(KNOWN, tmp_path / "costly", [own, sure], "solution")
-    assert ids(result)[0] == "node.small_change"
+    assert ids(result)[0] == "node.change_helps"
     assert result.where == Where(file=NODE, line=1)
     slight = replace(own, cost=2)
     result, _ = found_with(KNOWN, tmp_path / "slight", [slight, sure], "solution")
@@ -195,26 +197,29 @@ def test_a_certain_change_comes_before_a_costly_one_of_the_own_line(tmp_path: Pa
 
 
 def test_of_changes_that_help_the_nearest_is_shown(tmp_path: Path) -> None:
-    before, _ = found_with("text_capital", tmp_path / "before", [], "text_capital")
+    before, _ = found_with("text_other_capital", tmp_path / "before", [], "text_other_capital")
     assert before.where is not None
     line = before.where.line or 0
     found = [change(line + far) for far in (9, -3, 5)]
-    result, _ = found_with("text_capital", tmp_path, found, "solution")
+    result, _ = found_with("text_other_capital", tmp_path, found, "solution")
     assert result.where == Where(file=NODE, line=line - 3)
 
 
 def test_a_change_after_which_only_the_text_is_right_is_told_as_that(tmp_path: Path) -> None:
     half = replace(change(14), level=TEXT)
-    result, _ = found_with("text_capital", tmp_path, [half], "counter_constant")
+    result, _ = found_with("text_other_capital", tmp_path, [half], "counter_constant")
     assert ids(result)[0] == "node.one_of_two"
     assert result.fix == "Write new instead of old. Then grade again."
-    result, _ = found_with("text_capital", tmp_path / "again", [half], "text_capital")
+    result, _ = found_with("text_other_capital", tmp_path / "again", [half], "text_other_capital")
     assert ids(result) == ["run.wrong_text"]
 
 
 def test_two_changes_are_told_with_their_lines(tmp_path: Path) -> None:
-    result, _ = found_with(UNKNOWN, tmp_path, [change(14, "value", "moved")], "solution")
-    assert result.fix == "Line 14: Write new instead of old. Line 14: Move this line above new."
+    result, _ = found_with(UNKNOWN, tmp_path, [change(14, "number", "out")], "solution")
+    assert (
+        result.fix
+        == "Line 14: Write new instead of old. Line 14: Move the line old out of the block: as far to the left as the head of the block."
+    )
     assert "these changes together" in result.rationale
     assert result.patch
 
@@ -223,7 +228,7 @@ def test_a_change_that_takes_something_away_shows_the_place_alone(tmp_path: Path
     result, _ = found_with(UNKNOWN, tmp_path, [change(14, "deleted")], "solution")
     assert result.where is not None
     assert result.where.line == 14
-    assert "if the program does not need it" in result.fix
+    assert "Look at the line old" in result.fix
     assert result.patch == ""
 
 
@@ -310,7 +315,7 @@ def test_the_change_of_a_real_verdict_lets_the_package_pass(tmp_path: Path) -> N
     kept: list[Judged] = []
     report = searched(root, kept)
     check = next(check for check in report.checks if check.status == "failed")
-    assert ids(check)[0] == "node.small_change"
+    assert ids(check)[0] == "node.change_helps"
     again = replay(kept[0].recording, kept[0].submission, marking.ASSIGNMENT)
     assert [(c.id, c.mistakes, c.patch) for c in again.checks] == [
         (c.id, c.mistakes, c.patch) for c in report.checks
@@ -454,8 +459,8 @@ VALUES: list[tuple[FoundChange, list[str]]] = [
         ["When the grader ran the node, self.last was 1, 2 in this line, one after the other."],
     ),
     (replace(change(14), values=(("old", ("1",)), ("new", ("1",)))), []),
-    (replace(change(14, "unit"), values=(("old", ("1",)),)), []),
-    (replace(change(14, "value", "value"), values=(("old", ("1",)),)), []),
+    (replace(change(14, "digits"), values=(("old", ("1",)),)), []),
+    (replace(change(14, "number", "number"), values=(("old", ("1",)),)), []),
 ]
 
 

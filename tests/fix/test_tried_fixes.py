@@ -95,8 +95,8 @@ def test_a_diagnosis_whose_fix_changes_nothing_is_dropped(
 
 
 def test_a_fix_of_what_was_seen_is_left_out_if_it_changes_nothing(tmp_path: Path) -> None:
-    before = first_failure(evidence("text_capital", tmp_path / "before"))
-    result, _ = tried("text_capital", tmp_path, *["text_capital"] * MOST_TRIED)
+    before = first_failure(evidence("period_half", tmp_path / "before"))
+    result, _ = tried("period_half", tmp_path, *["period_half"] * MOST_TRIED)
     assert before.mistakes == result.mistakes
     assert result.patch == ""
     assert result.fix.startswith("The usual change for this was tried")

@@ -109,7 +109,7 @@ def test_a_mistake_in_setup_py_is_named_and_no_other_one(tmp_path: Path) -> None
     assert "==" not in said
     hints = [lab(home, "hint").stdout for _ in range(3)]
     assert not any("comma" in hint or "==" in hint for hint in hints)
-    assert "quote" in hints[1]
+    assert f"Write: '{UNQUOTED.rstrip(',')}'" in hints[1]
     assert f"setup.py, line 25:\n    -            {UNQUOTED}" in hints[2]
 
 

@@ -242,7 +242,7 @@ WRONG = {
     "built in the package": Wrong(built_in(OWN), 4, (f"you built in ~/ros2_ws/{OWN}",)),
     "no shebang": Wrong(in_node("#!/usr/bin/env python3\n", ""), 6, ("first line",)),
     "typographic quotes": Wrong(
-        in_node("'my_first_node'", "‘my_first_node’"), 6, ("typographic quotes", "line 12")
+        in_node("'my_first_node'", "‘my_first_node’"), 6, ("this is not Python: ‘’", "line 12")
     ),
     "a line is indented too little": Wrong(
         in_node("        self.counter_ += 1", "      self.counter_ += 1"), 6, ("Indent", "line 19")

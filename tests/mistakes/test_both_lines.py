@@ -23,16 +23,6 @@ def test_both_settings_of_another_package_are_named(tmp_path: Path) -> None:
     assert "install_scripts=" in fix
 
 
-def test_the_second_console_scripts_is_the_place(tmp_path: Path) -> None:
-    check = failed("group_twice", tmp_path / "a")
-    assert check.where is not None
-    assert check.fix.startswith("Delete this console_scripts")
-    assert "-        'console_scripts': [],\n" in check.patch
-    check = failed("group_twice_with_entries", tmp_path / "b")
-    assert check.fix.startswith("Put its entries into the list with line ")
-    assert check.patch == ""
-
-
 def test_a_wrong_program_on_line_1_is_not_a_missing_line(tmp_path: Path) -> None:
     assert "'python3\\r': No such file" in failed("shebang_crlf", tmp_path / "a").rationale
     assert "'python': No such file" in failed("shebang_python2", tmp_path / "b").rationale

@@ -41,18 +41,3 @@ def test_the_line_of_the_def_keeps_what_is_right(
     found = raised(error, text, line_of(text, "rclpy.spin"))
     assert patched(found, text, tmp_path) == changed((f"{DEF}{BODY}", name + right))
     assert fix_of(found).endswith(f"Write: {name}{line}")
-
-
-def test_the_use_of_a_parameter_is_named(tmp_path: Path) -> None:
-    text = changed((DEF, "def timer_callback(self, more):"), ("str(self.counter_)", "str(more)"))
-    found = raised(ONE, text, line_of(text, "rclpy.spin"))
-    assert f"In line {line_of(text, 'str(more)')}, write the value" in fix_of(found)
-    assert "instead of more. Then write: def timer_callback(self):" in fix_of(found)
-    assert patched(found, text, tmp_path) == ""
-
-
-def test_a_use_behind_the_colon_is_not_repeated() -> None:
-    text = changed((f"{DEF}{BODY}", f"def timer_callback(self, more): {INLINE}\n"),
-                   ("str(self.counter_)", "str(more)"))  # fmt: skip
-    found = raised(ONE, text, line_of(text, "rclpy.spin"))
-    assert fix_of(found).endswith("Then write: def timer_callback(self): …")

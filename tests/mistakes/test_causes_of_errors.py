@@ -46,9 +46,8 @@ def at_error(error: str, text: str, part: str, inside: str = "") -> RecognisedMi
 
 def test_a_class_without_init_has_no_first_line_of_it() -> None:
     text = HEAD + "class MyFirstNode(Node):\n    counter_ = 0\n" + CALLBACK + MAIN
-    kind, why, fix = texts(at_error(NO_NAME, text, "= MyFirstNode()"))
+    kind, _, fix = texts(at_error(NO_NAME, text, "= MyFirstNode()"))
     assert kind == "node.super_without_name/no_init"
-    assert "has no __init__" in why
     assert "def __init__(self):" in fix
 
 
@@ -59,15 +58,6 @@ def test_super_in_a_method_that_runs_later_is_not_missing() -> None:
     kind, _, fix = texts(at_error(error, text, "create_timer"))
     assert kind == "node.super_late/"
     assert "to the first line of __init__" in fix
-
-
-def test_a_callback_outside_with_a_parameter_for_the_node_gets_self_in_all_lines() -> None:
-    outside = CALLBACK.replace("\n    ", "\n").replace("self", "node").lstrip("\n")
-    text = HEAD + outside + "\n\n" + START + MAIN
-    error = "AttributeError: 'MyFirstNode' object has no attribute 'timer_callback'"
-    kind, _, fix = texts(at_error(error, text, "create_timer"))
-    assert kind == "node.callback_outside/parameter"
-    assert "write self instead of node" in fix
 
 
 def test_the_same_wrong_text_in_both_definitions_is_not_from_the_second_def() -> None:
@@ -99,7 +89,7 @@ def test_a_text_in_an_attribute_is_no_part_of_a_message() -> None:
     )
     error = "AttributeError: 'str' object has no attribute 'info'"
     found = at_error(error, text, "counter_.info")
-    assert found is None or found.kind != "node.field_replaced"
+    assert found is None or found.kind != "node.field_type"
 
 
 def test_an_inner_function_of_a_method_knows_self() -> None:

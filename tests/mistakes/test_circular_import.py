@@ -19,7 +19,6 @@ NODE, HELPER = "my_robot_controller/my_first_node.py", "my_robot_controller/text
     ("name", "fix"),
     [
         ("files_import_each_other", f"Move PREFIX from {NODE} to {HELPER}"),
-        ("modules_import_each_other", f"Move HELLO from {NODE} to {HELPER}"),
         ("helper_imports_the_node", f"Delete this import of {NODE}"),
     ],
 )

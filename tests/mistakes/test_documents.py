@@ -20,14 +20,14 @@ def notebook(*cells: str) -> bytes:
     ("found", "variant"),
     [
         (notebook("a = 1"), "notebook"),
-        (b"#!/usr/bin/env python3\n" + notebook("a = 1"), "notebook_below"),
+        (b"#!/usr/bin/env python3\n" + notebook("a = 1"), "notebook"),
         (b'{"metadata": null, "cells": []}', "notebook"),
-        (b"<!-- saved from -->\n<html><body>", "page"),
-        (b" {\\rtf1 a", "word"),
-        (b"PK\x03\x04....[Content_Types].xml", "office"),
-        (b"PK\x03\x04....my_node.py", "archive"),
-        (b"%PDF-1.7\n", "pdf"),
-        (b"\xcb\r\r\n\0\0\0\0\0", "compiled"),
+        (b"<!-- saved from -->\n<html><body>", "document"),
+        (b" {\\rtf1 a", "document"),
+        (b"PK\x03\x04....[Content_Types].xml", "document"),
+        (b"PK\x03\x04....my_node.py", "document"),
+        (b"%PDF-1.7\n", "document"),
+        (b"\xcb\r\r\n\0\0\0\0\0", "document"),
     ],
 )
 def test_a_file_of_another_kind_is_recognised(found: bytes, variant: str) -> None:

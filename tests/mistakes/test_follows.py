@@ -43,9 +43,7 @@ def test_the_check_with_the_cause_is_named(
 def test_the_build_that_a_key_of_setup_cfg_stops_has_its_line(tmp_path: Path) -> None:
     report = mark(write(BY_NAME["setup_cfg_key_misspelt"], tmp_path))
     (cause, build) = (report.check(c) for c in ("package.setup_cfg", "build.colcon"))
-    assert cause.fix == (
-        "Write install_scripts instead of install_script in this line, then build again."
-    )
+    assert "install_scripts=$base/lib/my_robot_controller" in cause.fix
     assert cause.where == build.where
     lines = (tmp_path / "setup_cfg_key_misspelt" / "setup.cfg").read_text().splitlines()
     assert cause.where is not None
@@ -81,8 +79,8 @@ def test_an_ignored_package_is_told_once(tmp_path: Path) -> None:
 
 
 def test_a_document_has_no_first_line_to_correct(tmp_path: Path) -> None:
-    report = mark(write(BY_NAME["rich_text"], tmp_path))
-    assert "Make Plain Text" in report.check("source.node_file").fix
+    report = mark(write(BY_NAME["word_document"], tmp_path))
+    assert "a document of another program" in report.check("source.node_file").fix
     assert report.check("source.shebang").blocked_by == "source.node_file"
 
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from tests.mistakes.test_from_source import line_of, look, raised
-from tests.mistakes.test_named_exactly import LOG, STEP, UNBOUND, changed, fix_of, patched
+from tests.mistakes.test_named_exactly import LOG, STEP, UNBOUND, changed, fix_of
 
 START = "        self.counter_ = 0\n"
 TIMER = "        self.create_timer(1.0, self.timer_callback)\n"
@@ -26,16 +24,3 @@ def test_a_method_that_the_log_line_calls_is_not_the_counter() -> None:
     )
     found = look("run.constant_counter", text)
     assert found is None or "self.current" not in fix_of(found)
-
-
-def test_a_method_that_init_calls_too_keeps_its_line(tmp_path: Path) -> None:
-    text = changed(
-        (START, "        self.reset()\n"),
-        (LOG, f"self.reset()\n        {LOG}"),
-        (CALLBACK, f"    def reset(self):\n{START}        self.seen = 0\n\n{CALLBACK}"),
-    )
-    found = look("run.constant_counter", text)
-    assert found is not None
-    assert found.kind == "node.counter_reset"
-    assert "Delete the call of reset from timer_callback" in fix_of(found)
-    assert patched(found, text, tmp_path) == ""

@@ -19,7 +19,7 @@ from tests.report.samples import report as sample_report
 
 # one mistake of each kind: intake, manifest, setup.py, source, build, start, callback, text
 NAMES = ("only_the_node", "manifest_other_name", "comma_missing", "super_missing", "f_prefix_missing",
-         "printed", "called_by_hand", "setup_prints", "colon_missing", "callback_misspelt")  # fmt: skip
+         "printed", "timer_missing", "setup_prints", "colon_missing", "callback_misspelt")  # fmt: skip
 # what programs print word for word, and commands to be typed
 QUOTED = (
     "No executable found",

@@ -12,7 +12,7 @@ from grader.verdict.checks.counting import _first_wrong
 from grader.verdict.diagnose import diagnose
 from tests.mistakes.test_diagnose import RIGHT, TRACEBACK, evidence, failed
 from tests.mistakes.test_from_source import look, raised
-from tests.static_bench import NODE, Bench
+from tests.static_bench import Bench
 
 HANDLING = "\nDuring handling of the above exception, another exception occurred:\n\n"
 IGNORED = """\
@@ -74,7 +74,7 @@ def test_a_misspelt_except_does_not_hide_the_error_before_it(bench: Bench) -> No
     found = diagnose(
         failed("run.ended_early"), evidence(bench, text, HANDLING.join((spun, in_except)))
     )
-    assert found.mistakes[0].id == "node.callback_parameter"
+    assert found.mistakes[0].id == "node.callback_no_self"
 
 
 def test_an_error_of_ones_own_while_ctrl_c_is_handled_stays_the_cause(bench: Bench) -> None:
@@ -110,7 +110,7 @@ def test_a_python_suggestion_helps_only_if_nothing_else_is_known(bench: Bench) -
     error = "NameError: name 'my_first_node' is not defined. Did you mean: 'MyFirstNode'?"
     shown = TRACEBACK.format(line=line_of(text, "(my_first_node)"), error=error)
     found = diagnose(failed("run.died_at_start"), evidence(bench, text, shown))
-    assert found.fix == "Write super().__init__('my_first_node')."
+    assert found.fix == "Write 'my_first_node' instead of my_first_node."
 
 
 @pytest.mark.parametrize(
@@ -155,13 +155,6 @@ def test_the_node_is_never_suggested_to_be_its_class() -> None:
     assert (found.kind, found.params["close"]) == ("node.name_unknown", "robot")
 
 
-def test_self_in_main_is_told_from_a_line_below_a_method() -> None:
-    text = changed("rclpy.spin(node)", "rclpy.spin(self)")
-    found = raised("NameError: name 'self' is not defined", text, line_of(text, "spin(self)"))
-    assert found is not None
-    assert (found.kind, found.variant) == ("node.self_outside", "variable")
-
-
 @pytest.mark.parametrize(
     ("old", "new", "kind", "fix"),
     [
@@ -184,49 +177,13 @@ def test_the_name_that_differs_from_all_others_is_the_one_to_correct(
     assert str(CATALOGUE[found.kind].fix_text(values, found.variant)).startswith(fix)
 
 
-@pytest.mark.parametrize(
-    ("start", "expected"),
-    [
-        ("    counter_ = 5\n\n    def __init__(self):\n", "Write on that line: counter_ = 0"),
-        ("    def __init__(self):\n        self.counter_ = 5\n",
-         "Write on that line: self.counter_ = 0"),
-    ],
-)  # fmt: skip
-def test_a_wrong_start_is_written_as_it_is_in_the_source(start: str, expected: str) -> None:
-    text = changed("        self.counter_ = 0\n", "").replace("    def __init__(self):\n", start)
-    found = look("run.wrong_start", text)
-    assert found is not None
-    assert found.where is not None
-    assert found.where.line == line_of(text, "counter_ = 5")
-    values = {**found.params, **found.words}
-    assert str(CATALOGUE[found.kind].fix_text(values, found.variant)) == expected
-
-
-@pytest.mark.parametrize(
-    "step",
-    [
-        "        counter_ += 1\n",
-        "        counter_ = counter_ + 1\n",
-        "        self.counter_ += 1\n",
-    ],
-)
-def test_a_counter_that_each_call_makes_anew_is_reported_with_its_line(step: str) -> None:
-    text = changed(LOG, f"        counter_ = 0\n{LOG.replace('self.counter_', 'counter_')}")
-    text = text.replace("        self.counter_ += 1\n", step)
-    found = look("run.constant_counter", text)
-    assert found is not None
-    assert (found.kind, found.variant) == ("node.counter_reset", "local")
-    assert found.where is not None
-    assert (found.where.file, found.where.line) == (NODE, line_of(text, "        counter_ = 0"))
-
-
 def test_a_name_that_no_line_sets_is_reported_where_it_is_used_first(bench: Bench) -> None:
     text = changed("    node = MyFirstNode()\n", "")
     error = "NameError: name 'node' is not defined"
     lines = [line_of(text, "rclpy.spin"), line_of(text, "destroy_node")]
     shown = HANDLING.join(TRACEBACK.format(line=line, error=error) for line in lines)
     found = diagnose(failed("run.died_at_start"), evidence(bench, text, shown))
-    assert found.mistakes[0].id == "node.node_not_kept"
+    assert found.mistakes[0].id == "node.name_unknown"
     assert found.where is not None
     assert found.where.line == lines[0]
 
@@ -244,7 +201,7 @@ def test_a_second_definition_is_not_the_cause_if_nothing_is_lost() -> None:
 def test_a_class_in_a_plain_import_is_told_from_a_module_with_a_capital() -> None:
     error = "ModuleNotFoundError: No module named 'rclpy.Node'"
     for new, wanted in (
-        ("import rclpy.Node", "Write: from rclpy.node import Node. After"),
+        ("import rclpy.Node", "Write from rclpy.node import Node instead of import rclpy.Node."),
         ("from rclpy.Node import Node", "Write rclpy.node instead of rclpy.Node."),
     ):
         text = changed("from rclpy.node import Node", new)
@@ -271,6 +228,6 @@ def test_only_a_line_with_create_timer_swaps_its_arguments() -> None:
     error = "TypeError: float() argument must be a string or a real number, not 'method'"
     text = changed("str(self.counter_)", "str(float(self.get_name))")
     found = raised(error, text, line_of(text, "float("))
-    assert found is None or found.kind != "node.timer_arguments_swapped"
+    assert found is None or found.kind != "node.timer_arguments"
     timer = raised(error, RIGHT, line_of(RIGHT, "create_timer"))
-    assert timer is not None and timer.kind == "node.timer_arguments_swapped"
+    assert timer is not None and timer.kind == "node.timer_arguments"

@@ -70,8 +70,8 @@ def test_no_number_is_advised_for_what_nothing_adds_to() -> None:
 @pytest.mark.parametrize(
     ("new", "variant"),
     [
-        (f"    def setup(self):\n{START}\n{CALLBACK}", "set_later"),
-        (f"    def setup(self, n):\n{START}\n{CALLBACK}", "set_later"),
+        (f"    def setup(self):\n{START}\n{CALLBACK}", "set_here"),
+        (f"    def setup(self, n):\n{START}\n{CALLBACK}", "set_here"),
     ],
 )
 def test_the_line_that_sets_an_attribute_elsewhere_is_named(new: str, variant: str) -> None:
@@ -86,12 +86,6 @@ def test_an_attribute_in_a_branch_of_init_is_not_to_be_written_again() -> None:
     found = no_attribute("counter_", text, "str(self.counter_)")
     assert found.variant == "set_here"
     assert "self.counter_ = 0" not in fix_of(found)
-
-
-def test_a_missing_method_gets_no_number() -> None:
-    text = changed((STEP, "        self.update()\n"))
-    found = no_attribute("update", text, "self.update()")
-    assert (found.kind, found.variant) == ("node.attribute_not_set", "no_method")
 
 
 @pytest.mark.parametrize(

@@ -45,13 +45,13 @@ LACKS = "AttributeError: '{0}' object has no attribute '{1}'"
          "attribute_unknown", None, 6),
         # nothing imports or defines the name at the top: it is only used too early
         ("def main():\n    print(node)\n    node = Node('n')\n", UNBOUND.format("node"), 4,
-         "used_before_set", "line", 4),
+         "used_before_set", "", 4),
         ("def main():\n    ros.init()\n    ros.Rate(1)\n", "NameError: name 'ros' is not defined", 4,
          "name_unknown", "", 4),
-        (BASE, LACKS.format("N", "period"), 9, "attribute_set_late", "", 6),
+        (BASE, LACKS.format("N", "period"), 9, "attribute_not_set", "set_here", 9),
         ("class N(Node):\n    def __init__(self):\n        super.__init__('n')\n",
          "TypeError: descriptor '__init__' requires a 'super' object but received a 'str'", 5,
-         "super_not_called", "", 5),
+         "super_missing", "", 5),
         ("class N(Node):\n    def __init__(self):\n        super().__init__('n')\n"
          "        self.create_timer(period=1, callback=print)\n",
          "TypeError: Node.create_timer() got an unexpected keyword argument 'period'", 6,
@@ -62,8 +62,8 @@ LACKS = "AttributeError: '{0}' object has no attribute '{1}'"
          "no_self", 4),
         # a helper's own names
         (HELPER.format("self.get_logger()", "pass"), LACKS.format("Count", "get_logger"), 7,
-         "attribute_not_set", "no_node", 7),
-        (HELPER.format("pass", "self.count.value()"), NOT_CALLABLE, 12, "not_callable", "open", 12),
+         "attribute_unknown", "no_node", 7),
+        (HELPER.format("pass", "self.count.value()"), NOT_CALLABLE, 12, "not_callable", "", 12),
     ],
 )  # fmt: skip
 def test_a_name_that_means_something_else_is_explained(

@@ -72,7 +72,7 @@ def test_humbles_python_does_not(tmp_path: Path) -> None:
     found = evidence(tmp_path, "humble")
     with pytest.raises(Failed) as told:
         source.node_file.function(found)
-    assert told.value.variant == "quotes_inside"
+    assert told.value.variant == "write"
     assert told.value.where is not None
     assert told.value.where.line == 6
     assert told.value.words["wanted"] == "print(f'{os.environ[\"HOME\"]}')"

@@ -30,7 +30,6 @@ from tests.mistakes.other_forms import (
     END,
     FORMS,
     HEAD,
-    LOG,
     OTHER,
     RIGHT,
     SLIPS,
@@ -144,20 +143,6 @@ def is_restored(slip: Slip, form: str) -> None:
         assert filled(slip.code, form) in "".join(fixed.values())
     else:
         assert fixed == FORMS[form]
-
-
-def test_a_counter_of_the_callback_itself_is_found() -> None:
-    count = LOG.replace("self.counter_", "count")
-    local = changed(RIGHT, (START, ""), (LOG, f"count = 0\n        {count}"),
-                    (STEP, "        count += 1\n"))  # fmt: skip
-    slip = Slip("node.counter_reset", "", "", "run.constant_counter")
-    diagnosis = diagnosis_of(slip, "", {NODE: local})
-    assert diagnosis.mistakes[0].id == slip.mistake
-    assert next(lines_with("        count = 0", {NODE: local})) == (NODE, line_of(diagnosis))
-
-
-def line_of(diagnosis: Diagnosis) -> int | None:
-    return diagnosis.where.line if diagnosis.where else None
 
 
 def test_the_line_that_logged_a_record_is_shown_in_the_file_of_the_class() -> None:

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
-from grader.package.source.time_limit import time_limit
-from tests.mistakes.test_from_source import look, node_in
-from tests.mistakes.test_named_exactly import LOG, STEP, changed, fix_of, patched, why_of
+from tests.mistakes.test_from_source import look
+from tests.mistakes.test_named_exactly import LOG, STEP, changed
 
 TIMER = "        self.create_timer(1.0, self.timer_callback)\n"
 SPIN = "        rclpy.spin(node)\n"
@@ -20,33 +17,6 @@ def test_two_nodes_in_one_executor_are_no_mistake() -> None:
     both = "        executor.add_node(helper)\n        executor.add_node(node)\n"
     found = look("run.no_lines", changed((NODE, OTHER), (SPIN, f"{both}        executor.spin()\n")))
     assert found is None
-
-
-@pytest.mark.parametrize(
-    ("value", "why"), [("1 // 2", "period 0"), ("int(0.5)", "period 0"), ("0 * 2", "period 0")]
-)
-def test_a_period_that_is_calculated_as_0_is_found(value: str, why: str, tmp_path: Path) -> None:
-    period = "        self.period = {}\n" + TIMER.replace("1.0", "self.period")
-    text = changed((TIMER, period.format(value)))
-    found = look("run.too_much_output", text)
-    assert fix_of(found) == f"Write 1.0 instead of {value} in this line."
-    assert why in why_of(found)
-    assert patched(found, text, tmp_path) == changed((TIMER, period.format("1.0")))
-
-
-def test_a_callback_that_spins_is_named_when_the_lines_stop() -> None:
-    found = look("run.stops", changed((STEP, f"{STEP}        rclpy.spin_once(self)\n")))
-    assert fix_of(found) == "Remove spin_once from the callback: main spins the node."
-
-
-def test_a_spin_with_a_timeout_is_found() -> None:
-    limited = "        rclpy.spin_until_future_complete(node, Future(), timeout_sec=10)\n"
-    found = time_limit(node_in(changed((SPIN, limited))))
-    assert found is not None
-    assert found[1:] == ("timeout_sec=10", "rclpy.spin(node)")
-    assert time_limit(node_in(changed())) is None
-    looped = f"        while rclpy.ok():\n    {limited}"
-    assert time_limit(node_in(changed((SPIN, looped)))) is None
 
 
 def test_a_clean_up_for_later_is_not_told_as_early() -> None:

@@ -21,7 +21,7 @@ def with_period(default: str, field: str) -> str:
 @pytest.mark.parametrize(
     ("new", "kind", "variant"),
     [
-        ("        self.create_timer(0,", "period_zero", ""),
+        ("        self.create_timer(0,", "period_wrong", ""),
     ],
 )
 def test_a_flood_of_the_callback_comes_from_the_period(new: str, kind: str, variant: str) -> None:

@@ -72,8 +72,8 @@ def told(text: str) -> tuple[str, str]:
 def test_an_uncertain_number_is_not_changed(code: str, lines: dict[str, str]) -> None:
     text = with_period(code, **lines)
     fix = (
-        f"The value of {code} must be 1.0. Correct the numbers from which it comes; or write 1.0 "
-        f"instead of {code} in this call of create_timer."
+        f"The value of {code} must be 1.0. Correct the numbers from which it comes, or write 1.0 "
+        "instead of it."
     )
     assert told(text) == (fix, text)
 
@@ -86,16 +86,16 @@ def test_the_timer_of_the_lines_is_told_and_not_another_one() -> None:
         (INIT, f"    def other(self):\n        pass\n\n{INIT}"),
     )
     fix, after = told(text)
-    assert fix == "Write 1.0 instead of 2.0 in this call of create_timer."
+    assert fix == "Write 1.0 instead of 2.0."
     assert after == text.replace("2.0", "1.0")
 
 
 def test_a_calculation_without_names_is_replaced_as_a_whole() -> None:
     assert told(with_period("1.0 / 10")) == (
-        "Write 1.0 instead of 1.0 / 10 in this call of create_timer.", RIGHT,
+        "Write 1.0 instead of 1.0 / 10.", RIGHT,
     )  # fmt: skip
     text = with_period("period", before="        period = 500 / 1000\n")
-    assert told(text) == ("Write period = 1.0.", text.replace("500 / 1000", "1.0"))
+    assert told(text) == ("Write 1.0 instead of 500 / 1000.", text.replace("500 / 1000", "1.0"))
 
 
 @pytest.mark.parametrize(
@@ -108,7 +108,7 @@ def test_a_calculation_without_names_is_replaced_as_a_whole() -> None:
 def test_once_is_said_only_if_there_can_be_several_timers(lines: str) -> None:
     once = "Let the program create this timer only once, with the period 1.0."
     assert told(changed(RIGHT, (TIMER, lines)))[0] == once
-    assert told(with_period("0.5"))[0] == "Write 1.0 instead of 0.5 in this call of create_timer."
+    assert told(with_period("0.5"))[0] == "Write 1.0 instead of 0.5."
 
 
 def test_a_period_that_is_right_is_not_to_be_written() -> None:

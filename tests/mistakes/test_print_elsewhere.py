@@ -6,10 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from grader.mistakes.recognise import behind_symptom
-from grader.mistakes.recognised import Suspect
-from tests.marking import ASSIGNMENT
-from tests.mistakes.test_from_source import look, node_in
+from tests.mistakes.test_from_source import look
 from tests.mistakes.test_named_exactly import LOG, changed, fix_of, patched
 
 TEXT = "'Hello time: ' + str(self.counter_)"
@@ -38,25 +35,3 @@ def test_a_function_that_only_prints_has_no_logger_of_its_own() -> None:
     text = changed((CLASS, f"{helper}\n\n{CLASS}"), (LOG, f"print_line({TEXT})"))
     fix = fix_of(look("run.print_not_logger", text))
     assert fix.startswith("In print_line, self is not the node. Give it the node's logger")
-
-
-def test_a_function_of_main_calls_the_node_by_its_variable() -> None:
-    text = """\
-import rclpy
-
-
-def main():
-    rclpy.init()
-    node = rclpy.create_node('my_first_node')
-    n = 0
-
-    def tick():
-        nonlocal n
-        print('Hello time: ' + str(n))
-        n += 1
-
-    node.create_timer(1.0, tick)
-    rclpy.spin(node)
-"""
-    found = behind_symptom("run.print_not_logger", Suspect(node_in(text), ASSIGNMENT))
-    assert fix_of(found) == "Write node.get_logger().info(…) instead of print(…)."

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.mistakes.test_from_source import line_of, look, raised
+from tests.mistakes.test_from_source import look
 from tests.mistakes.test_named_exactly import fix_of
 
 FUNCTIONS = """\
@@ -40,16 +40,3 @@ def test_the_executor_gets_the_node_by_its_own_name() -> None:
     assert found.kind == "node.executor_without_node"
     assert "runner.add_node(beat)" in fix_of(found)
     assert "runner.spin()" not in fix_of(found)
-
-
-def test_a_callback_that_is_called_keeps_its_values() -> None:
-    call, written = "step(log, ticks)", "lambda: step(log, ticks)"
-    wrong = without("partial(step, beat.get_logger().info, count())", call)
-    error = "TypeError: 'NoneType' object is not callable"
-    found = raised(error, wrong, line_of(wrong, "spin_once"))
-    assert found is not None
-    assert (found.kind, found.variant) == ("node.callback_called", "lambda")
-    assert fix_of(found) == f"Write {written} instead of {call}."
-    anew = wrong.replace(call, "step(log, count())")
-    other = raised(error, anew, line_of(anew, "spin_once"))
-    assert other is None or other.kind != "node.callback_called"

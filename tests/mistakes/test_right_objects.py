@@ -8,7 +8,6 @@ from tests.mistakes.test_from_source import RIGHT, line_of, look, raised
 
 TIMER = "self.create_timer(1.0, self.timer_callback)"
 STEP = "        self.counter_ += 1\n"
-SUPER = "        super().__init__('my_first_node')\n"
 
 
 def changed(old: str, new: str) -> str:
@@ -63,27 +62,3 @@ def test_other_causes_of_the_same_errors_keep_their_answer(
     assert found is not None
     assert found.kind == kind
     assert found.variant != "unused"
-
-
-@pytest.mark.parametrize(
-    ("name", "called"),
-    [("str", "str(1)"), ("print", "print('x')"), ("int", "int('1')"), ("len", "len('x')")],
-)
-def test_each_name_of_a_function_of_python_can_be_hidden(name: str, called: str) -> None:
-    text = changed(STEP, f"{STEP}        {name} = 1\n        self.last_ = {called}\n")
-    found = raised("TypeError: 'int' object is not callable", text, line_of(text, "self.last_"))
-    assert found is not None
-    assert (found.kind, found.params["name"]) == ("node.name_hides_function", name)
-    assert found.where is not None
-    assert found.where.line == line_of(text, f"{name} = 1")
-
-
-def test_a_function_hidden_in_the_module_is_named_there() -> None:
-    text = changed("class MyFirstNode", "str = 'x'\n\n\nclass MyFirstNode")
-    found = raised("TypeError: 'str' object is not callable", text, line_of(text, "+ str("))
-    assert found is not None
-    assert found.where is not None
-    assert (found.kind, found.where.line) == (
-        "node.name_hides_function",
-        line_of(text, "str = 'x'"),
-    )

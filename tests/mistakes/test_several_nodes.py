@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from grader.package.source.in_class import calls_of_method
 from tests.mistakes.test_from_source import look
 from tests.mistakes.test_named_exactly import changed, fix_of
 
@@ -16,9 +15,3 @@ def test_an_executor_of_a_with_is_spun_by_its_own_method() -> None:
     )
     found = look("run.exits_at_once", changed((SPIN, block)))
     assert fix_of(found) == "Write executor.spin() instead of executor.spin_once()."
-
-
-def test_calls_of_a_method_that_becomes_a_function() -> None:
-    text = b"class App:\n    def main(self):\n        App.main\n\n\nif True:\n    App().main()\n"
-    assert calls_of_method(text, "App.main") == [(7, "App().main")]
-    assert calls_of_method(b"class App:\n    pass\n\nmain()\n", "App.main") == []

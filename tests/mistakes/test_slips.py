@@ -32,46 +32,35 @@ COMMANDS = (
 )
 # what is written, the variant, its line, and the file after the fix ("" if there is none)
 PASTED = [
-    ("a = \u201cx\u201d\n", "quotes", 1, 'a = "x"\n'),
-    ("a = 'x\u2019\n", "quotes", 1, "a = 'x'\n"),
-    ("a = \u201eit's\u201c\n", "quotes", 1, 'a = "it\'s"\n'),
-    ("def f():\n    \u201c\u201c\u201cText\n    of f.\u201d\u201d\u201d\n", "quotes", 2,
+    ("a = \u201cx\u201d\n", "signs", 1, 'a = "x"\n'),
+    ("a = 'x\u2019\n", "signs", 1, "a = 'x'\n"),
+    ("a = \u201eit's\u201c\n", "signs", 1, 'a = "it\'s"\n'),
+    ("def f():\n    \u201c\u201c\u201cText\n    of f.\u201d\u201d\u201d\n", "signs", 2,
      'def f():\n    """Text\n    of f."""\n'),
-    ("if 1:\n\u00a0\u00a0\u00a0\u00a0a = 1\n", "blank", 2, "if 1:\n    a = 1\n"),
-    ("a\u200b = 1\n", "blank", 1, "a = 1\n"),
-    ("%load_ext autoreload\na = 1\n", "jupyter", 1, "a = 1\n"),
-    ("a = 1\n!pip install b\n", "jupyter", 2, "a = 1\n"),
-    ("a = 2 \u2212 1\n", "sign", 1, "a = 2 - 1\n"),
-    ("print\uff081\uff0c 2\uff09\n", "sign", 1, "print(1, 2)\n"),
-    ("a = 1<br/>\nb = 2<br>\n", "tag", 1, "a = 1\nb = 2\n"),
-    ('<span class="k">a</span> = 1\n', "tag", 1, "a = 1\n"),
-    ("if 2 &gt; 1:\n    a = 1\n", "tag", 1, "if 2 > 1:\n    a = 1\n"),
-    ("```python\r\na = 1\r\n```\r\n", "fence", 1, "a = 1\r\n"),
+    ("if 1:\n\u00a0\u00a0\u00a0\u00a0a = 1\n", "signs", 2, "if 1:\n    a = 1\n"),
+    ("a\u200b = 1\n", "signs", 1, "a = 1\n"),
+    ("a = 2 \u2212 1\n", "signs", 1, "a = 2 - 1\n"),
+    ("print\uff081\uff0c 2\uff09\n", "signs", 1, "print(1, 2)\n"),
+    ("```python\r\na = 1\r\n```\r\n", "lines", 1, "a = 1\r\n"),
     ("Here's the node:\n\n```python\ndef a(): ...\n```\n### How it works\n- It isn't a topic.\n",
      "around", 3, "def a(): ...\n"),
     ("def a(): ...\n```\n- The timer fires.\n", "around", 2, "def a(): ...\n"),
     ("Sure, here is it:\n```\ndef a(): ...\n", "around", 2, "def a(): ...\n"),
-    ("Copy code\na = 1\n", "label", 1, "a = 1\n"),
-    (">>> if 1:\n...     a = 1\n", "prompt", 1, "if 1:\n    a = 1\n"),
-    ("a = 1\ncd ~/ros2_ws && colcon build\nb = 2\n", "command", 2, "a = 1\nb = 2\n"),
-    ("jane@pc:~/ros2_ws$ ros2 run a b\na = 1\n", "command", 1, "a = 1\n"),
+    ("Copy code\na = 1\n", "lines", 1, "a = 1\n"),
+    (">>> if 1:\n...     a = 1\n", "lines", 1, "if 1:\n    a = 1\n"),
+    ("a = 1\ncd ~/ros2_ws && colcon build\nb = 2\n", "lines", 2, "a = 1\nb = 2\n"),
+    ("jane@pc:~/ros2_ws$ ros2 run a b\na = 1\n", "lines", 1, "a = 1\n"),
     *(
-        (f"a = 1\n{command}\nb = 2\n", "command", 2, "a = 1\nb = 2\n")
+        (f"a = 1\n{command}\nb = 2\n", "lines", 2, "a = 1\nb = 2\n")
         for command in COMMANDS
     ),
-    ("a = 1\n:wq\n", "editor", 2, "a = 1\n"),
-    ("a = (1)\n  :q!\n", "editor", 2, "a = (1)\n"),
-    ("     1\timport a\n     2\tif a:\n     3\t    b()\n", "numbers", 1, "import a\nif a:\n    b()\n"),
-    ("1 import sys\n2 a = 1\n", "numbers", 1, "import sys\na = 1\n"),
-    ("1: import sys\n2:\n3: if a:\n4:     b = 1\n", "numbers", 1, "import sys\n\nif a:\n    b = 1\n"),
-    ("Here is the corrected code:\na = 1\n", "prose", 1, "a = 1\n"),
 ]  # fmt: skip
 DOCUMENTS = [
-    ("a = 1\n>>>>>>> Stashed changes\nb = 1\n", "conflict_rest", 2, "a = 1\nb = 1\n"),
-    ("\n<!DOCTYPE html>\n<html>\n", "page", 2, ""),
-    ("<?xml version='1.0'?>\n<package>\n", "markup", 1, ""),
+    ("a = 1\n>>>>>>> Stashed changes\nb = 1\n", "conflict", 2, ""),
+    ("\n<!DOCTYPE html>\n<html>\n", "document", 2, ""),
+    ("<?xml version='1.0'?>\n<package>\n", "document", 1, ""),
     ('{"cells": [\n', "notebook", 1, ""),
-    ("{\\rtf1 a\n", "word", 1, ""),
+    ("{\\rtf1 a\n", "document", 1, ""),
     ("a = 1\n<<<<<<< HEAD\nb = 1\n=======\nb = 2\n>>>>>>> main\n", "conflict", 2, ""),
 ]
 LANGUAGE = [
@@ -79,38 +68,18 @@ LANGUAGE = [
     ("a = 0\na.b--;\n", "increment", 2, "a = 0\na.b -= 1\n"),
     ("print(str(a++))\n", "increment_inside", 1, ""),
     ("// it's mine\na = 1\n", "comment", 1, "# it's mine\na = 1\n"),
-    ("a = 4    ; counts the hellos\n", "comment", 1, "a = 4    # counts the hellos\n"),
     ("a = 4 // 2  // the half\n", "comment", 1, "a = 4 // 2  # the half\n"),
     ("a = 4  // see http://a.b of me\n", "comment", 1, "a = 4  # see http://a.b of me\n"),
     ("/* mine */\na = 1\n", "comment", 1, "# mine\na = 1\n"),
-    ("/*\n * mine\n */\n", "comment", 1, ""),
     ("b = a && !c || d != e\n", "operator", 1, "b = a and not c or d != e\n"),
-    ("b = a === c\n", "compare", 1, "b = a == c\n"),
     ("if a:\n    pass\nelse if b:\n    pass\n", "elif", 3, "if a:\n    pass\nelif b:\n    pass\n"),
     ("int a = 1\n", "declaration", 1, "a = 1\n"),
-    ("class A:\n    private int b = 0\n", "declaration", 2, "class A:\n    b = 0\n"),
-    ("private a = 1\n", "declaration", 1, "a = 1\n"),
-    ("if a == 'b' then\n    b()\n", "then", 1, "if a == 'b':\n    b()\n"),
-    ("class A:\n    b = (self) => {\n        c()\n", "function", 2,
-     "class A:\n    def b(self):\n        c()\n"),
-    ("if a then:\n    b()\n", "then", 1, "if a:\n    b()\n"),
-    ("while a do\n    b()\n", "then", 1, "while a:\n    b()\n"),
     ("this->a = 1\n", "this", 1, "self.a = 1\n"),
-    ("a = 1  % it counts up\n", "comment", 1, "a = 1  # it counts up\n"),
-    ("-- it counts up\na = 1\n", "comment", 1, "# it counts up\na = 1\n"),
     ("let a = 1;\n", "declaration", 1, "a = 1;\n"),
     ("void main():\n    pass\n", "function", 1, "def main():\n    pass\n"),
     ("a = new Node('x')\n", "new", 1, "a = Node('x')\n"),
     ("self->a = 1\n", "member", 1, "self.a = 1\n"),
     ("rclpy::init()\n", "member", 1, "rclpy.init()\n"),
-    ("a = b ? 1 : 2\n", "choice", 1, ""),
-    ("a = `x`\n", "backtick", 1, ""),
-    ("self.a := 1\n", "assign", 1, "self.a = 1\n"),
-    ("import a from b.c\n", "import", 1, "from b.c import a\n"),
-    ("class A[B]:\n    pass\n", "base", 1, "class A(B):\n    pass\n"),
-    ("class A<B>:\n    pass\n", "base", 1, "class A(B):\n    pass\n"),
-    ("class A extends B:\n    pass\n", "base", 1, "class A(B):\n    pass\n"),
-    ("class A : public B:\n    pass\n", "base", 1, "class A(B):\n    pass\n"),
     ("define f(a):\n    pass\n", "function", 1, "def f(a):\n    pass\n"),
     ("f()->a = 1\n", "member", 1, "f().a = 1\n"),
     ("if a {\n    b = 1\n}\n", "braces", 1, "if a:\n    b = 1\n"),
@@ -220,7 +189,7 @@ def test_the_smallest_change_with_which_python_reads_the_file(
 @pytest.mark.parametrize("command", ["ls", "ls -l", "ros2", "chmod +x"])
 def test_a_command_that_python_reads_is_found(command: str) -> None:
     (found,) = labels_in(f"a = 1\n{command}\n".encode())
-    assert (found.variant, found.line, found.word) == ("command", 2, command.partition(" ")[0])
+    assert (found.variant, found.line, found.word) == ("lines", 2, command.partition(" ")[0])
 
 
 @pytest.mark.parametrize("text", CODE)
@@ -232,7 +201,7 @@ def test_code_that_python_reads_has_no_slip(text: str) -> None:
 
 def test_a_label_that_python_takes_for_a_name_is_found() -> None:
     (label,) = labels_in(b"Python\n#!/usr/bin/env python3\nimport sys\n")
-    assert (label.variant, label.line, label.found) == ("label", 1, "Python")
+    assert (label.variant, label.line, label.found) == ("lines", 1, "Python")
     assert labels_in(b"from sys import *\nPython\n") == []
 
 

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
-from tests.mistakes.test_from_source import RIGHT, line_of, raised
-from tests.mistakes.test_named_exactly import changed, fix_of, patched
+from tests.mistakes.test_from_source import line_of, raised
+from tests.mistakes.test_named_exactly import changed
 
 TEXT = "'Hello time: ' + str(self.counter_)"
 STEP = "        self.counter_ += 1\n"
@@ -51,30 +49,6 @@ def test_an_init_that_returns_nothing_is_left_alone(last: str) -> None:
 def test_a_comment_of_another_language(old: str, new: str, name: str, kind: str) -> None:
     text = changed((old, new))
     assert kind_of(UNKNOWN.format(name), text, new.strip().splitlines()[-1]) == kind
-
-
-@pytest.mark.parametrize(
-    ("code", "error", "kind", "new"),
-    [
-        ("'Hello time: {self.counter_}'.format()", "KeyError: 'self'", "f_string",
-         "f'Hello time: {self.counter_}'"),
-        ("'Hello time: {counter}'.format(self.counter_)", "KeyError: 'counter'", "", ""),
-        ("'Hello time: {1}'.format(self.counter_)", "IndexError: Replacement index 1 out of range "
-         "for positional args tuple", "highest", ""),
-        ("'{0} {2}'.format(1, self.counter_)", "IndexError: Replacement index 2 out of range for "
-         "positional args tuple", "highest", ""),
-        ("'Hello {} {}'.format(self.counter_)", "IndexError: Replacement index 1 out of range for "
-         "positional args tuple", "too_many", ""),
-        ("'{a} {b}'.format(a=self.counter_)", "KeyError: 'b'", "", ""),
-    ],
-)  # fmt: skip
-def test_the_places_of_a_text(code: str, error: str, kind: str, new: str, tmp_path: Path) -> None:
-    text = changed((TEXT, code))
-    found = raised(error, text, line_of(text, "get_logger"))
-    assert found is not None
-    assert (found.kind, found.variant) == ("node.format_value_missing", kind)
-    assert fix_of(found)
-    assert patched(found, text, tmp_path) == (RIGHT.replace(TEXT, new) if new else "")
 
 
 def test_the_key_of_a_dict_is_no_place_of_a_text() -> None:

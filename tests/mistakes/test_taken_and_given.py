@@ -30,4 +30,7 @@ def test_the_logger_is_no_function() -> None:
     found = raised(
         "TypeError: 'RcutilsLogger' object is not callable", text, line_of(text, "get_logger")
     )
-    assert fix_of(found) == "Write self.get_logger().info(…) instead of self.get_logger()(…)."
+    assert (
+        fix_of(found)
+        == f"Write self.get_logger().info({TEXT}) instead of self.get_logger()({TEXT})."
+    )

@@ -49,27 +49,6 @@ def test_a_print_is_deleted_only_where_the_logger_logs_the_text_too(
 
 
 @pytest.mark.parametrize(
-    ("lines", "variant"),
-    [
-        ("if self.counter_ == 5:\n            exit()\n", "if"),
-        (
-            "if self.counter_ == 5:\n            self.get_logger().info('end')\n            exit()\n",
-            "",
-        ),
-        (
-            "if self.counter_ < 0:\n            pass\n        elif self.counter_:\n            exit()\n",
-            "if",
-        ),
-    ],
-)
-def test_what_ends_the_program_is_told_with_the_if_that_has_nothing_else(
-    lines: str, variant: str
-) -> None:
-    text = changed(LOG, f"{LOG}        {lines}")
-    assert told("run.ended_early", text) == ("node.exits", variant)
-
-
-@pytest.mark.parametrize(
     "lines",
     [
         "if self.counter_ == 5:\n            exit()\n        else:\n    {log}",

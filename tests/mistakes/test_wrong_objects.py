@@ -2,18 +2,9 @@
 
 from __future__ import annotations
 
-from tests.mistakes.test_from_source import OTHERWISE, RIGHT, line_of, raised
+from tests.mistakes.test_from_source import OTHERWISE, line_of, raised
 
-MADE = "node = MyFirstNode()"
-NO_DESTROY = "AttributeError: '{}' object has no attribute 'destroy_node'"
 NO_NODE = "TypeError: Executor.add_node() missing 1 required positional argument: 'node'"
-
-
-def test_an_error_about_another_type_is_no_misspelt_method_of_the_node() -> None:
-    for kind in ("tuple", "list", "NoneType", "int", "function"):
-        found = raised(NO_DESTROY.format(kind), RIGHT, line_of(RIGHT, "destroy_node"))
-        assert found is not None
-        assert found.kind != "node.method_misspelt"
 
 
 def test_an_executor_that_is_a_class_is_named_where_it_is_set() -> None:

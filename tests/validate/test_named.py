@@ -179,6 +179,6 @@ def test_what_is_right_on_a_distro_is_equivalent_there(
     path = tmp_path / "mutants.yaml"
     path.write_text("schema: 1\ncatalogue: true\n")
     read = read_mutants(path, checks=["run.starts"], kinds=CATALOGUE, distro=find_distro(distro))
-    (mutant,) = (one for one in read.mutants if one.name == "context_manager_of_kilted")
+    (mutant,) = (one for one in read.mutants if one.name == "node_in_with")
     assert bool(mutant.equivalent) is right
     assert mutant.named

@@ -9,7 +9,6 @@ from grader.mistakes.fixes.syntax import without_labels
 from grader.package.edit.files import Files
 from grader.package.edit.text import BOM, MOST_BYTES, read_source
 from grader.package.source.documents import document_of
-from grader.package.source.numbers_above import numbers_above
 from grader.package.source.python import SHEBANG, can_parse
 
 SCRIPT = re.compile(r"[#!\s]*(?:/|\b)(?:usr/|bin/|env\b)[\w/ .-]*python[\d.]*\s*", re.IGNORECASE)
@@ -46,8 +45,6 @@ def shebang(case: Case) -> Files | None:
     found = without_labels(found) if found is not None else None
     if found is not None and document_of(found) is not None:
         return None
-    if found is not None:
-        found = b"".join(found.splitlines(keepends=True)[numbers_above(found) :])
     text = read_source(found)
     if found is None or text is None or text.mark or not found.strip():
         return None

@@ -4,18 +4,11 @@ from __future__ import annotations
 
 import re
 
-from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import EXECUTABLE, Files
 from grader.package.source.documents import script_of
 from grader.package.source.names import misnamed_init, module_name
 from grader.package.source.python import has_no_code
-from grader.package.source.setup_scripts import scripts_line
-
-OF_SRC = re.compile(rb"find_packages\(\s*(?:where\s*=\s*)?['\"]src['\"]\s*,?\s*\)")
-PACKAGE_DIR = re.compile(
-    rb"^[ \t]*package_dir\s*=\s*\{\s*['\"]['\"]\s*:\s*['\"]src['\"]\s*\},?[ \t]*\r?\n", re.M
-)
 
 
 def marker(case: Case) -> Files | None:
@@ -23,13 +16,8 @@ def marker(case: Case) -> Files | None:
     path = f"resource/{case.package}"
     if path in case.files.by_path or "resource" in files_in(case):
         return None
-    folder = str(case.finding.params.get("folder", ""))
-    if folder and case.files.file(f"{folder}/{case.package}") is not None:
-        return case.files.with_move(f"{folder}/{case.package}", path)
-    others = case.files.names_in("resource")
-    close = nearest(case.package, others) or (others[0] if len(others) == 1 else "")
-    old = f"resource/{close}"
-    if close and case.files.file(old) is not None and not case.files.data(old):
+    old = str(case.finding.params.get("there", ""))
+    if case.files.file(old) is not None and not case.files.data(old):
         return case.files.with_move(old, path)
     return case.with_data(path, b"")
 
@@ -55,21 +43,6 @@ def inner_folder(case: Case) -> Files | None:
     return files
 
 
-def out_of_src(case: Case) -> Files | None:
-    """Move the inner folder out of src/, and let setup.py look for it beside itself."""
-    inner, files, setup = f"src/{case.package}", case.files, case.files.data("setup.py")
-    if case.finding.params.get("path") != f"src/{case.node_path}" or setup is None:
-        return None
-    if case.package in files.by_path:
-        return None
-    for old in files.below(inner):
-        if files.file(old) is None:
-            return None
-        files = files.with_move(old, old.removeprefix("src/"))
-    new = OF_SRC.sub(b"find_packages(exclude=['test'])", PACKAGE_DIR.sub(b"", setup))
-    return files if new == setup else files.with_data("setup.py", new)
-
-
 def node_file(case: Case) -> Files | None:
     """Move the node's file to its place; of several files with its name, none is certain."""
     if case.finding.mistake != "source.misplaced_node_file" or case.node_path in case.files.by_path:
@@ -86,11 +59,6 @@ def _with_entry(files: Files, old: str, new: str) -> Files:
     """Let setup.py name the module of a moved file, if it names it exactly once."""
     before, after = (module_name(path) for path in (old, new))
     setup = files.data("setup.py")
-    scripts = scripts_line(setup, old) if setup is not None else None
-    if setup is not None and scripts is not None:
-        rows = setup.split(b"\n")
-        setup = b"\n".join(rows[: scripts[0] - 1] + rows[scripts[0] :])
-        files = files.with_data("setup.py", setup)
     # (an executable's name, before the =, is no module)
     named = re.compile(rf"(?<![\w.]){re.escape(before)}(?![\w.]|\s*=)".encode())
     if setup is None or len(named.findall(setup)) != 1:

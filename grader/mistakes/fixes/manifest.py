@@ -7,19 +7,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from xml.parsers import expat
 
-from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.source.broken_xml import xml_fault
-from grader.package.source.manifest import (
-    DEPENDS,
-    MOST_BYTES,
-    RUNTIME,
-    ManifestError,
-    meant_package,
-    read_manifest,
-)
-from grader.package.source.manifest_rules import RuleFault, rule_fault
+from grader.package.source.manifest import DEPENDS, MOST_BYTES, RUNTIME, meant_package
 from grader.package.source.ros_imports import CLIENT
 
 FILE = "package.xml"
@@ -115,11 +106,11 @@ def rename(case: Case) -> Files | None:
     """Rename a manifest with a nearly right name to package.xml."""
     if case.finding.mistake != "package.no_manifest" or FILE in case.files.by_path:
         return None
-    close = nearest(FILE, case.files.names_in(""), cutoff=0.75)
-    places = _places(case.files.data(close)) if close else None
+    there = str(case.finding.params.get("there", ""))
+    places = _places(case.files.data(there)) if there else None
     if places is None or _one(places, "name") is None:
         return None
-    return case.files.with_move(close, FILE)
+    return case.files.with_move(there, FILE)
 
 
 def name(case: Case) -> Files | None:
@@ -211,125 +202,12 @@ def version(case: Case) -> Files | None:
     return _put(case, tag.end, tag.end, new)
 
 
-def three_numbers(case: Case) -> Files | None:
-    """Write a version of one or two numbers with three."""
-    found, line = case.files.data(FILE), case.finding.line
-    match = re.search(rb"<version>\s*(\d+(?:\.\d+)?)\s*</version>", found or b"")
-    if found is None or match is None or line is None or found.count(b"<version") != 1:
-        return None
-    zeros = b".0" * (2 - match[1].count(b"."))
-    return _put(case, match.end(1), match.end(1), zeros)
-
-
-def rule(case: Case) -> Files | None:
-    """Correct what breaks a rule of the format."""
-    data = case.files.data(FILE)
-    places = _places(data)
-    if places is None or data is None or case.finding.mistake != "package.manifest_rules":
-        return None
-    try:
-        fault = rule_fault(read_manifest(data), case.package)
-    except ManifestError:
-        return None
-    change = _rule_change(places, fault, case) if fault is not None else None
-    return _put(case, *change) if change is not None else None
-
-
-def _rule_change(places: _Places, fault: RuleFault, case: Case) -> tuple[int, int, bytes] | None:
-    """Return the start, the end and the new bytes of the place that is to be changed."""
-    found = places.found
-    line = [t for t in places.closed if found.count(b"\n", 0, t.start) + 1 == fault.line]
-    tags = [t for t in line if t.name == (fault.tag or "package")]
-    if fault.variant == "format":
-        return _format(places)
-    if len(tags) != 1:
-        return None
-    tag, head = tags[0], _head_end(found, tags[0].start)
-    if fault.variant in ("twice", "redundant", "itself", "unknown_tag", "second_empty"):
-        return _whole_line(found, tag)
-    if fault.variant == "container" and tag.inside[0] >= 0:
-        indent = _indent(found, tag.start)
-        kept = re.sub(rb"(?m)^[ \t]+", indent, found[slice(*tag.inside)].strip())
-        return tag.start, tag.end, kept
-    if fault.variant == "export_twice":
-        empty = tag.inside[0] < 0 or not found[slice(*tag.inside)].strip()
-        return _whole_line(found, tag) if empty else None
-    if fault.variant == "email" and fault.wanted:
-        old, new = fault.found.encode(), fault.wanted.encode()
-        at = found.find(old, tag.start, head)
-        return (at, at + len(old), new) if at >= 0 else None
-    if fault.variant == "attribute_name":
-        name = re.compile(rb"\s(" + re.escape(fault.found.encode()) + rb")\s*=")
-        match = name.search(found, tag.start, head)
-        return (*match.span(1), fault.wanted.encode()) if match is not None else None
-    if fault.variant == "attribute":
-        name = re.compile(
-            rb"\s+" + re.escape(fault.found.encode()) + rb"\s*=\s*(?:\"[^\"]*\"|'[^']*')"
-        )
-        match = name.search(found, tag.start, head)
-        return (*match.span(), b"") if match is not None else None
-    if fault.variant == "content" and fault.wanted.isascii():
-        return tag.start, tag.end, fault.wanted.encode()
-    if fault.variant == "tag" and tag.inside[0] >= 0:
-        old, new = fault.tag.encode(), fault.wanted.encode()
-        start = found[tag.start : tag.inside[0]].replace(old, new, 1)
-        end = found[tag.inside[1] : tag.end].replace(old, new, 1)
-        return tag.start, tag.end, start + found[slice(*tag.inside)] + end
-    if fault.variant == "name" and tag.inside[0] >= 0 and b"<" not in found[slice(*tag.inside)]:
-        return (*tag.inside, case.package.encode())
-    return None
-
-
 def _whole_line(found: bytes, tag: Tag) -> tuple[int, int, bytes]:
     """Return the change that deletes a tag, with its lines if nothing else is on them."""
     start = tag.start - len(_indent(found, tag.start))
     rest = re.compile(rb"[ \t]*\r?\n").match(found, tag.end)
     own = (start == 0 or found[start - 1 : start] == b"\n") and rest is not None
     return (start, rest.end(), b"") if own and rest is not None else (tag.start, tag.end, b"")
-
-
-def _format(places: _Places) -> tuple[int, int, bytes] | None:
-    """Return the change that gives <package> the format 3."""
-    root = _one(places, "package", "")
-    if root is None:
-        return None
-    head = _head_end(places.found, root.start)
-    given = re.compile(rb"\sformat\s*=\s*[\"']([^\"']*)[\"']").search(
-        places.found, root.start, head
-    )
-    if given is not None:
-        return (*given.span(1), b"3")
-    at = root.start + len(b"<package")
-    return at, at, b' format="3"'
-
-
-def root(case: Case) -> Files | None:
-    """Give the outermost tag its name, if it has nearly this name."""
-    places = _places(case.files.data(FILE))
-    outermost = [t for t in places.closed if not t.within] if places else []
-    if places is None or len(outermost) != 1 or outermost[0].inside[0] < 0:
-        return None
-    tag = outermost[0]
-    if tag.name == "package" or not nearest("package", [tag.name], cutoff=0.75):
-        return None
-    old = tag.name.encode()
-    start = places.found[tag.start : tag.inside[0]].replace(old, b"package", 1)
-    end = places.found[tag.inside[1] : tag.end].replace(old, b"package", 1)
-    return _put(case, tag.start, tag.end, start + places.found[slice(*tag.inside)] + end)
-
-
-def declared_encoding(case: Case) -> Files | None:
-    """Declare the encoding UTF-8, if the file is in it and declares another one."""
-    found = case.files.data(FILE)
-    if (
-        found is None
-        or case.finding.mistake != "package.broken_xml"
-        or "encoding" not in case.finding.actual
-    ):
-        return None
-    first, line_end, rest = found.partition(b"\n")
-    new = re.sub(rb"(<\?xml\b[^<>]*?\bencoding=)[\"'][^\"'<>]{0,60}[\"']", rb'\g<1>"utf-8"', first)
-    return case.with_data(FILE, new + line_end + rest) if new != first else None
 
 
 def well_formed(case: Case) -> Files | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-from grader.package.source.names import dotted, last_part
+from grader.package.source.names import dotted
 from grader.package.source.node import NodeSource
 
 
@@ -25,10 +25,3 @@ def is_passed(source: NodeSource, name: str) -> bool:
     """Return whether an executor is an argument of a call, which may add nodes to it."""
     given = (a for call, _ in source.calls for a in (*call.args, *(k.value for k in call.keywords)))
     return any(dotted(argument) == name for argument in given)
-
-
-def spun_by(source: NodeSource, node: str, call: str) -> str:
-    """Return the call that spins what another call of spin or spin_once is about."""
-    owner = call.rpartition(".")[0]
-    own = owner in executors_of(source) and last_part(call) in ("spin", "spin_once")
-    return f"{owner}.spin()" if own else f"rclpy.spin({node})"

@@ -9,14 +9,15 @@ from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.rename import def_renamed
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice, indent_of
-from grader.package.source import endless
 from grader.package.source.imported import NODE as NODE_CLASS
 from grader.package.source.imported import full_name, name_of_node
 from grader.package.source.module import Function, Module, is_text
-from grader.package.source.names import calls_in, dotted
+from grader.package.source.names import calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 
 IMPORT = "from rclpy.node import Node"
+NO_BASES = ("rclpy", "rclpy.node", "rclpy.Node")
+"""What beginners write as a base in the place of Node: modules."""
 
 
 def node_import(case: Case) -> Files | None:
@@ -87,7 +88,11 @@ def known_base(module: Module, found: ast.ClassDef) -> str:
 def derived(module: Module, found: ast.ClassDef) -> str:
     """Return the line of a class that inherits from Node too."""
     code = module.text.code
-    others = [code(base) for base in found.bases if dotted(base) != "object"]
+    others = [
+        code(base)
+        for base in found.bases
+        if dotted(base) != "object" and full_name(module, base) not in NO_BASES
+    ]
     others += [f"{k.arg}={code(k.value)}" for k in found.keywords if k.arg]
     bases = ", ".join([known_base(module, found) or "Node", *others])
     return f"class {found.name}({bases}):"
@@ -157,20 +162,15 @@ def name(case: Case) -> Files | None:
     calls = node.calls_of("__init__")
     if not calls:
         return _call_added(case, init, f"super().__init__({wanted})")
-    if len(calls) != 1 or ast.unparse(calls[0].func) != "super().__init__":
-        return None
     call = calls[0]
+    if len(calls) != 1 or ast.unparse(call.func) != "super().__init__":
+        return None
     if not call.args and not call.keywords:
         end = text.span(call)[1] - 1
         return case.changed(node.module, Splice(end, end, wanted))
     given = call.args[0] if call.args else None
-    for keyword in call.keywords:
-        given = keyword.value if keyword.arg == "node_name" and given is None else given
-    old = text.plain_string(given)
-    if given is None or old is None or old == case.assignment.node_name:
-        return None
-    q = text.code(given)[0]
-    return case.changed(node.module, text.swap(given, f"{q}{case.assignment.node_name}{q}"))
+    plain = given is not None and text.plain_string(given) is not None
+    return case.changed(node.module, text.swap(given, wanted)) if given and plain else None
 
 
 def _call_added(case: Case, init: ast.FunctionDef, call: str) -> Files | None:
@@ -240,78 +240,6 @@ def main_takes_arguments(case: Case) -> Files | None:
     return case.changed(module, Splice(start + empty.start(), start + empty.end(), "(args=None)"))
 
 
-def rclpy_init(case: Case) -> Files | None:
-    """Call rclpy.init() first in main: add the missing call, or move it there."""
-    node = case.node
-    main = node.main if node else None
-    if node is None or main is None:
-        return None
-    module = node.module_of(main)
-    text = module.text
-    body = [s for s in main.body if not is_text(s)]
-    calls = [c for c in node.calls_of("init") if ast.unparse(c.func) == "rclpy.init"]
-    made = [s for s in main.body if _makes(s, node)]
-    if not made or body[0].lineno == main.lineno:
-        return None
-    if "import rclpy" not in text.text or "from rclpy import" in text.text:
-        return None
-    indent = indent_of(text.line(body[0].lineno))
-    if not calls:
-        takes = [a.arg for a in main.args.args] == ["args"]
-        row = f"{indent}rclpy.init({'args=args' if takes else ''})"
-        return case.changed(module, text.before(body[0].lineno, row))
-    lines = [s for s in main.body if isinstance(s, ast.Expr) and s.value in calls]
-    if len(calls) != 1 or len(lines) != 1 or lines[0] is body[0]:
-        return None
-    if lines[0].end_lineno != lines[0].lineno or not isinstance(body[0], ast.Assign):
-        return None
-    row = text.line(lines[0].lineno)
-    return case.changed(module, text.without(lines[0].lineno), text.before(body[0].lineno, row))
-
-
-def executor(case: Case) -> Files | None:
-    """Spin the executor below the line that gives it the node."""
-    module, name = case.module, str(case.finding.params.get("name", ""))
-    calls = [n for n in module.nodes if isinstance(n, ast.Call)] if module is not None else []
-    added = [call for call in calls if dotted(call.func) == f"{name}.add_node"]
-    if module is None or not name or len(added) != 1:
-        return None
-    if any(dotted(call.func) == f"{name}.spin" for call in calls):  # (above: it never gets there)
-        return None
-    line = added[0].lineno
-    if module.line(line) != module.text.code(added[0]):
-        return None
-    row = f"{indent_of(module.text.line(line))}{name}.spin()"
-    return case.changed(module, module.text.before(line + 1, row))
-
-
-def called_init(case: Case) -> Files | None:
-    """Add the () to an rclpy.init that is only named."""
-    module = case.module
-    found = [n for n in module.nodes if isinstance(n, ast.Expr)] if module is not None else []
-    named = [n for n in found if dotted(n.value) == "rclpy.init"]
-    if module is None or case.node is None or len(named) != 1:
-        return None
-    main = case.node.main
-    takes = main is not None and [a.arg for a in main.args.args] == ["args"]
-    new = f"rclpy.init({'args=args' if takes else ''})"
-    return case.changed(module, module.text.swap(named[0], new))
-
-
-def called_spin(case: Case) -> Files | None:
-    """Call a spin that is only named."""
-    module, params = case.module, case.finding.params
-    name, wanted = str(params.get("name", "")), str(params.get("wanted", ""))
-    found = [n for n in module.nodes if isinstance(n, ast.Expr)] if module is not None else []
-    named = [n for n in found if dotted(n.value) == name and n.lineno == case.finding.line]
-    if module is None or case.node is None or len(named) != 1:
-        return None
-    node = wanted.partition("(")[2].removesuffix(")")
-    if node and node not in case.node.node_variables:
-        return None
-    return case.changed(module, module.text.swap(named[0], wanted))
-
-
 def own_init(case: Case) -> Files | None:
     """Call __init__ of the base class through super()."""
     node = case.node
@@ -324,99 +252,91 @@ def own_init(case: Case) -> Files | None:
     return case.changed(module, module.text.swap(call.func, "super().__init__"))
 
 
-def spin(case: Case) -> Files | None:
-    """Spin the node that main creates: with a real call, and forever instead of once."""
+def init_call(source: NodeSource) -> str:
+    """Return the call of rclpy.init for the entry function: with args only if the function has them."""
+    given = source.main.args.args if source.main is not None else []
+    return f"rclpy.init({'args=args' if 'args' in [a.arg for a in given] else ''})"
+
+
+def rclpy_init(case: Case) -> Files | None:
+    """Call rclpy.init() first in main: add the missing call, or move it there."""
     node = case.node
     main = node.main if node else None
-    if node is None or node.node_class is None or main is None:
+    if node is None or main is None:
         return None
     module = node.module_of(main)
     text = module.text
-    made = [s for s in main.body if _makes(s, node)]
-    loops = [n for n in ast.walk(main) if isinstance(n, ast.While | ast.For)]
-    if len(made) != 1 or loops or not isinstance(made[0], ast.Assign):
+    body = [s for s in main.body if not is_text(s)]
+    calls = [c for c in node.calls_of("init") if ast.unparse(c.func) == "rclpy.init"]
+    lines = [s for s in main.body if isinstance(s, ast.Expr) and s.value in calls]
+    made = any(_makes(s, node) for s in main.body)
+    if not made or "rclpy" not in module.imports or len(lines) != len(calls) or len(calls) > 1:
         return None
-    target = made[0].targets[0]
-    if not isinstance(target, ast.Name):
+    if lines and (lines[0] is body[0] or lines[0].lineno != lines[0].end_lineno):
         return None
-    spun = [s for s in ast.walk(main) if isinstance(s, ast.Expr) and _spins(s)]
-    if not spun and any(s.lineno == made[0].end_lineno for s in main.body if s is not made[0]):
-        return None  # (a line below would come after what else is on this one)
-    if not spun and not any(_spins(each.tree) for each in node.modules):
-        return case.changed(module, _spin_added(module, main, made[0], f"rclpy.spin({target.id})"))
-    wrong = [
-        f"rclpy.spin_once({target.id})",
-        f"{target.id}.spin()",
-        "rclpy.spin",
-        "rclpy.spin()",
-        f"rclpy.spin({dotted(made[0].value).removesuffix('()')})",
-    ]
-    if case.finding.mistake == "node.spin_of_class":
-        wrong.append(f"rclpy.spin({case.finding.params.get('name', '')})")
-    if len(spun) != 1 or ast.unparse(spun[0]) not in wrong:
-        return None
-    return case.changed(module, text.swap(spun[0], f"rclpy.spin({target.id})"))
+    row = f"{indent_of(text.line(body[0].lineno))}{init_call(node)}"
+    gone = [text.without(s.lineno) for s in lines]
+    return case.changed(module, *gone, text.before(body[0].lineno, row))
 
 
-def idle_loop(case: Case) -> Files | None:
-    """Spin the node in the place of a loop that only waits."""
+def called_init(case: Case) -> Files | None:
+    """Add the () to an rclpy.init that is only named."""
+    module = case.module
+    found = [n for n in module.nodes if isinstance(n, ast.Expr)] if module is not None else []
+    named = [n for n in found if dotted(n.value) == "rclpy.init"]
+    if module is None or case.node is None or len(named) != 1:
+        return None
+    return case.changed(module, module.text.swap(named[0], init_call(case.node)))
+
+
+def spin(case: Case) -> Files | None:
+    """Spin the node that main creates: where nothing spins, or where spin gets something else."""
     node = case.node
     main = node.main if node else None
-    name = str(case.finding.params.get("node", ""))
-    if node is None or main is None or not name.isidentifier():
+    made = (
+        [s for s in main.body if _makes(s, node)] if node is not None and main is not None else []
+    )
+    if node is None or main is None or len(made) != 1 or not isinstance(made[0], ast.Assign):
         return None
-    loop = endless.idle_loop(node, main)
-    if loop is None or loop.lineno != case.finding.line:
+    target = dotted(made[0].targets[0])
+    if not target or any(isinstance(n, ast.While | ast.For) for n in ast.walk(main)):
         return None
+    wanted = str(case.finding.params.get("wanted", "")) or f"rclpy.spin({target})"
     module = node.module_of(main)
-    return case.changed(module, module.text.swap(loop, f"rclpy.spin({name})"))
+    splice = _spin_corrected(node, target, wanted) or _spin_added(module, main, made[0], wanted)
+    return case.changed(module, splice) if splice is not None else None
 
 
-def _spin_added(module: Module, main: Function, made: ast.stmt, spin: str) -> Splice:
+def _spins(node: NodeSource) -> list[ast.Attribute | ast.Name]:
+    names = [
+        n for each in node.modules for n in each.nodes if isinstance(n, ast.Attribute | ast.Name)
+    ]
+    return [n for n in names if last_part(dotted(n)).startswith("spin")]
+
+
+def _spin_corrected(node: NodeSource, target: str, wanted: str) -> Splice | None:
+    """Return the splice that gives the only call of spin the node, if it gets something else."""
+    spins = _spins(node)
+    module = node.module_of(spins[0]) if spins else node.module
+    call = module.parents.get(spins[0]) if len(spins) == 1 else None
+    if not isinstance(call, ast.Call) or dotted(call.func) not in ("rclpy.spin", f"{target}.spin"):
+        return None
+    return None if target in map(dotted, call.args) else module.text.swap(call, wanted)
+
+
+def _spin_added(module: Module, main: Function, made: ast.stmt, wanted: str) -> Splice | None:
     """Return the splice that adds a line that spins: in the try after the new node, if there is one."""
+    if any(last_part(dotted(n)).startswith("spin") for n in module.nodes):
+        return None
     after = [s for s in main.body if isinstance(s, ast.Try) and s.lineno > made.lineno]
     last = after[0].body[-1] if after else made
     if after and isinstance(last, ast.Pass):
-        return module.text.swap(last, spin)
-    indent = indent_of(module.text.line(last.lineno))
-    return module.text.before((last.end_lineno or last.lineno) + 1, f"{indent}{spin}")
-
-
-def _spins(node: ast.AST) -> bool:
-    """Whether it contains a name that begins with spin."""
-    names = [
-        n.attr if isinstance(n, ast.Attribute) else n.id
-        for n in ast.walk(node)
-        if isinstance(n, ast.Attribute | ast.Name)
-    ]
-    return any(name.startswith("spin") for name in names)
+        return module.text.swap(last, wanted)
+    row = f"{indent_of(module.text.line(last.lineno))}{wanted}"
+    return module.text.before((last.end_lineno or last.lineno) + 1, row)
 
 
 def _makes(statement: ast.stmt, node: NodeSource) -> bool:
     """Whether it is an assignment whose value is a new node."""
     value = statement.value if isinstance(statement, ast.Assign) else None
     return isinstance(value, ast.Call) and node.is_node_class(value.func)
-
-
-def spin_of_class(case: Case) -> Files | None:
-    """Create the node above the line that spins its class, and spin the node."""
-    node, module = case.node, case.module
-    call = next(
-        (
-            n
-            for n in (node.calls_of("spin") if node is not None else ())
-            if n.lineno == case.finding.line and n.args and node is not None
-        ),
-        None,
-    )
-    if node is None or module is None or call is None or "node" in module.names:
-        return None
-    init = node.methods.get("__init__")
-    required = len(init.args.args) - len(init.args.defaults) if init is not None else 1
-    text, given = module.text, call.args[-1]
-    row = text.line(call.lineno)
-    alone = row.strip() == text.code(call) and call.lineno == call.end_lineno
-    if not alone or not node.is_node_class(given) or required != 1:
-        return None
-    new = text.before(call.lineno, f"{indent_of(row)}node = {text.code(given)}()")
-    return case.changed(module, new, text.swap(given, "node"))

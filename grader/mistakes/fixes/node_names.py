@@ -6,51 +6,15 @@ import ast
 
 from grader.base.nearest import nearest
 from grader.mistakes.fixes.case import Case
-from grader.mistakes.fixes.rename import def_renamed, splices_of
+from grader.mistakes.fixes.rename import def_renamed
 from grader.package.edit.files import Files
-from grader.package.edit.text import Splice, indent_of
+from grader.package.edit.text import indent_of
 from grader.package.source.counter import names_given, targets_of
-from grader.package.source.module import Module
 from grader.package.source.names import dotted, last_part, own_name
 from grader.package.source.node import NodeSource
 from grader.package.source.scopes import bindings
 
 IMPORT = ast.Import | ast.ImportFrom
-
-
-def rclpy(case: Case) -> Files | None:
-    """Import rclpy by its right name, if the code uses that name."""
-    for module in case.node.modules if case.node else ():
-        splices = _right_imports(module)
-        used = any(isinstance(n, ast.Name) and n.id == "rclpy" for n in module.nodes)
-        if splices:
-            return case.changed(module, *splices) if used else None
-    return None
-
-
-def unused_import(module: Module, line: int | None) -> ast.Import | ast.ImportFrom | None:
-    """Return the import on a line, if it is alone there and no line uses what it imports."""
-    found = [s for s in module.nodes if isinstance(s, IMPORT) and s.lineno == line]
-    if len(found) != 1 or "*" in (bound := _bound(found[0])):
-        return None
-    used = {n.id for n in module.nodes if isinstance(n, ast.Name)}
-    alone = module.line(line) == module.text.code(found[0])
-    return None if used & bound or not alone else found[0]
-
-
-def _bound(statement: ast.Import | ast.ImportFrom) -> set[str]:
-    return {alias.asname or alias.name.partition(".")[0] for alias in statement.names}
-
-
-def without_unused(case: Case) -> Files | None:
-    """Delete an import that nothing uses, of a module that is not there."""
-    module, line = case.module, case.finding.line
-    found = unused_import(module, line) if module is not None else None
-    if module is None or found is None or line is None or case.finding.params.get("close"):
-        return None
-    if found not in module.tree.body:
-        return None
-    return case.changed(module, module.text.without(line))
 
 
 def missing_import(case: Case) -> Files | None:
@@ -62,23 +26,6 @@ def missing_import(case: Case) -> Files | None:
         return None
     last = imports[-1]
     return case.changed(module, module.text.before((last.end_lineno or last.lineno) + 1, statement))
-
-
-def _right_imports(module: Module) -> list[Splice]:
-    splices = []
-    for statement in module.tree.body:
-        line = module.text.line(statement.lineno)
-        if isinstance(statement, ast.Import) and len(statement.names) == 1:
-            written = statement.names[0].name
-        elif isinstance(statement, ast.ImportFrom) and not statement.level:
-            written = (statement.module or "").partition(".")[0]
-        else:
-            continue
-        if nearest("rclpy", [written], cutoff=0.75) != written or line.count(written) != 1:
-            continue
-        at = module.text.start_of(statement.lineno) + line.find(written)
-        splices.append(Splice(at, at + len(written), "rclpy"))
-    return splices
 
 
 def only_starter(source: NodeSource, wanted: str) -> ast.FunctionDef | None:
@@ -153,20 +100,6 @@ def counts(node: NodeSource, name: str) -> bool:
 
 def _is_text(value: ast.expr) -> bool:
     return isinstance(value, ast.JoinedStr) or isinstance(getattr(value, "value", None), str)
-
-
-def close_attribute(case: Case) -> Files | None:
-    """Give an attribute the name that the other lines use for it."""
-    node = case.node
-    name, close = (str(case.finding.params.get(key, "")) for key in ("name", "close"))
-    if node is None or not close or _is_set(node, name):
-        return None
-    parts = [n for n in node.own_nodes if isinstance(n, ast.Attribute) and own_name(n) == name]
-    module = node.module
-    if not all(module.has(part) for part in parts):
-        return None
-    splices = splices_of(module, parts, close)
-    return case.changed(module, *splices) if splices else None
 
 
 def _is_number(statement: ast.stmt) -> bool:

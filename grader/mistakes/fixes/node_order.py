@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
-from grader.package.edit.text import Splice, indent_of
+from grader.package.edit.text import indent_of
 from grader.package.source.counter import targets_of
 from grader.package.source.module import Function, Module
 from grader.package.source.names import calls_in, dotted, last_part
@@ -59,30 +59,6 @@ def moved_up(case: Case) -> Files | None:
     row = module.text.line(first.lineno)
     return case.changed(
         module, module.text.without(first.lineno), module.text.before(user.lineno, row)
-    )
-
-
-def attribute_first(case: Case) -> Files | None:
-    """Move the line that sets an attribute to before the statement of __init__ that needs it."""
-    node, module, line = case.node, case.module, case.finding.line
-    init = node.method("__init__") if node is not None else None
-    name = str(case.finding.params.get("name", ""))
-    late = str(case.finding.params.get("line", ""))
-    if module is None or init is None or not module.has(init):
-        return None
-    user = next((s for s in init.body if s.lineno == line), None)
-    sets = next((s for s in init.body if str(s.lineno) == late and name in targets_of(s)), None)
-    if user is None or sets is None or not _is_own_line(module, sets):
-        return None
-    between = init.body[init.body.index(user) : init.body.index(sets)]
-    used = [n for n in ast.walk(sets) if isinstance(n, ast.Name | ast.Attribute | ast.Call)]
-    needed = {dotted(n) for n in used}
-    changed = {target for s in between for n in ast.walk(s) for target in targets_of(n)}
-    if any(isinstance(n, ast.Call) for n in used) or needed & (changed - {name}):
-        return None
-    row = module.text.line(sets.lineno)
-    return case.changed(
-        module, module.text.without(sets.lineno), module.text.before(user.lineno, row)
     )
 
 
@@ -164,37 +140,3 @@ def cleanup_last(case: Case) -> Files | None:
     row = indent_of(text.line(last.lineno)) + text.code(early)
     below = text.before((last.end_lineno or last.lineno) + 1, row)
     return case.changed(module, removed, below)
-
-
-def unkept(source: NodeSource, main: Function) -> tuple[list[ast.Call], ast.stmt | None]:
-    """Return the calls in main that make a node, and the statement that is the only one of them."""
-    made = [call for call, _ in calls_in(main) if source.is_node_class(call.func)]
-    alone = [s for s in main.body if isinstance(s, ast.Expr) and s.value in made]
-    return made, alone[0] if len(made) == len(alone) == 1 else None
-
-
-def first_user(main: Function, name: str) -> ast.stmt | None:
-    """Return the statement of main itself, and not of a block in it, that first uses a name."""
-    use = first_use(main, name)
-    return next((s for s in main.body if use is not None and _has(s, use)), None)
-
-
-def kept(case: Case) -> Files | None:
-    """Assign the new node to the variable that the code after it uses."""
-    node = case.node
-    name = str(case.finding.params.get("name", ""))
-    if node is None or node.main is None or node.node_class is None or not name:
-        return None
-    module = node.module_of(node.main)
-    made, alone = unkept(node, node.main)
-    if alone is not None:
-        at = module.text.span(alone)[0]
-        return case.changed(module, Splice(at, at, f"{name} = "))
-    user = first_user(node.main, name)
-    init = node.method("__init__")
-    plain = init is None or len(init.args.args) == 1
-    if made or user is None or not plain or not module.has(node.node_class):
-        return None
-    indent = indent_of(module.text.line(user.lineno))
-    row = f"{indent}{name} = {node.node_class.name}()"
-    return case.changed(module, module.text.before(user.lineno, row))

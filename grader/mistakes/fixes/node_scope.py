@@ -12,8 +12,6 @@ from grader.package.source.names import called_name, dotted
 from grader.package.source.node import NodeSource
 from grader.package.source.place import block_of, first_row, function_at, method_above, statement_at
 
-NAMES_NODE = ("super().__init__", "rclpy.create_node")
-
 
 def indented(case: Case) -> Files | None:
     """Indent the lines directly below a method that use self, so that they belong to it."""
@@ -51,26 +49,6 @@ def _starts(statement: ast.stmt) -> bool:
         return True
     calls = [n for n in ast.walk(statement) if isinstance(n, ast.Call)]
     return any(called_name(call) == "create_timer" for call in calls)
-
-
-def variable(case: Case) -> Files | None:
-    """Write the variable of the node instead of self in a function that is no method."""
-    node, module = case.node, case.module
-    function = function_at(module, case.finding.line) if module is not None else None
-    variables = list(node.node_variables) if node is not None else []
-    if node is None or module is None or function is None or len(variables) != 1:
-        return None
-    own = [n for n in ast.walk(function) if isinstance(n, ast.Name)]
-    uses = [n for n in own if n.id == "self"]
-    sets = [n for n in own if n.id == variables[0] and isinstance(n.ctx, ast.Store)]
-    known = any(n.lineno < min((u.lineno for u in uses), default=0) for n in sets)
-    if (
-        function in node.own_methods
-        or not known
-        or any(module.text.code(n) != "self" for n in uses)
-    ):
-        return None
-    return case.changed(module, *(module.text.swap(n, variables[0]) for n in uses))
 
 
 def inner_function(source: NodeSource, name: str) -> Function | None:
@@ -178,51 +156,3 @@ def self_dot(case: Case) -> Files | None:
         at = module.text.span(use)[0]
         splices.append(Splice(at, at, "self."))
     return case.changed(module, *splices)
-
-
-def names_as_text(module: Module, name: str) -> list[ast.Name]:
-    """Return the places of a name at which Python needs a string: a node's name, the guard."""
-    found: list[ast.expr] = []
-    for node in module.nodes:
-        if isinstance(node, ast.Call) and dotted(node.func) in NAMES_NODE:
-            found += [*node.args[:1], *(k.value for k in node.keywords if k.arg == "node_name")]
-        elif isinstance(node, ast.Compare) and dotted(node.left) == "__name__":
-            found += node.comparators
-    return [n for n in found if isinstance(n, ast.Name) and n.id == name]
-
-
-def quotes(case: Case) -> Files | None:
-    """Put quotes around the node's name, or around __main__."""
-    node, module = case.node, case.module
-    name = str(case.finding.params.get("name", ""))
-    if node is None or module is None or name in module.names:
-        return None
-    places = names_as_text(module, name)
-    uses = [n for n in module.nodes if isinstance(n, ast.Name) and n.id == name]
-    if not places or len(places) != len(uses):
-        return None
-    written = name if name == "__main__" else case.assignment.node_name
-    q = module.text.quote
-    return case.changed(module, *(module.text.swap(n, f"{q}{written}{q}") for n in places))
-
-
-def without_self(case: Case) -> Files | None:
-    """Remove self from the arguments of super().__init__()."""
-    node = case.node
-    call = node.super_init if node is not None else None
-    if node is None or call is None or not call.args or not _is_self(call.args[0]):
-        return None
-    module = node.module_of(call)
-    text = module.text
-    start, end = text.span(call.args[0])
-    if len(call.args) > 1:
-        return case.changed(module, Splice(start, text.span(call.args[1])[0], ""))
-    if call.keywords:
-        return None
-    return case.changed(
-        module, Splice(start, end, f"{text.quote}{case.assignment.node_name}{text.quote}")
-    )
-
-
-def _is_self(given: ast.expr) -> bool:
-    return isinstance(given, ast.Name) and given.id == "self"

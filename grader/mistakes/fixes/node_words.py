@@ -9,13 +9,11 @@ from grader.mistakes.fixes.case import Case
 from grader.package.edit.files import Files
 from grader.package.edit.text import Splice
 from grader.package.source.counter import logged_counter, targets_of
-from grader.package.source.module import Function, Module
+from grader.package.source.module import Function
 from grader.package.source.names import dotted, last_part
 from grader.package.source.node import NodeSource
 
 COMPUTED = (ast.BinOp, ast.UnaryOp, ast.Compare)
-OPTIONS = ("once", "throttle_duration_sec", "skip_first")
-"""The options of the logger that leave out lines (rclpy/impl/rcutils_logger.py)."""
 
 
 def word(case: Case) -> Files | None:
@@ -84,71 +82,3 @@ def kept_sum(case: Case) -> Files | None:
     module = node.module_of(found[0])
     new = f"{found[1]} += {case.assignment.output.step}"
     return case.changed(module, module.text.swap(found[0], new))
-
-
-def option_of(call: ast.Call) -> ast.keyword | None:
-    """Return the first argument of a call that leaves out lines, as an option of the logger."""
-    for given in call.keywords:
-        off = isinstance(given.value, ast.Constant) and not given.value.value
-        if given.arg in OPTIONS and not off:
-            return given
-    return None
-
-
-def options(case: Case) -> Files | None:
-    """Remove the options that leave out lines from the only call of the logger that has one."""
-    node = case.node
-    calls = [c for c in node.own_logs if option_of(c) is not None] if node is not None else []
-    if node is None or len(calls) != 1 or not calls[0].args:
-        return None
-    call, module = calls[0], node.module_of(calls[0])
-    if any(given.arg not in (*OPTIONS, "throttle_time_source_type") for given in call.keywords):
-        return None
-    start, end = module.text.span(call.args[-1])[1], module.text.span(call)[1] - 1
-    return case.changed(module, Splice(start, end, ""))
-
-
-def value(case: Case) -> Files | None:
-    """Give the place in the text its value: the counter."""
-    node = case.node
-    if node is None:
-        return None
-    for found in node.calls_of("format"):
-        text = found.func.value if isinstance(found.func, ast.Attribute) else None
-        written = node.module_of(found).text.plain_string(text) or ""
-        if text is not None and len(re.findall(r"%[dis]", written)) == written.count("%") == 1:
-            module = node.module_of(text)
-            code = re.sub(r"%[dis]", "{}", module.text.code(text))
-            return case.changed(module, module.text.swap(text, code))
-    logged, call = logged_counter(node), node.log_call
-    if logged is None or call is None:
-        return None
-    return _with_value(case, node.module_of(call), call, logged[1])
-
-
-def _with_value(case: Case, module: Module, call: ast.Call, counter: str) -> Files | None:
-    """Write the counter behind the only place for a value in the text of a call."""
-    text = module.text.plain_string(call.args[0]) or ""
-    percent, braces = len(re.findall(r"%[dis]", text)), len(re.findall(r"\{0?\}", text))
-    if (percent, braces) not in ((1, 0), (0, 1)) or text.count("%") != percent:
-        return None
-    at = module.text.span(call.args[0])[1]
-    new = f" % {counter}" if percent else f".format({counter})"
-    return case.changed(module, Splice(at, at, new))
-
-
-DUNDERS = ("__init__", "__name__", "__main__")
-"""The names of Python with two underscores on both sides that a first node has."""
-
-
-def double_underscores(case: Case) -> Files | None:
-    """Write the second underscores of Python's names in the whole file."""
-    module = case.module
-    if module is None:
-        return None
-    code, splices = module.text.text, []
-    for name in DUNDERS:
-        for match in re.finditer(rf"(?<!\w)_{{1,3}}{name.strip('_')}_{{1,3}}(?!\w)", code):
-            if match[0] != name:
-                splices.append(Splice(*match.span(), name))
-    return case.changed(module, *splices)

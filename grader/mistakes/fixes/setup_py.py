@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 
-from grader.mistakes.fixes import layout
 from grader.mistakes.fixes.case import Case
 from grader.mistakes.fixes.setup_call import FILE, SetupCall, read_setup_call
 from grader.package.edit.files import Files
@@ -12,13 +11,7 @@ from grader.package.edit.text import Splice, indent_of, read_source
 from grader.package.source.python import can_parse
 from grader.package.source.setup_faults import setup_fault
 from grader.package.source.setup_packages import packages_of
-from grader.package.source.setup_py import (
-    EMPTY,
-    INDEX,
-    called_value,
-    entry_outside,
-    missing_imports,
-)
+from grader.package.source.setup_py import INDEX, called_value, entry_outside, missing_imports
 from grader.package.source.values import Evaluator, Text
 
 IMPORTS = ast.Import | ast.ImportFrom
@@ -51,19 +44,10 @@ def entry_inside(case: Case) -> Files | None:
     outside = entry_outside(found or b"")
     if source is None or outside is None or can_parse(found or b""):
         return None
-    entry = source.line(outside.line).strip().removesuffix(",")
-    empty = EMPTY.fullmatch(source.line(outside.above))
-    if empty is not None:
-        at = source.start_of(outside.above) + source.line(outside.above).index("[") + 1
-        inside = source.spliced([source.without(outside.line), Splice(at, at, entry)])
-        right = inside is not None and can_parse(inside)
-        return case.with_data(FILE, inside) if inside is not None and right else None
-    row = f"{indent_of(source.line(outside.above))}    {entry},"
-    before = source.line(outside.above - 1).rstrip()
+    row = f"{indent_of(source.line(outside.above))}    {source.line(outside.line).strip()}"
+    row = row if row.endswith(",") else f"{row},"
     new = source.spliced([source.without(outside.line), source.before(outside.above, row)])
-    if not before.endswith((",", "[")) or new is None or not can_parse(new):
-        return None
-    return case.with_data(FILE, new)
+    return case.with_data(FILE, new) if new is not None and can_parse(new) else None
 
 
 def imports(case: Case) -> Files | None:
@@ -76,17 +60,6 @@ def imports(case: Case) -> Files | None:
         return None
     new = setup.source.spliced([setup.source.before(first[0], *missing)])
     return case.with_data(FILE, new)
-
-
-def key(case: Case) -> Files | None:
-    """Write quotes around the key of a dict."""
-    parsed, name = case.parsed(FILE), str(case.finding.params.get("name", ""))
-    dicts = [n for n in ast.walk(parsed[1]) if isinstance(n, ast.Dict)] if parsed else []
-    keys = [k for d in dicts for k in d.keys if isinstance(k, ast.Name) and k.id == name]
-    if parsed is None or len(keys) != 1:
-        return None
-    q = parsed[0].quote
-    return case.with_data(FILE, parsed[0].spliced([parsed[0].swap(keys[0], f"{q}{name}{q}")]))
 
 
 def packages(case: Case) -> Files | None:
@@ -103,7 +76,7 @@ def packages(case: Case) -> Files | None:
 def fault(case: Case) -> Files | None:
     """Correct what setup.py stops at."""
     found, error = case.files.data(FILE) or b"", str(case.finding.params.get("error", ""))
-    fault = setup_fault(found, error, case.package, layout.files_in(case))
+    fault = setup_fault(found, error, case.package)
     return case.with_data(FILE, fault.fixed) if fault is not None else None
 
 
@@ -114,36 +87,6 @@ def marker(case: Case) -> Files | None:
         return None
     splices = _renamed(setup, case) or _added(setup, case)
     return case.with_data(FILE, setup.source.spliced(splices)) if splices else None
-
-
-def marker_place(case: Case) -> Files | None:
-    """Correct the folder into which data_files installs the marker."""
-    setup, folder = read_setup_call(case), str(case.finding.params.get("folder", ""))
-    data_files = setup.argument("data_files") if setup is not None else None
-    items = data_files.elts if isinstance(data_files, ast.List | ast.Tuple) else []
-    pairs = [pair for item in items if (pair := _pair(item)) and pair[0].value == folder]
-    pairs = [pair for pair in pairs if pair[0].lineno == case.finding.line]
-    if setup is None or not folder or len(pairs) != 1:
-        return None
-    return case.with_data(FILE, setup.source.spliced([setup.text(pairs[0][0], INDEX)]))
-
-
-def marker_and_line(case: Case) -> Files | None:
-    """Rename the marker file, and make data_files install it by that name."""
-    setup = read_setup_call(case)
-    splices = _renamed(setup, case) if setup is not None else []
-    moved = layout.marker(case) if setup is not None and splices else None
-    new = setup.source.spliced(splices) if setup is not None else None
-    return moved.with_data(FILE, new) if moved is not None and new is not None else None
-
-
-def _pair(node: ast.expr) -> tuple[ast.Constant, ast.expr] | None:
-    """Return the folder and the files of an item of data_files."""
-    if isinstance(node, ast.Tuple | ast.List) and len(node.elts) == 2:
-        folder, files = node.elts
-        if isinstance(folder, ast.Constant) and isinstance(folder.value, str):
-            return folder, files
-    return None
 
 
 def _files_of_index(setup: SetupCall, item: ast.expr) -> ast.expr | None:

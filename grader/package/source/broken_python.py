@@ -9,7 +9,7 @@ from typing import Literal
 from grader.package.edit.text import SourceText, Splice
 from grader.package.source.python import PythonFault, parse_python
 
-Cause = Literal["pasted", "document", "language", "signs", "shebang"]
+Cause = Literal["pasted", "document", "language", "signs"]
 LONGEST = 500
 """Characters of a line that is examined: some patterns take quadratic time."""
 MOST_TRIES = 8
@@ -21,8 +21,8 @@ BLOCK = "def|class|if|elif|else|for|while|try|except|finally|with"
 class Slip:
     """A slip: its cause and variant, its line, what is written, and the line as it should be.
 
-    `other` is the number of another line that explains it, `step` is a statement to add. `fixed` is the file after the change;
-    None if more than one change is possible. Python may stop at another line of it.
+    `other` is the number of another line that explains it. `fixed` is the file after the change; None
+    if more than one change is possible. Python may stop at another line of it.
     """
 
     cause: Cause
@@ -32,7 +32,6 @@ class Slip:
     wanted: str = ""
     fixed: bytes | None = None
     other: int = 0
-    step: str = ""
 
 
 @dataclass(frozen=True)

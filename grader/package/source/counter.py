@@ -149,20 +149,6 @@ def _added(function: Function) -> set[str]:
     return {name for node in added for name in targets_of(node)}
 
 
-def changes_of(source: NodeSource, name: str) -> list[ast.stmt]:
-    """Return the statements that assign to a counter after __init__."""
-    start = _at_start(source)
-    found: list[ast.stmt] = []
-    for node in source.own_nodes:
-        if not isinstance(node, ast.stmt) or name not in targets_of(node):
-            continue
-        function = source.function_around(node)
-        if function in start if "." in name else function is None or not declares(function, name):
-            continue
-        found.append(node)
-    return found
-
-
 def texts_of(function: Function, call: ast.Call) -> list[ast.Assign]:
     """Return the statements that build the text of a log call before it, in order."""
     given = set(names_given(call))
@@ -239,68 +225,3 @@ def _logged_in(source: NodeSource, callback: Function) -> tuple[ast.Call, str] |
             if name.startswith("self.") or name in starts:
                 return call, name
     return None
-
-
-def without_effect(source: NodeSource) -> tuple[ast.Expr, str] | None:
-    """Return a statement that only looks as if it counts, and the counter: `++n`, `n + 1`.
-
-    None if another statement changes the counter.
-    """
-    logged = logged_counter(source)
-    name = logged[1] if logged is not None else ""
-    if not name or changes_of(source, name):
-        return None
-    for part in parts_of_callback(source):
-        for node in ast.walk(part):
-            value = node.value if isinstance(node, ast.Expr) else None
-            while isinstance(value, ast.UnaryOp) and isinstance(value.op, ast.UAdd):
-                value = value.operand
-            if isinstance(value, ast.BinOp) and isinstance(value.op, ast.Add):
-                value = value.left
-            changed = isinstance(node, ast.Expr) and value is not node.value
-            if isinstance(node, ast.Expr) and changed and dotted(value or node) == name:
-                return node, name
-    return None
-
-
-def wrapped_at(source: NodeSource) -> tuple[ast.stmt | ast.expr, int] | None:
-    """Return what makes the logged counter begin again (`% 60`, `if n == 60`), and that number."""
-    logged = logged_counter(source)
-    name = logged[1] if logged is not None else ""
-    for statement in changes_of(source, name) if name else ():
-        value = getattr(statement, "value", None)
-        limit: ast.expr | None = None
-        if isinstance(statement, ast.AugAssign):
-            limit = value if isinstance(statement.op, ast.Mod) else None
-        elif isinstance(value, ast.BinOp) and isinstance(value.op, ast.Mod):
-            limit = value.right if name in _read_in(value.left) else None
-        number = limit.value if isinstance(limit, ast.Constant) else None
-        if type(number) is int:
-            return statement, number
-        around = source.module_of(statement).parents.get(statement)
-        plain = isinstance(around, ast.If) and isinstance(value, ast.Constant)
-        reached = _reached(around, name) if isinstance(around, ast.If) and plain else None
-        if reached is not None:
-            return statement, reached
-    for part in parts_of_callback(source) if name else ():
-        for node in (n for call in source.logs(part) for n in ast.walk(call)):
-            rest = isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mod)
-            limit = node.right if isinstance(node, ast.BinOp) and rest else None
-            number = limit.value if isinstance(limit, ast.Constant) else None
-            if isinstance(node, ast.BinOp) and type(number) is int and dotted(node.left) == name:
-                return node, number
-    return None
-
-
-def _reached(around: ast.If, name: str) -> int | None:
-    """Return the number that a counter has to reach: `n == 60`, `n >= 60`, `n > 59`."""
-    test = around.test
-    if not isinstance(test, ast.Compare) or len(test.ops) != 1 or dotted(test.left) != name:
-        return None
-    limit = test.comparators[0]
-    number = limit.value if isinstance(limit, ast.Constant) else None
-    if type(number) is not int:
-        return None
-    if isinstance(test.ops[0], ast.Gt):
-        return number + 1
-    return number if isinstance(test.ops[0], ast.Eq | ast.GtE) else None

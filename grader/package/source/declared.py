@@ -57,12 +57,6 @@ def declares_others(source: NodeSource) -> bool:
     return any(call not in {p.call for p in declared(source)} for call in calls)
 
 
-def read(source: NodeSource) -> list[Parameter]:
-    """Return the parameters that get_parameter reads by a name in quotes."""
-    calls = [call for call, name in source.calls if last_part(name) == "get_parameter"]
-    return [Parameter(call, text) for call in calls for text in _text(_argument(call, 0, "name"))]
-
-
 def _argument(call: ast.Call, place: int, name: str) -> ast.expr | None:
     if place < len(call.args):
         return call.args[place]

@@ -5,32 +5,23 @@ from __future__ import annotations
 import json
 import re
 
-from grader.package.edit.text import SourceText, read_source
+from grader.package.edit.text import read_source
 from grader.package.source.broken_python import Slip
 from grader.package.source.kept import keep_small
 from grader.package.source.python import SHEBANG, can_parse
 
-BEGINNINGS = {
-    "page": re.compile(
-        r"\s*(?:<!--.{0,500}?-->\s*)?<(?:!doctype\s+html|html|head|body)\b", re.I | re.S
-    ),
-    "markup": re.compile(r"\s*<\?xml\b|\s*<package\b"),
-    "notebook": re.compile(
-        r"\s*\{\s*\"(?:cells\"\s*:\s*\[(?=\s*(?:\{|\Z))|nbformat(?:_minor)?\"\s*:)"
-    ),
-    "word": re.compile(r"\s*\{\\rtf"),
-}
-"""How texts begin that are no Python at all."""
-SIGNATURES = {
-    "office": (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1",),
-    "pdf": (b"%PDF-",),
-    "compiled": (b"\x7fELF", b"MZ\x90\0"),
-    "archive": (b"PK\x03\x04", b"\x1f\x8b", b"7z\xbc\xaf\x27\x1c", b"Rar!\x1a\x07"),
-}
-"""The first bytes of files that are no text."""
-IN_OFFICE = (b"word/", b"[Content_Types].xml", b"mimetypeapplication/vnd.oasis")
-"""What is in the archive that an office program writes."""
+DOCUMENT = re.compile(
+    r"\s*(?:<!--.{0,500}?-->\s*)?(?:<(?:!doctype\s+html|html|head|body|package|\?xml)\b|\{\\rtf)",
+    re.I | re.S,
+)
+"""How texts begin that are no Python at all: a web page, package.xml, a rich text."""
+SIGNATURES = (
+    *(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", b"%PDF-", b"\x7fELF", b"MZ\x90\0", b"PK\x03\x04"),
+    *(b"\x1f\x8b", b"7z\xbc\xaf\x27\x1c", b"Rar!\x1a\x07"),
+)
+"""The first bytes of files that are no text: of office programs, PDF, programs, archives."""
 
+NOTEBOOK = re.compile(r"\s*\{\s*\"(?:cells\"\s*:\s*\[(?=\s*(?:\{|\Z))|nbformat(?:_minor)?\"\s*:)")
 ABOVE = re.compile(rb"\A(?:\xef\xbb\xbf)?(?:#[^\r\n]*|[ \t\r\n])*")
 ONLY_JUPYTER = re.compile(r"^[!%][^\n]*\n?", re.M)
 """Lines that are commands for Jupyter."""
@@ -38,34 +29,20 @@ ONLY_JUPYTER = re.compile(r"^[!%][^\n]*\n?", re.M)
 
 def document_of(found: bytes) -> Slip | None:
     """Return what a file is, if it is no Python file at all; None if it can be one."""
-    for variant, signs in SIGNATURES.items():
-        if found.startswith(signs):
-            kind = "office" if any(name in found[:4000] for name in IN_OFFICE) else variant
-            return Slip("document", kind, 1, "")
-    if found[2:4] == b"\r\n" and found[4:7] == b"\0\0\0":
-        return Slip("document", "compiled", 1, "")  # what Python writes into __pycache__
+    compiled = found[2:4] == b"\r\n" and found[4:7] == b"\0\0\0"  # as in __pycache__
+    if found.startswith(SIGNATURES) or compiled:
+        return Slip("document", "document", 1, "")
     source = read_source(found)
-    cells = code_cells(found)
-    if source is not None and cells is not None:
-        comments = ABOVE.match(found)
-        above = len(comments[0].splitlines()) if comments is not None else 0
-        variant, line = ("notebook_below", above + 1) if above else ("notebook", 1)
-        return Slip(
-            "document", variant, 1, source.line(1).strip(), fixed=script_of(found), other=line
-        )
-    if source is None or source.line(1).startswith("#"):
+    if source is None:
         return None
-    return _beginning(source)
-
-
-def _beginning(source: SourceText) -> Slip | None:
-    for variant, pattern in BEGINNINGS.items():
-        match = pattern.match(source.text)
-        if match is not None:
-            part = source.text[: match.end()]
-            line = part.count("\n") + part.count("\r") - part.count("\r\n") + 1
-            return Slip("document", variant, line, source.line(line).strip())
-    return None
+    first = source.line(1).strip()
+    if code_cells(found) is not None or NOTEBOOK.match(source.text):
+        return Slip("document", "notebook", 1, first, fixed=script_of(found))
+    match = None if first.startswith("#") else DOCUMENT.match(source.text)
+    if match is None:
+        return None
+    line = match[0].count("\n") + 1
+    return Slip("document", "document", line, source.line(line).strip())
 
 
 @keep_small

@@ -50,20 +50,6 @@ def endless_loop(source: NodeSource, function: Function) -> Loop | None:
     return None
 
 
-def idle_loop(source: NodeSource, function: Function) -> ast.While | None:
-    """Return the loop of a function that has no end and does nothing, or only sleeps."""
-    loops = [node for node in ast.walk(function) if isinstance(node, ast.While) and goes_on(node)]
-    found = [node for node in loops if all(_is_idle(source, part) for part in node.body)]
-    return found[0] if len(found) == 1 and not found[0].orelse else None
-
-
-def _is_idle(source: NodeSource, part: ast.stmt) -> bool:
-    if isinstance(part, ast.Expr) and isinstance(part.value, ast.Call):
-        return part.value in sleeps_in(source, part)
-    nothing = isinstance(part, ast.Expr) and isinstance(part.value, ast.Constant)
-    return nothing or isinstance(part, ast.Pass | ast.Continue)
-
-
 def _has_end(loop: Loop) -> bool:
     return any(isinstance(node, ast.Break | ast.Return) for node in ast.walk(loop))
 

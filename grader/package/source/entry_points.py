@@ -13,8 +13,6 @@ from grader.package.source.values import Listing, Table, Text, Value
 # The form in which importlib.metadata.EntryPoint (Python 3.10 to 3.13) accepts an entry's value.
 TARGET = re.compile(r"[\w.]+\s{0,9}(:\s{0,9}[\w.]+\s{0,9})?(\[[^\]]*\]\s{0,9})?")
 
-GROUP_NAME = re.compile(r"\w+(\.\w+)*")
-
 
 @dataclass(frozen=True)
 class Entry:
@@ -62,11 +60,6 @@ class EntryPoints:
         return self.groups.setdefault(group, [])
 
 
-def is_refused(group: str) -> bool:
-    """Return whether setuptools stops at the name of a group; it ignores spaces around the name."""
-    return bool(group.strip()) and not GROUP_NAME.fullmatch(group.strip())
-
-
 def from_setup_py(setup: SetupPy) -> EntryPoints:
     """Return the entry points in the argument `entry_points` of setup()."""
     found = EntryPoints()
@@ -101,18 +94,13 @@ def from_setup_cfg(cfg: SetupCfg) -> EntryPoints:
 class Misplaced:
     """An entry that is in setup.py, but not in entry_points; `argument` is "" outside of setup().
 
-    `variable` is the dict of groups that holds it, if setup() does not get that; `is_late` if it
-    is set below the call. `twice` is the key of a dict that has it and is written again in the line
-    `again`.
+    `variable` is the dict of groups that holds it, if setup() does not get that.
     """
 
     text: str
     line: int
     argument: str
     variable: str = ""
-    is_late: bool = False
-    twice: str = ""
-    again: int = 0
 
 
 def misplaced(tree: ast.Module, name: str) -> Misplaced | None:
@@ -124,26 +112,13 @@ def misplaced(tree: ast.Module, name: str) -> Misplaced | None:
             continue
         argument = holders.get(id(node), "")
         if begins.match(node.value) and argument != "entry_points":
-            variable, is_late = ("", False) if argument else _variable(tree, node)
-            twice, again = _written_again(tree, node)
-            entry = node.value.strip()
-            return Misplaced(entry, node.lineno, argument, variable, is_late, twice, again)
+            variable = "" if argument else _variable(tree, node)
+            return Misplaced(node.value.strip(), node.lineno, argument, variable)
     return None
 
 
-def _written_again(tree: ast.Module, entry: ast.Constant) -> tuple[str, int]:
-    """Return the key of a dict whose value has an entry, and the line of the same key below it."""
-    for found in (n for n in ast.walk(tree) if isinstance(n, ast.Dict)):
-        keys = [(k.value, k.lineno) if isinstance(k, ast.Constant) else ("", 0) for k in found.keys]
-        for at, (key, _) in enumerate(keys):
-            later = [line for name, line in keys[at + 1 :] if name == key]
-            if key and later and any(n is entry for n in ast.walk(found.values[at])):
-                return str(key), later[-1]
-    return "", 0
-
-
-def _variable(tree: ast.Module, entry: ast.Constant) -> tuple[str, bool]:
-    """Return the variable with the groups that hold an entry and is not used; and if it is late."""
+def _variable(tree: ast.Module, entry: ast.Constant) -> str:
+    """Return the variable with the groups that hold an entry, if it is not used; else ""."""
     calls = [n.lineno for n in ast.walk(tree) if isinstance(n, ast.Call) and is_setup_call(n)]
     sets = [
         s for s in tree.body if isinstance(s, ast.Assign) and isinstance(s.targets[0], ast.Name)
@@ -159,8 +134,8 @@ def _variable(tree: ast.Module, entry: ast.Constant) -> tuple[str, bool]:
             continue
         uses = [n for n in ast.walk(tree) if isinstance(n, ast.Name) and n.id == name]
         if len(uses) == 1 and len(calls) == 1:
-            return name, statement.lineno > calls[0]
-    return "", False
+            return name
+    return ""
 
 
 def _target(statement: ast.Assign) -> str:

@@ -31,66 +31,13 @@ PARTS = re.compile(r"(?P<type>[\w/]+?)(?:<=\d+)?(?P<array>\[(?P<length>[^\]]*)\]
 LONGEST_NUMBER = 40  # characters of a number that is read
 OF_CLASS = ("builtins", "get_fields_and_field_types")
 """What the Python class of a message needs in its body, or has as a method."""
-OF_C = frozenset(
-    [
-        "alignas",
-        "alignof",
-        "asm",
-        "auto",
-        "bool",
-        "case",
-        "catch",
-        "char",
-        "class",
-        "compl",
-        "const",
-        "constexpr",
-        "decltype",
-        "default",
-        "delete",
-        "do",
-        "double",
-        "enum",
-        "explicit",
-        "export",
-        "extern",
-        "float",
-        "friend",
-        "goto",
-        "inline",
-        "int",
-        "long",
-        "mutable",
-        "namespace",
-        "new",
-        "noexcept",
-        "nullptr",
-        "operator",
-        "private",
-        "protected",
-        "public",
-        "register",
-        "restrict",
-        "short",
-        "signed",
-        "sizeof",
-        "static",
-        "struct",
-        "switch",
-        "template",
-        "this",
-        "throw",
-        "typedef",
-        "typeid",
-        "typename",
-        "union",
-        "unsigned",
-        "using",
-        "virtual",
-        "void",
-        "volatile",
-    ]
-)
+OF_C = """
+    alignas alignof asm auto bool case catch char class compl const constexpr decltype default
+    delete do double enum explicit export extern float friend goto inline int long mutable
+    namespace new noexcept nullptr operator private protected public register restrict short
+    signed sizeof static struct switch template this throw typedef typeid typename union
+    unsigned using virtual void volatile
+"""
 """Words of C and C++ that Python does not reserve too."""
 
 
@@ -251,7 +198,7 @@ def _name_fault(one: Declared) -> Iterator[InterfaceFault]:
             yield InterfaceFault("constant_name", one.line, one.name[:100], name)
     elif not FIELD_NAME.fullmatch(one.name):
         yield InterfaceFault("field_name", one.line, one.name[:100], name)
-    elif keyword.iskeyword(one.name) or one.name in OF_CLASS or one.name in OF_C:
+    elif keyword.iskeyword(one.name) or one.name in OF_CLASS or one.name in OF_C.split():
         yield InterfaceFault("field_reserved", one.line, one.name[:100], name)
 
 

@@ -97,11 +97,6 @@ def is_text(statement: ast.stmt) -> bool:
     return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
 
 
-def code_of(function: Function) -> list[ast.stmt]:
-    """Return the statements of a function without its docstring."""
-    return [statement for statement in function.body if not is_text(statement)]
-
-
 @keep_small
 def parse_module(path: str, found: bytes) -> Module:
     """Parse a file; PythonFault if Python cannot read it."""

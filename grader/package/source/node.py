@@ -18,6 +18,12 @@ from grader.package.source.python import PythonFault
 from grader.package.source.timer import Timer, timer_of
 
 LOG_METHODS = ("debug", "info", "warn", "warning", "error", "fatal")
+NODE_METHODS = (
+    *("create_timer", "get_logger", "get_clock", "get_name", "create_publisher", "destroy_node"),
+    *("create_subscription", "create_service", "create_client", "declare_parameter"),
+    *("get_parameter", "destroy_timer", "create_rate", "get_namespace"),
+)
+"""Methods of Node that a node needs itself, or that a beginner calls."""
 GET_LOGGER = ("get_logger", "get_logger()")
 MOST_BYTES = 20_000
 """A larger file is not a first node, and a hostile one would take seconds to analyse."""
@@ -134,16 +140,6 @@ class NodeSource:
     def own_methods(self) -> list[ast.FunctionDef]:
         """The methods of the class, each definition of a name."""
         return [s for s in self.class_body if isinstance(s, ast.FunctionDef)]
-
-    @property
-    def own_functions(self) -> list[Function]:
-        """The methods of the class, and a callback in its file that is no method."""
-        callback = self.callback
-        other = callback is not None and callback not in self.own_methods
-        return [
-            *self.own_methods,
-            *([callback] if callback and other and self.module.has(callback) else []),
-        ]
 
     @cached_property
     def calls(self) -> list[tuple[ast.Call, str]]:

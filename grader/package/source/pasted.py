@@ -15,102 +15,50 @@ from grader.package.edit.text import SourceText, Splice, read_source
 from grader.package.source.python import PythonFault, parse_python
 
 LABELS = (
-    *("Python", "python", "Python3", "python3", "py", "Bash", "bash", "sh", "Shell", "shell"),
-    *("Console", "console", "Terminal", "terminal", "XML", "xml", "HTML", "html", "INI", "ini"),
-    *("Copy", "copy", "Copy code", "Copied!", "Code", "code", "Text", "text", "Plain text"),
+    "Python|python|Python3|python3|py|Bash|bash|sh|Shell|shell|Console|console|Terminal|terminal|XML|xml"
+    "|HTML|html|INI|ini|Copy|copy|Copy code|Copied!|Code|code|Text|text|Plain text"
 )
 """What a page writes above a box of code, or on its buttons."""
-ENDS = ("EOF", "EOT", "END")
-"""The words that end a here-document of the shell."""
-EDITOR = r":(?:wq?|qa?|x|wqa)!?|ZZ|\^[XCSOZ]"
-"""What is typed to leave an editor."""
 COMMANDS = (
-    *("cd", "source", "ros2", "colcon", "chmod", "sudo", "mkdir", "touch", "nano", "gedit", "code"),
-    *(
-        "export",
-        "cat",
-        "python3",
-        "python",
-        "pip",
-        "pip3",
-        "apt",
-        "apt-get",
-        "git",
-        "ls",
-        "cp",
-        "mv",
-    ),
-    *("rm", "vim", "vi", "echo", "rosdep", "rosrun", "roslaunch", "catkin_make", "bash"),
+    "cd|source|ros2|colcon|chmod|sudo|mkdir|touch|nano|gedit|code|export|cat|python3|python|pip|pip3"
+    "|apt|apt-get|git|ls|cp|mv|rm|vim|vi|echo|rosdep|rosrun|roslaunch|catkin_make|bash"
 )
-ALONE = ("ls", "pwd", "clear", "ros2", "colcon", "rviz2", "rqt", "rqt_graph")
+ALONE = "ls|pwd|clear|ros2|colcon|rviz2|rqt|rqt_graph"
 """Commands that need no word behind them."""
 OPERATORS = "and|or|in|is|if|else|for|not|as"
 """What Python has between two words of a line."""
 SHELL = rf"""
-    (?!export[ ]+(?:class|def|default|function|const)\b)(?:{"|".join(COMMANDS)})[ ]{{1,9}}(?:
+    (?!export[ ]+(?:class|def|default|function|const)\b)(?:{COMMANDS})[ ]{{1,9}}(?:
         (?!(?:{OPERATORS})\b)[A-Za-z_~$"'][^\r\n]{{0,400}}
       | (?:[-+]\w|[\w~./$<>])[^\r\n=(]{{0,400}}
       | \.{{1,2}}
     )
-  | (?:{"|".join(ALONE)})
+  | (?:{ALONE})
   | \.[ ][^\r\n=(]{{0,200}}setup\.(?:ba|z)?sh
   | \./[\w./-]{{1,200}}
 """
-JUPYTER = rf"""
-    %{{1,2}}(?:{
-    "|".join(
-        (
-            "load_ext",
-            "reload_ext",
-            "autoreload",
-            "matplotlib",
-            "pip",
-            "conda",
-            "cd",
-            "env",
-            "writefile",
-            "bash",
-            "capture",
-            "timeit",
-            "time",
-            "run",
-        )
-    )
-})\b
-      [^\r\n]{{0,400}}
-  | !(?:{"|".join(COMMANDS)})\b[^\r\n=(]{{0,400}}
-"""
-"""A line of a notebook that Jupyter carries out, and Python does not know."""
-TAGS = "br|p|code|pre|span|div|li|ul|ol|b|i|em|strong|font|a|td|tr|table"
 SINGLE, DOUBLE = (
     "\u2018\u2019\u201a\u201b\u2032\u00b4\uff07",
     "\u201c\u201d\u201e\u201f\u2033\uff02\u00ab\u00bb",
 )
 BLANKS = "\u00a0\u1680\u2000-\u200a\u202f\u205f\u3000"
 NOTHING = "\u200b-\u200f\u2028-\u202e\u2060\ufeff\u00ad"
-ACCENTS = "\u00b4`"
 SIGNS = {"\u2010": "-", "\u2011": "-", "\u2012": "-", "\u2013": "-", "\u2014": "-", "\u2212": "-",
          "\u2026": "...", "\u3001": ",", "\u3002": "."}  # fmt: skip
-ENTITIES = {"&nbsp;": " ", "&lt;": "<", "&gt;": ">", "&amp;": "&", "&quot;": '"', "&#39;": "'",
-            "&apos;": "'", "&#34;": '"'}  # fmt: skip
 WIDE = "\u3000"
 FULL_WIDTH = 0xFEE0  # from a full-width sign to the one of ASCII
 END = r"(?=[ \t]*(?:\r|\n|\Z))"
 OPEN = re.compile(
     rf"""
       (?P<line>^(?:
-          (?P<label>(?:{"|".join(map(re.escape, LABELS))}):?{END})
-        | (?P<heredoc>(?:{"|".join(ENDS)}){END})
-        | (?P<editor>[ \t]{{0,20}}(?:{EDITOR}){END})
-        | (?P<fence>[ \t]{{0,20}}(?:```|~~~)[ \t]{{0,9}}[\w+-]{{0,20}}{END})
-        | (?P<command>[ \t]{{0,20}}(?:{SHELL}){END})
-        | (?P<shell>(?:[\w.-]{{1,40}}@[\w.-]{{1,60}}:[^\r\n$\#]{{0,200}})?\$[ ][^\r\n]{{0,400}}{END})
-        | (?P<jupyter>(?:{JUPYTER}){END})
-        | (?P<prompt>(?:>>>|\.\.\.)(?:[ ]|{END}))
+          (?:{LABELS.replace(" ", "[ ]")}):?{END}
+        | [ \t]{{0,20}}(?:```|~~~)[ \t]{{0,9}}[\w+-]{{0,20}}{END}
+        | [ \t]{{0,20}}(?:{SHELL}){END}
+        | [!%]{{1,2}}[a-z_][^\r\n]{{0,400}}{END}
+        | (?:[\w.-]{{1,40}}@[\w.-]{{1,60}}:[^\r\n$\#]{{0,200}})?\$[ ][^\r\n]{{0,400}}{END}
       ))
+    | (?P<prompt>^(?:>>>|\.\.\.)(?:[ ]|{END}))
     | (?P<comment>\#[^\r\n]*)
-    | (?P<tag></?(?:{TAGS})(?:\s[^<>\r\n]{{0,200}})?/?>)
-    | (?P<entity>&(?:nbsp|lt|gt|amp|quot|apos|\#39|\#34);)
     | (?P<blank>[{BLANKS}]+)
     | (?P<nothing>[{NOTHING}]+)
     | (?P<sign>[{"".join(SIGNS)}\uff01\uff03-\uff06\uff08-\uff0f\uff1a-\uff20\uff3b-\uff40\uff5b-\uff5e])
@@ -118,23 +66,6 @@ OPEN = re.compile(
     """,
     re.VERBOSE | re.MULTILINE,
 )
-KINDS = (
-    "label",
-    "heredoc",
-    "editor",
-    "fence",
-    "command",
-    "shell",
-    "jupyter",
-    "prompt",
-    "tag",
-    "entity",
-    "blank",
-    "nothing",
-    "sign",
-)
-VARIANTS = {"shell": "command", "entity": "tag", "nothing": "blank"}
-WHOLE_LINES = frozenset({"label", "fence", "command", "heredoc", "editor", "jupyter"})
 INSIDE = {
     quotes: re.compile(rf"(?:[^\\\r\n{quotes}]|\\(?:\r\n|.))*", re.DOTALL)
     for quotes in ("'", '"', SINGLE + "'", DOUBLE + '"')
@@ -146,19 +77,20 @@ INSIDE = {
 class Pasted:
     """Something that does not belong into the code: its variant, its line, and the change.
 
-    `variant` is `quotes`, `blank`, `sign`, `tag`, `label`, `heredoc`, `editor`, `jupyter`, `prompt`
-    or `command`; `found` is what is written there.
+    `variant` is `signs` for characters, `lines` for what a page or a terminal has beside the code;
+    `found` is what is written there, `whole` whether the whole line goes.
     """
 
     variant: str
     line: int
     found: str
     splice: Splice
+    whole: bool = False
 
     @property
     def word(self) -> str:
-        """The name that Python takes it for: the first word of a command, else all of it."""
-        return self.found.partition(" ")[0] if self.variant == "command" else self.found
+        """The name that Python takes it for."""
+        return self.found.partition(" ")[0]
 
 
 def pasted_in(source: SourceText) -> list[Pasted]:
@@ -168,7 +100,7 @@ def pasted_in(source: SourceText) -> list[Pasted]:
     """
     found = list(_scan(source))
     if not any(p.found.startswith(">>>") for p in found):  # `...` alone is code
-        found = [p for p in found if p.variant != "prompt"]
+        found = [p for p in found if p.found != "..."]
     return found
 
 
@@ -182,7 +114,7 @@ def labels_in(found: bytes) -> list[Pasted]:
     source = read_source(found)
     if source is None:
         return []
-    labels = [p for p in pasted_in(source) if p.variant in WHOLE_LINES]
+    labels = [p for p in pasted_in(source) if p.whole]
     try:
         tree = parse_python(found).tree if labels else ast.Module([], [])
     except PythonFault:
@@ -225,21 +157,15 @@ def _scan(source: SourceText) -> Iterator[Pasted]:
                 signs = "".join(dict.fromkeys(text[s.start : s.end] for s in closed.changes))
                 for change in closed.changes:
                     there = line + _ends(text, start, change.start)
-                    accents = set(signs) <= set(ACCENTS)
-                    yield Pasted("accents" if accents else "quotes", there, signs, change)
+                    yield Pasted("signs", there, signs, change)
             continue
-        kind = next((kind for kind in KINDS if match[kind]), "")
-        if not kind:
-            continue
-        variant = VARIANTS.get(kind, kind)
-        if variant in WHOLE_LINES:
-            splice = Splice(source.start_of(line), source.start_of(line + 1), "")
-        else:
-            splice = Splice(start, end, _plain(kind, match[0]))
-        if WIDE in match[0] and not text[source.start_of(line) : start].strip():
-            variant = "wide"  # (an indentation: the sign is as wide as two ordinary spaces)
-            splice = Splice(start, end, "".join("  " if sign == WIDE else " " for sign in match[0]))
-        yield Pasted(variant, line, match[0].strip() or match[0], splice)
+        if match["line"]:
+            whole = Splice(source.start_of(line), source.start_of(line + 1), "")
+            yield Pasted("lines", line, match[0].strip(), whole, whole=True)
+        elif match["prompt"]:
+            yield Pasted("lines", line, match[0].strip(), Splice(start, end, ""))
+        elif not match["comment"]:
+            yield Pasted("signs", line, match[0], Splice(start, end, _plain(match)))
 
 
 def _ends(text: str, start: int, end: int) -> int:
@@ -248,15 +174,12 @@ def _ends(text: str, start: int, end: int) -> int:
     return part.count("\n") + part.count("\r") - part.count("\r\n")
 
 
-def _plain(kind: str, found: str) -> str:
-    """Return the code that a sign stands for."""
-    if kind == "entity":
-        return ENTITIES[found]
-    if kind == "blank":
-        return " " * len(found)
-    if kind == "sign":
-        return SIGNS.get(found) or chr(ord(found) - FULL_WIDTH)
-    return ""
+def _plain(match: re.Match[str]) -> str:
+    """Return the code that a sign stands for; a wide space is as wide as two ordinary ones."""
+    if match["blank"]:
+        return "".join("  " if sign == WIDE else " " for sign in match[0])
+    found = match["sign"] or ""
+    return (SIGNS.get(found) or chr(ord(found) - FULL_WIDTH)) if found else ""
 
 
 @dataclass(frozen=True)

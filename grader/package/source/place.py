@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
 
 from grader.package.source.module import Function, Module
 from grader.package.source.node import NodeSource
 from grader.report.model import Where
-
-HEADED = ast.If | ast.For | ast.AsyncFor | ast.While | ast.With | ast.AsyncWith
-"""Statements that are of no use without the lines of their block."""
 
 
 def place_of(source: NodeSource, node: ast.stmt | ast.expr | None) -> Where:
@@ -34,15 +30,6 @@ def statement_at(module: Module, line: int | None) -> ast.stmt | None:
 
 def _has(node: ast.stmt, line: int | None) -> bool:
     return node.lineno <= (line or 0) <= (node.end_lineno or node.lineno)
-
-
-def blocks_in(node: ast.AST) -> Iterator[list[ast.stmt]]:
-    """Yield the lists of statements in a part of a file, also in its inner functions."""
-    for part in ast.walk(node):
-        for name in ("body", "orelse", "finalbody"):
-            block = getattr(part, name, None)
-            if isinstance(block, list) and block:
-                yield block
 
 
 def first_row(node: ast.stmt) -> int:
@@ -86,40 +73,3 @@ def method_above(module: Module, line: int) -> Function | None:
     methods = [s for c in module.classes for s in c.body if isinstance(s, Function)]
     above = [m for m in methods if (m.end_lineno or m.lineno) < line]
     return max(above, key=lambda node: node.lineno, default=None)
-
-
-def heads_without(module: Module, statement: ast.stmt) -> list[int] | None:
-    """Return the lines that begin the blocks which have nothing but this statement.
-
-    None if one of these blocks has to stay, as that of a function, of a try or of an if with else.
-    """
-    heads: list[int] = []
-    while len(block_of(module, statement)) == 1:
-        around = module.parents.get(statement)
-        if not isinstance(around, HEADED):
-            return None
-        if statement in around.body:
-            if getattr(around, "orelse", []):
-                return None
-            heads = [*range(around.lineno, _end_of_head(around) + 1), *heads]
-            if module.line(around.lineno).startswith("elif"):
-                break
-            statement = around
-        else:
-            last = around.body[-1].end_lineno or 0
-            rows = range(last + 1, statement.lineno + 1)
-            found = [row for row in rows if module.line(row).startswith("else")]
-            return [found[0], *heads] if found else None
-    return heads
-
-
-def _end_of_head(around: HEADED) -> int:
-    """Return the last line of what is before the block's first statement."""
-    parts: list[ast.expr] = []
-    if isinstance(around, ast.If | ast.While):
-        parts = [around.test]
-    elif isinstance(around, ast.For | ast.AsyncFor):
-        parts = [around.iter]
-    else:
-        parts = [item.context_expr for item in around.items]
-    return max(part.end_lineno or around.lineno for part in parts)

@@ -157,7 +157,6 @@ class OutsideEntry:
 
     line: int
     above: int
-    is_empty: bool = False
 
 
 def entry_outside(found: bytes) -> OutsideEntry | None:
@@ -165,10 +164,9 @@ def entry_outside(found: bytes) -> OutsideEntry | None:
     rows = found.decode("utf-8", "replace").splitlines()
     filled = [number for number, row in enumerate(rows, 1) if row.strip()]
     for above, line in pairwise(filled):
-        is_empty = EMPTY.fullmatch(rows[above - 1]) is not None
-        closed = rows[above - 1].strip() in ("]", "],") or is_empty
+        closed = rows[above - 1].strip() in ("]", "],") or EMPTY.fullmatch(rows[above - 1])
         if closed and ENTRY.fullmatch(rows[line - 1]):
-            return OutsideEntry(line, above, is_empty)
+            return OutsideEntry(line, above)
     return None
 
 

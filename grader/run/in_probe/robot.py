@@ -120,14 +120,25 @@ class World:
         )
         self._odom = node.create_publisher(Odometry, "odom", QUEUE)
         self._scans = node.create_publisher(LaserScan, "scan", QUEUE)
+        self._given: list[tuple[float, float]] = []
         self._count = 0
         self._touches = False
         self.sent: list[Any] = []  # the publishers of what the last update sent
         self.steps: list[tuple[str, float, float, float]] = []
         self.events: list[dict[str, Any]] = []
 
+    def given(self, topic: str, message: Any) -> bool:
+        """Take a velocity command without ROS, for the next `collect`; return whether it is one."""
+        is_command = topic == "/cmd_vel" and type(message) is self._commands.msg_type
+        if is_command:
+            self._given.append((message.linear.x, message.angular.z))
+        return is_command
+
     def collect(self, at: int) -> None:
         """Take the velocity commands that have arrived; they hold from the next update on."""
+        given, self._given = self._given, []
+        for command in given:
+            self.drive.command(*command, at)
         for _ in range(QUEUE * 100):
             with self._commands.handle:
                 taken = self._commands.handle.take_message(self._commands.msg_type, False)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 import contextlib
+import copy
 import functools
 import inspect
 import sys
@@ -39,13 +40,16 @@ class _Known(ast.NodeTransformer):
     def __init__(self, frame: FrameType) -> None:
         self._frame = frame
 
-    def _object(self, node: ast.AST) -> Any:
+    def value_of(self, node: ast.AST) -> Any:
+        """Return what a name or an attribute is."""
         if isinstance(node, ast.Name):
             names = {**self._frame.f_globals, **self._frame.f_locals}
             return names[node.id]
         if not isinstance(node, ast.Attribute):
             raise LookupError
-        owner = self._object(node.value)
+        owner = self.value_of(node.value)
+        if hasattr(type(owner), "get_fields_and_field_types"):
+            return getattr(owner, node.attr)  # (a message: its fields are made by ROS)
         own = getattr(owner, "__dict__", {})
         found = own[node.attr] if node.attr in own else inspect.getattr_static(owner, node.attr)
         if hasattr(type(found), "__get__"):
@@ -53,7 +57,7 @@ class _Known(ast.NodeTransformer):
         return found
 
     def _value(self, node: ast.expr) -> ast.AST:
-        found = self._object(node)
+        found = self.value_of(node)
         if type(found) not in PLAIN:
             raise LookupError
         return ast.Constant(found)
@@ -62,12 +66,19 @@ class _Known(ast.NodeTransformer):
 
 
 class Watched:
-    """Takes the values that code has each time just before a statement runs."""
+    """Takes the values that code has each time just before a statement runs.
+
+    `values` are the first ones of each piece of code. Of a name, `kinds` are the different ones that are
+    no numbers, and `ranges` the least and the greatest number.
+    """
 
     def __init__(self, file: str, first: int, last: int, code: Sequence[str]) -> None:
         self.file, self.first, self._code = file, first, code
         self._lines = range(first, last + 1)
+        self._trees = [ast.parse(one, mode="eval") for one in code]
         self.values: list[list[str]] = [[] for _ in code]
+        self.kinds: list[list[str]] = [[] for _ in code]
+        self.ranges: list[list[float]] = [[] for _ in code]
 
     def install(self) -> None:
         """Watch all threads."""
@@ -92,16 +103,24 @@ class Watched:
 
     def take(self, frame: FrameType) -> None:
         """Take the values that the code has in a frame."""
-        for code, values in zip(self._code, self.values):
-            if len(values) < MOST_VALUES:
-                with contextlib.suppress(
-                    Exception
-                ):  # (a name without a value, or a value of another kind)
-                    tree = _Known(frame).visit(ast.parse(code, mode="eval"))
-                    now = ast.fix_missing_locations(tree)
+        for n, tree in enumerate(self._trees):
+            with contextlib.suppress(Exception):  # (a name without a value, or one of another kind)
+                if len(self.values[n]) < MOST_VALUES:
+                    now = ast.fix_missing_locations(_Known(frame).visit(copy.deepcopy(tree)))
                     value = eval(compile(now, "code", "eval"), {"__builtins__": {}})  # noqa: S307 - in the sandbox, of plain values
                     if type(value) in PLAIN and len(repr(value)) <= LONGEST_VALUE:
-                        values.append(repr(value))
+                        self.values[n].append(repr(value))
+                if isinstance(tree.body, ast.Name | ast.Attribute):
+                    self._keep(_Known(frame).value_of(tree.body), self.kinds[n], self.ranges[n])
+
+    @staticmethod
+    def _keep(value: object, kinds: list[str], spread: list[float]) -> None:
+        if isinstance(value, int | float) and not isinstance(value, bool):
+            spread[:] = min([value, *spread[:1]]), max([value, *spread[1:]])
+        elif type(value) in PLAIN and len(kinds) < MOST_VALUES:
+            seen = repr(value)
+            if len(seen) <= LONGEST_VALUE and seen not in kinds:
+                kinds.append(seen)
 
 
 class Traced:
@@ -113,6 +132,7 @@ class Traced:
     def __init__(self, files: Sequence[str], conditions: Sequence[Watched]) -> None:
         self.now = 0  # ns since the start, if a scenario says it
         self._files = files
+        self._known: dict[str, str] = {}  # which of them a code's file name is, "" if none
         self._conditions = conditions
         self._by_line = {(each.file, each.first): each for each in conditions}
         self._lines: dict[str, dict[int, int]] = {file: {} for file in files}
@@ -130,7 +150,10 @@ class Traced:
 
     def _file(self, frame: FrameType) -> str:
         name = frame.f_code.co_filename
-        return next((file for file in self._files if name.endswith(f"/{file}") or name == file), "")
+        if name not in self._known:
+            mine = (file for file in self._files if name.endswith(f"/{file}") or name == file)
+            self._known[name] = next(mine, "")
+        return self._known[name]
 
     def _places(self, frame: FrameType | None) -> list[tuple[str, int]]:
         found: list[tuple[str, int]] = []
@@ -306,6 +329,8 @@ class Traced:
             "logged": self._logged,
             "stand": [places for frame in frames if (places := self._places(frame))],
             "values": [each.values for each in self._conditions],
+            "ranges": [each.ranges for each in self._conditions],
+            "kinds": [each.kinds for each in self._conditions],
             "callbacks": self._callbacks,
             "done": self._done,
             "raised": self._raised,

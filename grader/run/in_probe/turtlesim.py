@@ -167,6 +167,7 @@ class World:
         self._poses: dict[str, Any] = {}
         self._colors: dict[str, Any] = {}
         self._goals: dict[str, tuple[Any, Any]] = {}
+        self._given: list[tuple[str, tuple[float, float, float]]] = []
         self.steps: list[tuple[str, float, float, float, bool]] = []
         self.events: list[dict[str, Any]] = []
         for letter, value in BACKGROUND.items():
@@ -189,19 +190,36 @@ class World:
         """The publishers of what each update sends."""
         return [*self._poses.values(), *self._colors.values()]
 
+    def given(self, topic: str, message: Any) -> bool:
+        """Take a velocity command without ROS, for the next `collect`; return whether it is one."""
+        name = topic.removeprefix("/").removesuffix("/cmd_vel")
+        is_command = name in self._commands and topic == f"/{name}/cmd_vel"
+        if is_command and type(message) is self._twist:
+            twist = (message.linear.x, message.linear.y, message.angular.z)
+            self._given.append((name, twist))
+            return True
+        return False
+
+    def _command(self, name: str, twist: tuple[float, float, float], at: int) -> None:
+        turtle = self.field.turtles[name]
+        if name in self._goals and turtle.goal is not None:
+            self._abort(name, "Velocity command received during rotation goal")
+        turtle.command(*twist, at)
+
     def collect(self, at: int) -> None:
         """Take the velocity commands that have arrived; they hold from the next update on."""
+        given, self._given = self._given, []
+        for name, command in given:
+            if name in self._commands:
+                self._command(name, command, at)
         for name, subscription in list(self._commands.items()):
-            turtle = self.field.turtles[name]
             for _ in range(QUEUE * 100):
                 with subscription.handle:
                     taken = subscription.handle.take_message(subscription.msg_type, False)
                 if taken is None:
                     break
                 twist = taken[0]
-                if name in self._goals and turtle.goal is not None:
-                    self._abort(name, "Velocity command received during rotation goal")
-                turtle.command(twist.linear.x, twist.linear.y, twist.angular.z, at)
+                self._command(name, (twist.linear.x, twist.linear.y, twist.angular.z), at)
 
     def advance(self, to: int) -> None:
         """Make the updates until `to` (ns) and publish the poses."""

@@ -14,10 +14,9 @@ from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import msg, say
 from grader.base.shown import shown
-from grader.package.source.setup_faults import setup_fault, source_folders
+from grader.package.source.setup_faults import argument_line, source_folders
 from grader.report.model import Where
 from grader.run.workspace import METADATA
-from grader.verdict.checks.parsed import paths_in
 from grader.verdict.outcome import Failed
 
 if TYPE_CHECKING:
@@ -95,18 +94,15 @@ def _missing_source_folder(evidence: Evidence) -> Failed | None:
     """Return that `package_dir` leads to a folder that the package does not have, if it does."""
     file = evidence.submission.file("setup.py")
     found = file.data if file is not None and file.kind == "file" else b""
-    for folder in source_folders(found):
-        error = f"package directory '{folder}'"
-        fault = setup_fault(found, error, evidence.assignment.package, paths_in(evidence))
-        if fault is not None and evidence.submission.file(folder) is None:
+    for folder, line in source_folders(found).items():
+        if evidence.submission.file(folder) is None and argument_line(found, "packages"):
             return Failed(
                 "entry_point.other_installed",
                 expected=say("package_dir names a folder of the package"),
-                actual=say("there is no folder {name}", **fault.words),
-                where=Where(file="setup.py", line=fault.line),
-                variant=fault.variant,
-                params={"error": error},
-                words=fault.words,
+                actual=say("there is no folder {name}", name=shown(folder)),
+                where=Where(file="setup.py", line=line),
+                variant="package_dir",
+                words={"name": shown(folder)},
             )
     return None
 

@@ -15,8 +15,6 @@ from grader.base.shown import shown as shown_code
 from grader.base.yaml_model import broken
 from grader.course.assignment import Count
 from grader.mistakes.made_by import lines_that_make
-from grader.package.source.counter import without_effect, wrapped_at
-from grader.package.source.time_limit import time_limit
 from grader.run.observer import without_tracebacks
 from grader.verdict.checks.declare import kind
 from grader.verdict.checks.faults import (
@@ -123,11 +121,7 @@ def _line_by_line(evidence: Evidence, wanted: Count, expected: str) -> Passed:
             params={"text": other.text[:200]},
             variant="lines" if made else "",
             words={**words(evidence), "lines": made} if made else words(evidence),
-            advice=[
-                *_changes_nothing(evidence),
-                *_other_start(events, wanted),
-                *_begins_again(evidence),
-            ],
+            advice=_other_start(events, wanted),
         )
     mistake, text = _count_fault(run, wanted, numbers)
     if mistake == "run.twice":
@@ -151,8 +145,6 @@ def _line_by_line(evidence: Evidence, wanted: Count, expected: str) -> Passed:
         advice.append(
             say("There are other lines besides the count; the exercise does not ask for them.")
         )
-    advice += _begins_again(evidence)
-    advice += _ends_later(evidence)
     lines = say("{count} lines: {shown}, …", count=len(numbers), shown=shown)
     return Passed(actual=lines, advice=advice)
 
@@ -176,24 +168,6 @@ def _in_other_form(evidence: Evidence, wanted: Count) -> Event | None:
     return before[0] if compared(before[0].text, wanted.line(0)) else None
 
 
-def _ends_later(evidence: Evidence) -> list[Message]:
-    """Return what ends the node after a time that is longer than the run."""
-    source = source_of_node(evidence)
-    found = time_limit(source) if source is not None else None
-    if found is None:
-        return []
-    call, code, spin = found
-    return [
-        say(
-            "The node does not run until Ctrl+C: {code} in line {line} ends it after a while. Write "
-            "{spin} instead.",
-            code=code,
-            line=call.lineno,
-            spin=spin,
-        )
-    ]
-
-
 def _other_start(events: list[Event], wanted: Count) -> list[Message]:
     """Return advice on the first number of lines that have another text, if that is wrong too."""
     numbers = NUMBER.findall(events[0].text)
@@ -207,43 +181,6 @@ def _other_start(events: list[Event], wanted: Count) -> list[Message]:
             "the counter's first value, and at whether it changes before or after the log line.",
             start=wanted.start,
             n=numbers[0],
-        )
-    ]
-
-
-def _changes_nothing(evidence: Evidence) -> list[Message]:
-    """Return advice on a line that looks as if it adds to the counter, but has no effect."""
-    source = source_of_node(evidence)
-    found = without_effect(source) if source is not None else None
-    if source is None or found is None:
-        return []
-    statement, name = found
-    return [
-        say(
-            "line {line}: {code} does not change {name}. Write {name} += {step} instead.",
-            line=statement.lineno,
-            code=shown_code(source.module_of(statement).text.code(statement)),
-            name=name,
-            step=evidence.assignment.output.step,
-        )
-    ]
-
-
-def _begins_again(evidence: Evidence) -> list[Message]:
-    """Return advice on a count that begins again after more lines than a run has."""
-    source = source_of_node(evidence)
-    found = wrapped_at(source) if source is not None else None
-    if source is None or found is None:
-        return []
-    statement, number = found
-    code = shown_code(source.module_of(statement).text.code(statement))
-    return [
-        say(
-            "line {line}: {code} makes the count begin again when it reaches {number}. The exercise "
-            "goes on counting.",
-            line=statement.lineno,
-            code=code,
-            number=number,
         )
     ]
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import Message, say
 from grader.base.nearest import meant, nearest, there_is, with_difference
 from grader.base.shown import shown
-from grader.package.source.entry_points import Entry, EntryPoints, Misplaced, is_refused, misplaced
-from grader.package.source.in_class import calls_of_method, line_in_class, uses_its_object
+from grader.package.source.entry_points import Entry, EntryPoints, Misplaced, misplaced
+from grader.package.source.in_class import line_in_class
 from grader.package.source.python import PythonFault, parse_python
 from grader.package.source.values import Table, Text
 from grader.report.model import Where
@@ -24,9 +24,6 @@ if TYPE_CHECKING:
 def wanted_entry(evidence: Evidence) -> str:
     """Return the entry that the assignment asks for."""
     return f"{evidence.assignment.executable} = {evidence.assignment.target}"
-
-
-NAME_IN_BRACES = re.compile(r"\{[A-Za-z_]\w{0,80}\}")
 
 
 def title_of(mistake: str) -> Message:
@@ -68,10 +65,10 @@ def _failed(
     )
 
 
-def broken(evidence: Evidence, entry: Entry, entries: list[Entry], *, is_other: bool) -> Failed:
+def broken(evidence: Evidence, entry: Entry, *, is_other: bool) -> Failed:
     """Return the fault of an entry that setuptools cannot read; any such entry stops the build.
 
-    With `is_other` the required entry is there too. `entries` are all of console_scripts.
+    With `is_other` the required entry is there too.
     """
     pieces = [piece for piece, _ in entry.pieces]
     if len(pieces) > 1 and sum("=" in piece or ":" in piece for piece in pieces) > 1:
@@ -84,44 +81,30 @@ def broken(evidence: Evidence, entry: Entry, entries: list[Entry], *, is_other: 
         )
     executable = evidence.assignment.executable
     is_wanted = entry.name == executable or (executable in entry.text and not is_other)
-    mistake = _fault_of(entry.text, entry.target)
-    variant = "" if is_wanted else "other"
-    if mistake == "setup.bad_entry" and NAME_IN_BRACES.search(entry.text):
-        variant = "no_f"
-    parts = {other.text.strip() for other in entries}
-    if (
-        entry.text.strip().removesuffix("=").strip() == executable
-        and evidence.assignment.target in parts
-    ):
-        because = say("the name and the module are two texts, with a comma between them")
-        return _failed(evidence, entry, mistake, because, variant="two_texts")
-    target = re.fullmatch(r"[\w.]+\.(\w+):\w+", entry.text.strip())
-    if mistake == "setup.no_equals" and not is_wanted and target is not None:
-        whole = f"{target[1]} = {entry.text.strip()}"
-        because = say("the name of the executable and '=' are missing")
-        return _failed(
-            evidence, entry, mistake, because, variant="unnamed", meant_to_be=whole,
-            words={"whole": shown(whole)},
-        )  # fmt: skip
-    return _failed(evidence, entry, mistake, variant=variant)
+    because = _fault_of(entry.text, entry.target)
+    variant, wanted = ("", "") if is_wanted else ("other", shown(entry.text))
+    return _failed(evidence, entry, "setup.bad_entry", because, variant=variant, meant_to_be=wanted)
 
 
 def _fault_of(text: str, target: str) -> str:
-    """Return the mistake in an entry that is not `name = module:function`."""
-    if "=" not in text:
-        colon = re.match(r"\s{0,9}[\w-]{1,80}\s{0,9}:", text)
-        return "setup.colon_for_equals" if colon else "setup.no_equals"
+    """Return what is wrong with an entry that is not `name = module:function`."""
+    colon = re.match(r"\s{0,9}[\w-]{1,80}\s{0,9}:", text)
     faults = (
-        (not text.partition("=")[0].strip(), "setup.no_name"),
-        (not target, "setup.no_target"),
-        ("=" in target, "setup.two_equals"),
-        ("/" in target or "\\" in target, "setup.slash_in_target"),
-        ("(" in target, "setup.brackets"),
-        ("-" in target, "setup.dash_in_target"),
-        (target.count(":") > 1, "setup.two_colons"),
-        (" " in target and target[:1] not in ">~:|", "setup.space_in_target"),
+        ("=" not in text and colon, say("after the name comes '=', not ':'")),
+        ("=" not in text, say("the '=' between the name and the module is missing")),
+        (not text.partition("=")[0].strip(), say("the name before the '=' is missing")),
+        (not target, say("there is nothing after the '='")),
+        ("=" in target, say("there is more than one '='")),
+        ("/" in target or "\\" in target, say("folders are separated by dots, not slashes")),
+        ("(" in target, say("the function is named, not called: no ()")),
+        ("-" in target, say("a Python module's name cannot contain a dash")),
+        (target.count(":") > 1, say("there is more than one ':'")),
+        (
+            " " in target and target[:1] not in ">~:|",
+            say("there is a space in the module or function"),
+        ),
     )
-    return next((mistake for holds, mistake in faults if holds), "setup.bad_entry")
+    return next((said for holds, said in faults if holds), "")
 
 
 def duplicate(evidence: Evidence, entries: list[Entry]) -> Failed:
@@ -135,24 +118,20 @@ def missing(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed:
     """Return why no executable has the name: another name, another group, or no entry."""
     wanted = evidence.assignment.executable
     entries = points.group("console_scripts")
-    lost = [entry for entry in points.lost if entry.name == wanted]
-    if lost:
-        return _group_twice(evidence, points, lost[0])
     same = [e for e in entries if "".join(e.target.split()) == evidence.assignment.target]
     of_others = {(node.executable, node.target) for node in evidence.assignment.nodes.values()}
     names = [e.name for e in entries if (e.name, "".join(e.target.split())) not in of_others]
     close = nearest(wanted, names, cutoff=0.7)
     meant_here = same or [e for e in entries if e.name == close]
-    if meant_here:
+    if meant_here and not any(entry.name == wanted for entry in points.lost):
         entry = meant_here[0]
         name = shown(entry.name)
-        spaced = "".join(entry.name.split()) != entry.name
         said = say("the executable is called '{name}', not '{wanted}'", name=name, wanted=wanted)
         return _failed(
             evidence,
             entry,
-            "setup.space_in_name" if spaced else "setup.other_executable",
-            "" if spaced else said,
+            "setup.other_executable",
+            said,
             found=name,
             meant_to_be=wanted,
             name=name,
@@ -183,35 +162,17 @@ def _at_margin(evidence: Evidence, points: EntryPoints) -> Failed | None:
     )
 
 
-def _group_twice(evidence: Evidence, points: EntryPoints, entry: Entry) -> Failed:
-    """Return the fault of a second console_scripts, which replaces the one with the entry."""
-    failed = _failed(
-        evidence,
-        entry,
-        "setup.group_twice",
-        variant="entries" if points.group("console_scripts") else "",
-        line=str(entry.line),
-    )
-    failed.where = Where(file=entry.file, line=points.lines.get("console_scripts"))
-    return failed
-
-
 def _other_group(evidence: Evidence, points: EntryPoints, group: str) -> Failed:
     others = points.group(group)
     line = points.lines.get(group)
     said = say("the group is called '{group}'", group=shown(group))
     near = nearest("console_scripts", [group], cutoff=0.75)
-    variant = "" if near else "other"
-    if group.strip() == "console_scripts":
-        variant = "space"
-    elif is_refused(group):
-        variant = "invalid" if near else "invalid_other"
     return Failed(
         "setup.group_misspelt",
         expected=say("'{entry}' in the group 'console_scripts'", entry=wanted_entry(evidence)),
         actual=with_difference(said, group, "console_scripts"),
         where=Where(file=others[0].file if others else "setup.py", line=line),
-        variant=variant,
+        variant="" if near else "other",
         params={"group": shown(group)},
         words={"wanted": wanted_entry(evidence)},
     )
@@ -223,70 +184,42 @@ def _no_entry(evidence: Evidence, points: EntryPoints, setup: SetupPy) -> Failed
     comment = next((row for row in setup.comments if marks.match(row[1])), None)
     names = ", ".join(shown(entry.name) for entry in points.group("console_scripts")[:4])
     line = points.lines.get("console_scripts", setup.line)
-    variant, close, actual = "", "", say("console_scripts has no entry")
+    lost = [entry.line for entry in points.lost if entry.name == wanted]
+    actual = say("console_scripts has no entry")
     in_cfg = bool(points.groups) and _has_no_points(setup)
+    variant = "cfg" if in_cfg else "" if "console_scripts" in points.groups else "group"
     if names:
         actual = say("there are only: {names}", names=names)
-    swapped = _swapped(evidence, points)
     stray = f"{evidence.assignment.folder}/setup.py"
     if evidence.assignment.target.encode() in (data_of(evidence, stray) or b""):
         actual = say(
             "console_scripts has no entry; it is in {path}, which colcon does not read: delete that file",
             path=stray,
         )
-    if swapped is not None:
-        line, variant = swapped.line, "swapped"
-        actual = say("the two names have changed places: {entry}", entry=shown(swapped.text))
+    if lost:
+        actual = say("this console_scripts replaces the one with line {line}", line=lost[0])
     elif comment is not None:
-        line, variant = comment[0], "comment"
+        line = comment[0]
         actual = say("the entry is commented out: # {comment}", comment=shown(comment[1]))
     elif not points.groups and (close := _near_argument(setup)):
-        missing_argument = say("setup() has no entry_points argument") + there_is(close)
-        variant, actual = "renamed", with_difference(missing_argument, close, "entry_points")
-        line = _line_of_argument(setup, close)
+        none = say("setup() has no entry_points argument") + there_is(close)
+        actual, variant = with_difference(none, close, "entry_points"), "nothing"
     elif (entry := _elsewhere(evidence)) is not None:
         return _misplaced(evidence, entry)
-    elif not points.groups and (row := _without_header(setup, wanted)):
-        line, variant = row, "header"
-        actual = say("the text in entry_points does not name its group")
-    elif not points.groups and setup.argument("entry_points") is not None:
-        variant, actual = "empty", say("entry_points is empty")
+    elif not points.groups and setup.argument("entry_points") is None:
+        actual, variant = say("setup() has no entry_points argument"), "nothing"
     elif not points.groups:
-        variant, actual = "nothing", say("setup() has no entry_points argument")
-        variant = "scripts" if setup.argument("scripts") is not None else variant
-    elif in_cfg:
-        variant = "cfg"
-    elif "console_scripts" not in points.groups:
-        variant, actual = "group", say("entry_points has no group console_scripts")
+        actual, variant = say("entry_points has no group console_scripts"), "nothing"
+    elif variant == "group":
+        actual = say("entry_points has no group console_scripts")
     return Failed(
         "setup.no_entry",
         expected=say("'{entry}' among the console_scripts", entry=wanted_entry(evidence)),
         actual=actual,
         where=Where(file="setup.cfg" if in_cfg else "setup.py", line=line),
         variant=variant,
-        params={"argument": shown(close)} if close else {},
-        words={"wanted": wanted_entry(evidence), "entry": shown(swapped.text) if swapped else ""},
+        words={"wanted": wanted_entry(evidence)},
     )
-
-
-def _swapped(evidence: Evidence, points: EntryPoints) -> Entry | None:
-    """Return the entry that has the node's file before the = and the executable's name behind it."""
-    wanted = evidence.assignment
-    stem, module = wanted.node_file.removesuffix(".py"), wanted.target.partition(":")[0]
-    other = module.removesuffix(stem) + wanted.executable
-    for entry in points.group("console_scripts"):
-        if entry.name == stem and entry.target.partition(":")[0].strip() == other:
-            return entry
-    return None
-
-
-def _without_header(setup: SetupPy, wanted: str) -> int:
-    """Return the line of the entry in a text for entry_points without headers; 0 if it has none."""
-    given = setup.argument("entry_points")
-    rows = given.value.splitlines() if isinstance(given, Text) else []
-    begins = re.compile(rf"\s*{re.escape(wanted)}\s*=")
-    found = [n for n, row in enumerate(rows) if begins.match(row)]
-    return given.line + found[0] if len(found) == 1 and isinstance(given, Text) else 0
 
 
 def _has_no_points(setup: SetupPy) -> bool:
@@ -299,11 +232,6 @@ def _near_argument(setup: SetupPy) -> str:
     """Return the argument of setup() whose name is nearly entry_points; "" if there is none."""
     names = [key.value for key, _ in setup.arguments.pairs if isinstance(key, Text)]
     return nearest("entry_points", names, cutoff=0.75)
-
-
-def _line_of_argument(setup: SetupPy, name: str) -> int | None:
-    lines = [k.line for k, _ in setup.arguments.pairs if isinstance(k, Text) and k.value == name]
-    return lines[0] if lines else setup.line
 
 
 def _elsewhere(evidence: Evidence) -> Misplaced | None:
@@ -319,39 +247,25 @@ def _misplaced(evidence: Evidence, entry: Misplaced) -> Failed:
     """Return the fault of an entry that is in another argument of setup(), or outside of it."""
     argument = shown(entry.argument)
     actual, variant = say("it is in {argument} instead", argument=argument), ""
-    if argument.endswith(("require", "requires")):
-        variant = "requirement"
     if entry.variable:
-        variant = "late" if entry.is_late else "variable"
+        variant = "variable"
         actual = say("setup() does not get {name}", name=shown(entry.variable))
-    elif entry.twice:
-        key, variant = shown(entry.twice), "key_twice"
-        actual = say("line {line} replaces it: '{key}' is written again", key=key, line=entry.again)
     elif not argument:
         actual = say("it is outside of setup()")
     elif argument == "console_scripts":
-        actual, variant = say("console_scripts is outside of entry_points"), "group"
+        actual = say("console_scripts is outside of entry_points")
     return Failed(
         "setup.misplaced_entry",
         expected=say("'{entry}' among the console_scripts", entry=wanted_entry(evidence)),
         actual=actual,
         where=Where(file="setup.py", line=entry.line),
         variant=variant,
-        params={
-            "entry": shown(entry.text),
-            "argument": argument,
-            **({"variable": shown(entry.variable)} if variant == "variable" else {}),
-        },
-        words={
-            "wanted": wanted_entry(evidence),
-            "name": shown(entry.twice or entry.variable),
-            "line": entry.again,
-        },
+        words={"wanted": wanted_entry(evidence), "name": shown(entry.variable)},
     )
 
 
-def other_target(evidence: Evidence, entry: Entry, entries: list[Entry]) -> Failed:
-    """Return which part of the target is wrong; `entries` are all that console_scripts has."""
+def other_target(evidence: Evidence, entry: Entry) -> Failed:
+    """Return which part of the target is wrong."""
     target = "".join(entry.target.split())
     mistake, because = _part(evidence, target)
     wanted = evidence.assignment
@@ -359,17 +273,6 @@ def other_target(evidence: Evidence, entry: Entry, entries: list[Entry]) -> Fail
     data = file.data if file is not None else b""
     line = line_in_class(data, target.partition(":")[2], wanted.function)
     in_class = mistake == "setup.other_function" and line > 0
-    calls = calls_of_method(data, target.partition(":")[2]) if in_class else []
-    places = {"at": str(calls[0][0]), "code": shown(calls[0][1])} if len(calls) == 1 else {}
-    variant = "in_class_called" if places else "in_class" if in_class else ""
-    if in_class and uses_its_object(data, target.partition(":")[2]):
-        variant = "in_class_object"
-        places = {"owner": shown(target.partition(":")[2].partition(".")[0])}
-    there = [e for e in entries if "".join(e.target.split()) == wanted.target]
-    swapped = mistake == "setup.other_module" and len(there) == 1
-    if swapped:
-        variant = "swapped"
-        places = {"other": shown(f"{there[0].name} = {target}"), "at": str(there[0].line)}
     return _failed(
         evidence,
         entry,
@@ -377,13 +280,8 @@ def other_target(evidence: Evidence, entry: Entry, entries: list[Entry]) -> Fail
         because,
         found=shown(target),
         meant_to_be=wanted.target,
-        variant=variant,
-        words={
-            "function": wanted.function,
-            "line": str(line),
-            "path": node_path(evidence),
-            **places,
-        },
+        variant="in_class" if in_class else "",
+        words={"function": wanted.function, "line": str(line), "path": node_path(evidence)},
         target=shown(entry.target),
     )
 

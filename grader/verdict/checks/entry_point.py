@@ -20,7 +20,6 @@ from grader.verdict.checks import entry_faults
 from grader.verdict.checks.inner_package import entry_in_inner_package
 from grader.verdict.checks.parsed import (
     CONSOLE,
-    data_of,
     entry_points_of,
     file_of,
     in_inner_folder,
@@ -57,7 +56,7 @@ def mapping_from_source(evidence: Evidence) -> Passed | None:
     for entry in entries:
         if not entry.valid:
             right = any(other.valid and other.name == assignment.executable for other in entries)
-            raise entry_faults.broken(evidence, entry, entries, is_other=right)
+            raise entry_faults.broken(evidence, entry, is_other=right)
     named = [entry for entry in entries if entry.name == assignment.executable]
     if len(named) > 1:
         raise entry_faults.duplicate(evidence, named)
@@ -70,7 +69,7 @@ def mapping_from_source(evidence: Evidence) -> Passed | None:
     if "".join(entry.target.split()) != assignment.target:
         if _comes_from_name(evidence, setup, entry.target):
             raise Blocked(by="package.manifest")
-        raise entry_faults.other_target(evidence, entry, entries)
+        raise entry_faults.other_target(evidence, entry)
     text = shown(f"{entry.name} = {entry.target}")
     said = say("{file}, line {line}: {entry}", file=entry.file, line=entry.line, entry=text)
     return Passed(actual=said, advice=_advice(evidence))
@@ -92,37 +91,16 @@ def _comes_from_name(evidence: Evidence, setup: SetupPy, target: str) -> bool:
 def _no_setup_py(evidence: Evidence, reason: str, inner: str, close: str) -> Failed:
     cannot = say("setup.py cannot be read: {reason}", reason=printable_reason(reason))
     expected = say("a setup.py with the entry point")
-    if inner:
-        return Failed(
-            "setup.missing",
-            expected=expected,
-            actual=say("there is no {path}, but {there}", path="setup.py", there=shown(inner)),
-            where=Where(file=shown(inner)),
-            variant="inner",
-            params={"there": shown(inner)},
-            words={"there": shlex.quote(shown(inner))},
-        )
-    if close and not reason:
-        there = say("there is no {path}, but {there}", path="setup.py", there=shown(close))
-        return Failed(
-            "setup.missing",
-            expected=expected,
-            actual=with_difference(there, close, "setup.py"),
-            where=Where(file=shown(close)),
-            variant="renamed",
-            params={"there": shown(close)},
-            words={"there": shlex.quote(shown(close))},
-        )
+    other = inner or (close if not reason else "")
+    there = say("there is no {path}, but {there}", path="setup.py", there=shown(other))
     return Failed(
         "setup.missing",
         expected=expected,
-        actual=cannot if reason else say("there is no setup.py"),
-        where=Where(file="setup.py"),
-        variant="pyproject" if b"[project" in (data_of(evidence, "pyproject.toml") or b"") else "",
-        words={
-            "package": evidence.assignment.package,
-            "wanted": entry_faults.wanted_entry(evidence),
-        },
+        actual=there if other else cannot if reason else say("there is no setup.py"),
+        where=Where(file=shown(other) or "setup.py"),
+        variant="renamed" if other else "",
+        params={"there": shown(other)} if other else {},
+        words={"package": evidence.assignment.package, "there": shlex.quote(shown(other))},
     )
 
 

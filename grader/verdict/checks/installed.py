@@ -7,14 +7,12 @@ from __future__ import annotations
 
 import ast
 import contextlib
-import re
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import joined, say
 from grader.base.nearest import nearest, with_difference
 from grader.base.shown import shown
-from grader.package.source.names import dotted
-from grader.package.source.setup_packages import parsed_setup, setup_call
+from grader.package.source.setup_packages import parsed_setup
 from grader.report.model import Where
 from grader.verdict.checks.as_declared import must_be_as_declared
 from grader.verdict.checks.build_log import setup_error
@@ -117,24 +115,13 @@ def _other_names(evidence: Evidence) -> str:
 
 
 def _computed(evidence: Evidence, actual: str) -> Failed:
-    entry, found = wanted_entry(evidence), _below_setup(evidence)
-    variant = "below"
-    if found is None:
-        found, variant = _replaced(evidence), "replaced"
-    if found is None:
-        found, variant = _called_twice(evidence), "twice"
-    variant = "project" if _in_project(evidence) else variant if found else ""
-    line = found[1] if found else None
-    if not variant and scripts(evidence.build.entry_points):
-        line = _line_of_group(evidence)
-        variant = "made" if line else ""
+    entry = wanted_entry(evidence)
     return Failed(
         "entry_point.computed_mapping",
         expected=say("'{entry}' among the console_scripts", entry=entry),
         actual=actual,
-        where=Where(file="setup.py", line=line),
-        variant=variant,
-        words={"wanted": entry, "line": str(found[0]) if found else ""},
+        where=Where(file="setup.py", line=_line_of_group(evidence)),
+        words={"wanted": entry},
     )
 
 
@@ -145,66 +132,6 @@ def _line_of_group(evidence: Evidence, group: str = SCRIPTS) -> int | None:
     texts = [n for n in module.nodes if isinstance(n, ast.Constant)] if module is not None else []
     lines = [text.lineno for text in texts if text.value == group]
     return lines[0] if len(lines) == 1 else None
-
-
-def _called_twice(evidence: Evidence) -> tuple[int, int] | None:
-    """Return the line of the entry in a call of setup(), and that of a later call without it."""
-    file = file_of(evidence, "setup.py")
-    module = parsed_setup(file.data) if file is not None else None
-    entry = re.compile(rf"\s*{re.escape(evidence.assignment.executable)}\s*=")
-    statements = [s.value for s in module.tree.body if isinstance(s, ast.Expr)] if module else []
-    calls = [c for c in statements if isinstance(c, ast.Call) and dotted(c.func).endswith("setup")]
-    lines = [
-        [
-            n.lineno
-            for n in ast.walk(call)
-            if isinstance(n, ast.Constant) and entry.match(str(n.value))
-        ]
-        for call in calls
-    ]
-    if len(calls) < 2 or lines[-1] or not any(lines):
-        return None
-    return next(found[0] for found in lines if found), calls[-1].lineno
-
-
-def _replaced(evidence: Evidence) -> tuple[int, int] | None:
-    """Return the line of the entry, and a later one that sets the dict's entry points again."""
-    file = file_of(evidence, "setup.py")
-    module = parsed_setup(file.data) if file is not None else None
-    call = setup_call(module) if module is not None else None
-    if module is None or call is None:
-        return None
-    given = {dotted(k.value) for k in call.keywords if k.arg is None}
-    entry = re.compile(rf"\s*{re.escape(evidence.assignment.executable)}\s*=")
-    texts = [n for n in module.nodes if isinstance(n, ast.Constant) and isinstance(n.value, str)]
-    lines = [n.lineno for n in texts if entry.match(str(n.value))]
-    for statement in module.tree.body:
-        target = statement.targets[0] if isinstance(statement, ast.Assign) else None
-        if not isinstance(target, ast.Subscript) or dotted(target.value) not in given - {""}:
-            continue
-        key = target.slice.value if isinstance(target.slice, ast.Constant) else ""
-        if key == "entry_points" and lines and lines[-1] < statement.lineno < call.lineno:
-            return lines[-1], statement.lineno
-    return None
-
-
-def _below_setup(evidence: Evidence) -> tuple[int, int] | None:
-    """Return the line of setup(), and a line below it with the entry; None if there is none."""
-    file, name = file_of(evidence, "setup.py"), evidence.assignment.executable
-    module = parsed_setup(file.data) if file is not None else None
-    call = setup_call(module) if module is not None else None
-    if module is None or call is None:
-        return None
-    entry = re.compile(rf"\s*{re.escape(name)}\s*=")
-    texts = [n for n in module.nodes if isinstance(n, ast.Constant) and isinstance(n.value, str)]
-    below = [n for n in texts if n.lineno > (call.end_lineno or 0) and entry.match(str(n.value))]
-    return (call.lineno, below[0].lineno) if below else None
-
-
-def _in_project(evidence: Evidence) -> bool:
-    """Whether pyproject.toml has the entries."""
-    project = file_of(evidence, "pyproject.toml")
-    return project is not None and b"scripts]" in project.data
 
 
 @check(

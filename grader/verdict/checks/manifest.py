@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from grader.base.i18n.message import Message, Value, joined, say
 from grader.base.nearest import meant, nearest, there_is, with_difference
 from grader.base.shown import shown
-from grader.package.source.broken_xml import TAGS, XmlFault, xml_fault
+from grader.package.source.broken_xml import TAGS, xml_fault
 from grader.package.source.manifest import (
     DEPENDS,
     REQUIRED,
@@ -21,7 +21,7 @@ from grader.package.source.manifest import (
     meant_package,
     read_manifest,
 )
-from grader.package.source.manifest_rules import RuleFault, rule_fault
+from grader.package.source.manifest_rules import line_of_rule
 from grader.report.model import Where
 from grader.verdict.checks.parsed import (
     file_of,
@@ -91,28 +91,19 @@ def _read(evidence: Evidence) -> Manifest:
     file = file_of(evidence, FILE)
     if file is None:
         inner = in_inner_folder(evidence, FILE)
-        if inner:
-            raise _failed(
-                "package.no_manifest",
-                say("there is no {path}, but {there}", path=FILE, there=shown(inner)),
-                None,
-                variant="inner",
-                params={"there": shown(inner)},
-                words={"there": shlex.quote(shown(inner)), "close": ""},
-                file=shown(inner),
-            )
         close = nearest(FILE, names_in(evidence, ""), cutoff=0.75)
+        said = with_difference(say("there is no package.xml") + there_is(close), close, FILE)
+        if inner:
+            said = say("there is no {path}, but {there}", path=FILE, there=shown(inner))
+        other = shown(inner or close)
         raise _failed(
             "package.no_manifest",
-            with_difference(say("there is no package.xml") + there_is(close), close, FILE),
+            said,
             None,
-            variant="capitals" if close.lower() == FILE else "renamed" if close else "",
-            words={
-                "close": shlex.quote(shown(close)),
-                "there": "",
-                "package": evidence.assignment.package,
-            },
-            file=shown(close) or FILE,
+            variant="renamed" if other else "",
+            params={"there": other},
+            words={"there": shlex.quote(other), "package": evidence.assignment.package},
+            file=other or FILE,
         )
     if file.unreadable:
         reason = printable_reason(file.reason)
@@ -143,186 +134,64 @@ def _unusable(error: ManifestError, found: bytes) -> Failed:
         actual: str = say("{text}: the rest of the file is not read", text=text)
         return _failed("package.manifest_doctype", actual, error.line)
     if error.kind != "xml":
-        variant = "root" if error.kind == "root" else ""
-        return _failed("package.manifest_rules", text, error.line, variant=variant)
+        return _failed("package.manifest_rules", text, error.line)
     fault, params = xml_fault(found), {"error": str(text)}
     if not found.strip():
-        said, variant = say("package.xml is empty"), "empty"
-        return _failed("package.broken_xml", said, error.line, variant=variant, params=params)
+        said = say("package.xml is empty")
+        return _failed("package.broken_xml", said, error.line, params=params)
     if fault is None:
-        known = {
-            "undefined entity": "entity",
-            "duplicate attribute": "attribute_twice",
-            "encoding specified in XML declaration is incorrect": "encoding_declared",
-            "unknown encoding": "encoding_declared",
-            "XML declaration not well-formed": "first_line",
-        }
-        variant = known.get(error.text, "")
-        return _failed("package.broken_xml", text, error.line, variant=variant, params=params)
-    return _failed(
-        "package.broken_xml",
-        _described(fault),
-        fault.line,
-        variant=fault.variant,
-        params=params,
-        words=_words(fault),
-    )
-
-
-def _words(fault: XmlFault) -> dict[str, str]:
-    tag = shown(fault.tag)
-    return {"tag": tag, "name": tag.removeprefix("/"), "wanted": shown(fault.wanted)}
-
-
-def _described(fault: XmlFault) -> Message:
-    words = _words(fault)
+        return _failed("package.broken_xml", text, error.line, params=params)
+    tag, wanted = shown(fault.tag), shown(fault.wanted)
+    words = {"tag": tag, "name": tag.removeprefix("/"), "wanted": wanted}
     texts = {
         "unclosed": say("<{tag}> is not closed: its </{tag}> is missing", **words),
-        "again": say("<{tag}> is opened twice: the second should be </{tag}>", **words),
-        "closed_twice": say("<{tag}> is there twice", **words),
         "unopened": say("<{tag}> closes nothing: its <{name}> is missing", **words),
         "misspelt": say("<{tag}> should be <{wanted}>", **words),
-        "unfinished": say("<{tag} has no > at its end", **words),
-        "quotes": say("<{tag} …> has typographic quotes", **words),
-        "ampersand": say("there is a bare &"),
-        "before": say("there is something before the first tag"),
-        "after": say("there is something after the last tag"),
-        "package_twice": say("<package> is in the file twice"),
-        "no_tags": say("the file has no tag"),
-        "typed": say("a sign of a tag is missing or wrong"),
-        "typed_lines": say("signs of tags are missing or wrong"),
-        "line_twice": say("a line is in the file twice"),
-        "lines_swapped": say("two lines are in the wrong order"),
-        "end_twice": say("</package> is in the file twice"),
-        "root_first": say("there is a tag above <package>"),
-        "outside": say("there is a tag below </{name}>", **words),
-        "bare": say("<{tag} …> has a value without quotes", **words),
-        "comment": say("a comment that begins with <!-- has no end"),
-        "hyphens": say("two hyphens (--) are inside of a comment"),
-        "hyphens_lines": say("two hyphens (--) are inside of a comment"),
-        "comment_start": say("{tag} does not begin a comment: a comment begins with <!--", **words),
-        "less": say("there is a bare <"),
-        "version": say("a version with < is inside of a tag for a dependency"),
-        "declaration": say(
-            "there is something above <?xml …?>, which is in line {wanted}", **words
-        ),
-        "blank": say("there is an empty line or a space above <?xml …?>"),
-        "declared_twice": say("<?xml …?> is in the file twice"),
     }
-    return texts[fault.variant]
-
-
-def _tag_fault(manifest: Manifest, tag: str) -> tuple[str, Message]:
-    """Return the variant of a required tag that is missing or has no text, and what is there."""
-    if any(inside.within == tag for inside in manifest.elements):
-        variant = "tags_maintainer" if tag == "maintainer" else "tags"
-        return variant, say("<{tag}> contains only other tags", tag=tag)
-    if manifest.first(tag) is not None:
-        return "empty", say("<{tag}> is empty", tag=tag)
-    variant = tag if tag in ("version", "maintainer", "name") else ""
-    return variant, say("<{tag}> is missing", tag=tag)
-
-
-def _check_rules(evidence: Evidence, manifest: Manifest) -> None:
-    rule = rule_fault(manifest, evidence.asked.package) if manifest.fault else None
-    for tag in REQUIRED:
-        element = manifest.first(tag)
-        in_attribute = rule is not None and rule.variant == "content" and rule.tag == tag
-        if in_attribute:
-            continue  # the rule says more than that the tag is empty
-        if element is None:
-            _check_tag_name(manifest, tag, within="package")
-        if element is None or (not element.text and tag != "description"):
-            comment = 0 if element else _line_of_comment(evidence, tag)
-            variant, actual = _tag_fault(manifest, tag)
-            raise _failed(
-                "package.manifest_tag",
-                actual,
-                element.line if element else comment or None,
-                expected=say("<{tag}> that is not empty", tag=tag),
-                variant="commented" if comment else variant,
-                params={"tag": tag},
-                words={"package": evidence.asked.package},
-            )
-    if not manifest.fault:
-        return
-    params = {"error": shown_long(manifest.fault)}
-    package = evidence.asked.package
-    fault = rule_fault(manifest, package)
-    if fault is None:
-        told = re.search(r"\bline (\d{1,6})\b", manifest.fault)
-        line = int(told[1]) if told is not None else None
-        raise _failed("package.manifest_rules", params["error"], line, params=params)
-    words = _rule_words(fault, package)
-    raise _failed(
-        "package.manifest_rules",
-        _rule_found(fault, params["error"], words),
+    return _failed(
+        "package.broken_xml",
+        texts[fault.variant],
         fault.line,
-        variant=_rule_variant(fault),
+        variant=fault.variant,
         params=params,
         words=words,
     )
 
 
-def _line_of_comment(evidence: Evidence, tag: str) -> int:
-    """Return the line of the one comment that contains only tags, and this tag; 0 if none does."""
-    file = file_of(evidence, FILE)
-    text = file.data.decode("utf-8", "replace") if file is not None else ""
-    lines = []
-    for match in re.finditer(r"<!--(.*?)-->", text, re.DOTALL):
-        inside = match[1].strip()
-        closed = f"<{tag}>" in inside and f"</{tag}>" in inside
-        whole = all(f"<{name}" in inside for name in REQUIRED)
-        few = whole or inside.count("<") < 9
-        if closed and few and inside.startswith("<") and inside.endswith(">"):
-            lines.append(text.count("\n", 0, match.start()) + 1)
-    return lines[0] if len(lines) == 1 else 0
+WANTED = {
+    "version": "<version>0.0.0</version>",
+    "maintainer": '<maintainer email="student@todo.todo">student</maintainer>',
+    "license": "<license>Apache-2.0</license>",
+}
+"""How a required tag can be written."""
 
 
-def _rule_words(fault: RuleFault, package: str) -> dict[str, Value]:
-    return {
-        "tag": shown(fault.tag),
-        "found": shown(fault.found),
-        "wanted": shown(fault.wanted),
-        "line": str(fault.line),
-        "first": str(fault.first),
-        "package": package,
-    }
-
-
-def _rule_variant(fault: RuleFault) -> str:
-    """Return the name of the fix's text."""
-    if fault.variant == "email":
-        return "email" if fault.wanted else "email_parts"
-    return fault.variant
-
-
-def _rule_found(fault: RuleFault, error: str, words: Mapping[str, Value]) -> str:
-    """Return what was found, in other words than catkin_pkg's if they say more."""
-    first, last = sorted((fault.first, fault.line))
-    twice = say(
-        "there is more than one <{tag}>: in lines {first} and {last}",
-        tag=words["tag"],
-        first=first,
-        last=last,
-    )
-    texts = {
-        "twice": twice,
-        "export_twice": twice,
-        "redundant": say(
-            "line {first} has <depend>{found}</depend>, and line {line} has <{tag}>{found}</{tag}> "
-            "too",
-            **words,
-        ),
-        "email": say('"{found}" is not an email address', **words),
-        "no_email": say("<{tag}> has no email address", **words),
-        "format": say('the tag <package> does not have format="3"', **words),
-        "child": say("<{found}> is inside of <{tag}>, which begins in line {first}", **words),
-        "empty": say("<{tag}> is empty", **words),
-        "content": say("<{tag}> is empty, and has the attribute {found}", **words),
-        "second_empty": say("<{tag}> is empty", **words),
-    }
-    return texts.get(fault.variant, error)
+def _check_rules(evidence: Evidence, manifest: Manifest) -> None:
+    for tag in REQUIRED:
+        element = manifest.first(tag)
+        if element is None:
+            _check_tag_name(manifest, tag, within="package")
+        if element is None or (not element.text and tag != "description"):
+            has_tags = any(inside.within == tag for inside in manifest.elements)
+            actual = say("<{tag}> is missing", tag=tag)
+            if element is not None:
+                actual = say("<{tag}> is empty", tag=tag)
+            if has_tags:
+                actual = say("<{tag}> contains only other tags", tag=tag)
+            package = evidence.asked.package
+            wanted = f"<name>{package}</name>" if tag == "name" else f"<{tag}>…</{tag}>"
+            raise _failed(
+                "package.manifest_tag",
+                actual,
+                element.line if element else None,
+                expected=say("<{tag}> that is not empty", tag=tag),
+                params={"tag": tag},
+                words={"wanted": WANTED.get(tag, wanted)},
+            )
+    if manifest.fault:
+        said = shown_long(manifest.fault)
+        params = {"error": said}
+        raise _failed("package.manifest_rules", said, line_of_rule(manifest), params=params)
 
 
 def _check_tag_name(manifest: Manifest, tag: str, *, within: str) -> None:
@@ -385,7 +254,6 @@ def _check_setup_name(evidence: Evidence) -> None:
 
 def _check_build_type_place(manifest: Manifest) -> None:
     """Raise Failed for a <build_type> that is not in <export>."""
-    there = manifest.effective("build_type", within="export")
     for element in manifest.elements:
         if element.tag != "build_type" or element.within == "export":
             continue
@@ -396,12 +264,7 @@ def _check_build_type_place(manifest: Manifest) -> None:
             outside = say(
                 "<build_type> is in <{within}>, and not directly in <export>", within=element.within
             )
-        exports = manifest.all("export")
-        variant = "outside_too" if there else "into" if exports else "outside"
-        if element.within != "package" and not exports:
-            variant = "out_of_other"
-        line = (there or exports)[0].line if there or exports else 0
-        raise _build_type(element, outside, variant, first=line)
+        raise _build_type(element, outside)
 
 
 def _check_build_type(evidence: Evidence, manifest: Manifest) -> None:
@@ -413,22 +276,17 @@ def _check_build_type(evidence: Evidence, manifest: Manifest) -> None:
             named = min(left_out, key=lambda element: element.text != "ament_python")
             condition = shown(named.attributes.get("condition", ""))
             never = say("the condition {condition} is not true in ROS 2", condition=condition)
-            raise _build_type(named, never, "condition")
-        if comment := _line_of_comment(evidence, "build_type"):
-            found = Element("build_type", "", comment, "", {})
-            raise _build_type(found, missing, "commented")
-        if export is None:
-            raise _build_type(None, missing)
-        raise _build_type(export, missing, "in_export", first=export.line)
+            raise _build_type(named, never)
+        raise _build_type(export, missing)
     if len(elements) > 1:
         many = say("there are {count} <build_type> tags", count=len(elements))
-        raise _build_type(elements[1], many, "several")
+        raise _build_type(elements[1], many)
     if elements[0].text != "ament_python":
         _check_created(evidence, elements[0])
         said = f"<build_type>{shown(elements[0].text)}</build_type>"
         differs = with_difference(said, elements[0].text, "ament_python")
         created = "cmake" in elements[0].text and bool(_not_there(evidence))
-        raise _build_type(elements[0], differs, "cmake" if created else "line")
+        raise _build_type(elements[0], differs, "cmake" if created else "")
 
 
 def _check_created(evidence: Evidence, element: Element) -> None:
@@ -462,9 +320,7 @@ def _not_there(evidence: Evidence) -> list[str]:
     return [path for path in files if evidence.submission.file(path) is None]
 
 
-def _build_type(
-    element: Element | None, actual: str, variant: str = "", *, first: int = 0
-) -> Failed:
+def _build_type(element: Element | None, actual: str, variant: str = "") -> Failed:
     return _failed(
         "package.build_type",
         actual,
@@ -472,7 +328,6 @@ def _build_type(
         expected=BUILD_TYPE,
         variant=variant,
         params={"build_type": element.text[:80] if element and element.text.isprintable() else ""},
-        words={"first": str(first), "within": shown(element.within) if element else ""},
     )
 
 

@@ -7,7 +7,7 @@ import re
 from grader.base.i18n.message import joined, say
 from grader.base.shown import shown
 from grader.mistakes.recognised import RecognisedMistake
-from grader.mistakes.slips import KINDS, description, unexplained, words_of
+from grader.mistakes.slips import KINDS, description, unexplained, variant_of, words_of
 from grader.package.source.broken_python import Slip
 from grader.package.source.documents import document_of
 from grader.package.source.other_encoding import declaration, kind_of_encoding
@@ -79,8 +79,8 @@ def _slip(path: str, text: str, kind: str, slip: Slip) -> Failed:
         expected=say("a file that Python can read"),
         actual=joined(without_guess(text), description(slip), by=", "),
         where=Where(file=path, line=slip.line),
-        variant=slip.variant,
-        params={"what": slip.variant} if slip.cause in ("pasted", "document") else params,
+        variant=variant_of(slip),
+        params=params,
         words={**words_of(slip), "file": shown(path.rpartition("/")[2])},
     )
 
@@ -92,7 +92,6 @@ def failed_document(path: str, document: Slip) -> Failed:
         expected=say("a file that Python can read"),
         actual=description(document),
         where=Where(file=path, line=document.line),
-        variant=document.variant,
-        params={"what": document.variant},
+        variant=variant_of(document),
         words={**words_of(document), "file": shown(path.rpartition("/")[2])},
     )

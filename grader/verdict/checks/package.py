@@ -11,15 +11,10 @@ from grader.base.i18n.message import say
 from grader.base.nearest import nearest, there_is, with_difference
 from grader.base.shown import shown
 from grader.package.source.setup_cfg import (
-    KEYS,
     SetupCfg,
     SetupCfgFault,
-    behind_heading,
     indented_heading,
-    is_swapped,
-    meant_key,
     read_setup_cfg,
-    slip_of_path,
 )
 from grader.package.source.setup_py import INDEX
 from grader.package.source.values import Computed, Listing, Text, Value
@@ -62,28 +57,6 @@ def found(evidence: Evidence) -> Passed:
     return Passed(actual=actual, advice=submission.hints)
 
 
-def _both_are_wrong(cfg: SetupCfg, wanted: str) -> bool:
-    """Whether both sections have a setting, and neither is right."""
-    given = [
-        cfg.sections.get(section, {}).get(name)
-        for section, key in KEYS.items()
-        for name in (key, key.replace("_", "-"))
-    ]
-    values = [setting.value.rstrip("/") for setting in given if setting is not None]
-    return len(values) > 1 and wanted not in values
-
-
-def _lines_of(cfg: SetupCfg, slip: str, wanted: str) -> list[int]:
-    """Return the lines on which a path is wrong in the same way."""
-    given = [
-        setting
-        for section, key in KEYS.items()
-        for name, setting in cfg.sections.get(section, {}).items()
-        if name in (key, key.replace("_", "-"))
-    ]
-    return sorted(s.line for s in given if slip_of_path(s.value, wanted)[0] == slip)
-
-
 @check("package.manifest", stage=INTAKE, depends=["package.found"])
 def manifest(evidence: Evidence) -> Passed:
     """package.xml is valid, its name is the package's, and its build type is ament_python."""
@@ -113,7 +86,7 @@ def marker(evidence: Evidence) -> Passed:
     if installed:
         raise _other_marker(evidence, (lost or installed)[0])
     if (place := _other_place(data_files, package)) is not None:
-        raise _installed_elsewhere(place, path)
+        raise _installed_elsewhere(place, path, package)
     line = data_files.line if data_files is not None else setup.line
     raise Failed(
         "package.marker_not_installed",
@@ -122,7 +95,6 @@ def marker(evidence: Evidence) -> Passed:
         if data_files is not None
         else say("setup() has no argument data_files"),
         where=Where(file="setup.py", line=line),
-        variant="" if data_files is not None else "argument",
         words={"package": package},
     )
 
@@ -144,7 +116,7 @@ def _other_place(data_files: Value | None, package: str) -> Text | None:
     return found.get(close)
 
 
-def _installed_elsewhere(place: Text, path: str) -> Failed:
+def _installed_elsewhere(place: Text, path: str, package: str) -> Failed:
     folder = shown(place.value)
     actual = say("it installs {path} in {folder}", path=path, folder=folder)
     return Failed(
@@ -152,9 +124,7 @@ def _installed_elsewhere(place: Text, path: str) -> Failed:
         expected=say("setup.py installs {path} in {folder}", path=path, folder=INDEX),
         actual=with_difference(actual, place.value, INDEX),
         where=Where(file="setup.py", line=place.line),
-        variant="place",
-        params={"folder": folder},
-        words={"wanted": INDEX},
+        words={"package": package},
     )
 
 
@@ -172,31 +142,22 @@ def _comes_from_name(evidence: Evidence, setup: SetupPy, item: Text) -> bool:
 
 
 def _no_marker(evidence: Evidence, path: str) -> Failed:
-    package = evidence.assignment.package
-    others = [name for name in names_in(evidence, "resource") if name != package]
-    variant, actual = "", say("there is no file {path}", path=path)
-    there, place, line = path, "", 0
-    lone = [n for n in others if "." not in n] if len(others) == 1 else []
-    close = nearest(package, others) or "".join(lone)
-    parent = evidence.submission.file(path.partition("/")[0])
-    if parent is not None and parent.kind != "folder":
-        variant, actual = "file", say("{path} is a file", path=path.partition("/")[0])
-    elif evidence.submission.file(path) is not None:
-        variant, actual = "folder", say("{path} is a folder", path=path)
-    elif inner := _inner_resource(evidence, path):
-        variant, close, there = "inner", inner, f"{shown(inner)}/{package}"
-        actual = say("there is no {path}, but {there}", path=path, there=there)
-    elif folder := _folder_of_marker(evidence, path):
-        variant, close, there = "moved", folder, f"{shown(folder)}/{package}"
-        actual = say("there is no {path}, but {there}", path=path, there=there)
-    elif close:
-        variant, there = "rename", f"resource/{shown(close)}"
-        line = _line_that_installs(evidence, f"resource/{close}")
-        variant, place = ("rename_both", f"resource/{close}") if line else (variant, "")
-        said = say("there is no {path}, but resource/{close}", path=path, close=shown(close))
-        actual = with_difference(said, close, package)
+    package, found = evidence.assignment.package, evidence.submission.file
     expected: str = say("an empty file {path}", path=path)
-    if not variant and _installs_no_marker(evidence):
+    variant, there, place = "", path, ""
+    actual: str = say("there is no file {path}", path=path)
+    parent = found(path.partition("/")[0])
+    if parent is not None and parent.kind != "folder":
+        variant, there = "replace", parent.path
+        actual = say("{path} is a file", path=parent.path)
+    elif found(path) is not None:
+        variant, actual = "replace", say("{path} is a folder", path=path)
+    elif other := _other_place_of_marker(evidence, path):
+        variant, there = "rename", shown(other)
+        place = other if _line_that_installs(evidence, other) else ""
+        said = say("there is no {path}, but {there}", path=path, there=there)
+        actual = with_difference(said, other, path) if other.startswith("resource/") else said
+    elif _installs_no_marker(evidence):
         variant, expected = "line", say("an empty file {path}, and its line in setup.py", path=path)
         actual = say(
             "there is no file {path}, and data_files in setup.py has no line for it", path=path
@@ -206,22 +167,34 @@ def _no_marker(evidence: Evidence, path: str) -> Failed:
         expected=expected,
         actual=actual,
         variant=variant,
-        params={"folder": close} if variant in ("moved", "inner") else {"path": place},
-        words={
-            "package": package,
-            "close": shown(close),
-            "there": shlex.quote(shown(close)),
-            "line": line,
-        },
+        params={"there": there, "path": place},
+        words={"package": package, "there": shlex.quote(there)},
         where=Where(file=there),
     )
 
 
-def _line_that_installs(evidence: Evidence, path: str) -> int:
-    """Return the line of setup.py that installs a file as the marker; 0 if there is none."""
+def _other_place_of_marker(evidence: Evidence, path: str) -> str:
+    """Return the file that is nearly the marker, by its folder or by its name; "" if there is none."""
+    folder, _, name = path.partition("/")
+    others = [one for one in names_in(evidence, folder) if one != name]
+    lone = others[0] if len(others) == 1 and "." not in others[0] else ""
+    close = nearest(name, others) or lone
+    if close:
+        return f"{folder}/{close}"
+    parts = [file.path.partition("/") for file in evidence.submission.files]
+    if not any(head == folder for head, _, _ in parts):
+        inner = in_inner_folder(evidence, path)
+        if inner:
+            return inner
+    like = nearest(folder, {head for head, _, rest in parts if rest == name}, cutoff=0.75)
+    return f"{like}/{name}" if like else ""
+
+
+def _line_that_installs(evidence: Evidence, path: str) -> bool:
+    """Whether setup.py installs a file as the marker."""
     setup = setup_py_of(evidence)
     found, _ = _installed_in(setup.argument("data_files"), INDEX) if setup else ([], True)
-    return next((item.line for item in found if normpath(item.value) == path), 0)
+    return any(normpath(item.value) == path for item in found)
 
 
 def _installs_no_marker(evidence: Evidence) -> bool:
@@ -231,21 +204,6 @@ def _installs_no_marker(evidence: Evidence) -> bool:
         return False
     installed, all_known = _installed_in(setup.argument("data_files"), INDEX)
     return all_known and not installed
-
-
-def _inner_resource(evidence: Evidence, path: str) -> str:
-    """Return the folder resource with the marker in the inner folder; "" if it is not there."""
-    folder = path.partition("/")[0]
-    here = any(file.path.partition("/")[0] == folder for file in evidence.submission.files)
-    found = "" if here else in_inner_folder(evidence, path)
-    return found.rpartition("/")[0]
-
-
-def _folder_of_marker(evidence: Evidence, path: str) -> str:
-    """Return the folder that has the marker and nearly the name resource; "" if there is none."""
-    folder, _, name = path.partition("/")
-    parts = [file.path.partition("/") for file in evidence.submission.files]
-    return nearest(folder, {head for head, _, rest in parts if rest == name}, cutoff=0.75)
 
 
 def _other_marker(evidence: Evidence, item: Text) -> Failed:
@@ -261,7 +219,7 @@ def _other_marker(evidence: Evidence, item: Text) -> Failed:
         expected=say("setup.py installs {path} in {folder}", path=wanted, folder=INDEX),
         actual=with_difference(actual, item.value, wanted),
         where=Where(file="setup.py", line=item.line),
-        variant="path" if item.value.endswith(package) else "other",
+        variant="line" if missing else "",
         params={"path": path},
         words={"package": package},
     )
@@ -297,27 +255,18 @@ def setup_cfg(evidence: Evidence) -> Passed:
         "[develop] script_dir={wanted} and [install] install_scripts={wanted}", wanted=wanted
     )
     file = file_of(evidence, "setup.cfg")
-    inner = in_inner_folder(evidence, "setup.cfg") if file is None else ""
-    if inner:
-        raise Failed(
-            "package.setup_cfg_missing",
-            expected=expected,
-            actual=say("there is no {path}, but {there}", path="setup.cfg", there=shown(inner)),
-            where=Where(file=shown(inner)),
-            variant="inner",
-            params={"there": shown(inner)},
-            words={"package": package, "close": "", "there": shlex.quote(shown(inner))},
-        )
     if file is None or file.unreadable:
         near = nearest("setup.cfg", names_in(evidence, ""), cutoff=0.8) if file is None else ""
-        close = near if file_of(evidence, near) is not None else ""
+        inner = in_inner_folder(evidence, "setup.cfg") if file is None else ""
+        close = inner or (near if file_of(evidence, near) is not None else "")
         raise Failed(
             "package.setup_cfg_missing",
             expected=expected,
-            actual=_no_cfg(evidence, file.reason if file else ""),
+            actual=_no_cfg(evidence, file.reason if file else "", inner),
             where=Where(file=shown(close) or "setup.cfg"),
             variant="renamed" if close else "",
-            words={"package": package, "close": shlex.quote(shown(close)), "there": ""},
+            params={"there": shown(close)},
+            words={"package": package, "there": shlex.quote(shown(close))},
         )
     try:
         cfg = read_setup_cfg(file.data)
@@ -327,8 +276,8 @@ def setup_cfg(evidence: Evidence) -> Passed:
             expected=expected,
             actual=say("setup.cfg cannot be parsed: {text}", text=printable_reason(fault.text)),
             where=Where(file="setup.cfg", line=fault.line),
-            variant=fault.variant,
-            words={"other": fault.other, "line": str(fault.there)},
+            variant="encoding" if fault.is_encoding else "",
+            words={"package": package},
         ) from None
     alone = _only_install(cfg, wanted)
     if alone is not None:
@@ -368,9 +317,11 @@ def _only_install(cfg: SetupCfg, wanted: str) -> list[str] | None:
     ]
 
 
-def _no_cfg(evidence: Evidence, reason: str) -> str:
+def _no_cfg(evidence: Evidence, reason: str, inner: str) -> str:
     if reason:
         return say("setup.cfg cannot be read: {reason}", reason=printable_reason(reason))
+    if inner:
+        return say("there is no {path}, but {there}", path="setup.cfg", there=shown(inner))
     close = nearest("setup.cfg", names_in(evidence, ""), cutoff=0.8)
     return with_difference(say("there is no setup.cfg") + there_is(close), close, "setup.cfg")
 
@@ -391,56 +342,26 @@ def _setting(cfg: SetupCfg, section: str, key: str, wanted: str, expected: str) 
                 dashed=dashed,
             )
         ]
-    line, close, quoted, name = cfg.lines.get(section), "", list[int](), ""
+    line = (setting.line if setting is not None else 0) or cfg.lines.get(section)
     indented = indented_heading(cfg.text)
+    close = "" if section in cfg.sections else nearest(section, cfg.sections)
+    none = say("there is no section [{section}]", section=section) + there_is(close)
+    actual: str = with_difference(none, close, section)
     if indented:
-        line, variant = indented, "indented"
-        said: str = say("the heading of a section is indented")
-        actual = said
-    elif is_swapped(cfg):
-        variant = "swapped"
-        said = say("[{section}] has the key of the other section", section=section)
-        actual = said
+        line, actual = indented, say("the heading of a section is indented")
     elif setting is not None:
-        line, variant = setting.line, "both" if _both_are_wrong(cfg, wanted) else ""
-        slip, name = slip_of_path(setting.value, wanted)
-        quoted = _lines_of(cfg, slip, wanted) if slip else []
-        variant = slip or variant
         value = shown(setting.value)
-        said = say("[{section}] has {key}={value}", section=section, key=key, value=value)
-        actual = with_difference(said, setting.value, wanted)
+        there = say("[{section}] has {key}={value}", section=section, key=key, value=value)
+        actual = with_difference(there, setting.value, wanted)
     elif section in cfg.sections:
-        variant, close = "key", meant_key(cfg, section, wanted)
-        if close:  # (the misspelt key)
-            line = settings[close].line
-            right = settings[close].value.rstrip("/") == wanted
-            variant = "misspelt" if right else "line"
-        elif behind_heading(cfg.text, section):
-            line, variant = behind_heading(cfg.text, section), "one_line"
-        said = say("[{section}] has no {key}", section=section, key=key) + there_is(close)
-        actual = with_difference(said, close, key)
-    else:
-        variant, close = "section", nearest(section, cfg.sections)
-        said = say("there is no section [{section}]", section=section) + there_is(close)
-        actual = with_difference(said, close, section)
-        if close and all(name in close for name in KEYS):
-            line = cfg.lines.get(close, line)
-            variant, actual = "joined", say("one heading, [{close}], for two sections", close=close)
-        elif close and close in cfg.lines:
-            line, variant = cfg.lines[close], "heading"
-        elif not close and not any(name in cfg.sections for name in KEYS):
-            variant = "sections"
+        near = nearest(key, cfg.sections[section])
+        line = cfg.sections[section][near].line if near else line
+        absent = say("[{section}] has no {key}", section=section, key=key) + there_is(near)
+        actual = with_difference(absent, near, key)
     raise Failed(
         "package.setup_cfg_wrong",
         expected=expected,
         actual=actual,
-        where=Where(file="setup.cfg", line=line),
-        variant=variant,
-        params={"section": section, "key": key},
-        words={
-            "wanted": wanted,
-            "close": shown(close),
-            "line": ", ".join(str(number) for number in quoted),
-            "name": shown(name),
-        },
+        where=Where(file="setup.cfg", line=line or cfg.lines.get(close)),
+        words={"package": wanted.rpartition("/")[2]},
     )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import codecs
 import re
 import shlex
@@ -12,18 +11,14 @@ from grader.base.i18n.message import joined, say
 from grader.base.nearest import with_difference
 from grader.base.shown import shown
 from grader.mistakes.hints import hints
-from grader.mistakes.slips import description, words_of
+from grader.mistakes.slips import description, variant_of, words_of
 from grader.package.edit.text import read_source
 from grader.package.source.broken_python import Slip
 from grader.package.source.documents import code_cells, document_of
-from grader.package.source.names import misnamed_init, module_name
+from grader.package.source.names import misnamed_init
 from grader.package.source.newer_python import SINCE, first_difference, with_older_quotes
-from grader.package.source.node_modules import node_modules
-from grader.package.source.numbers_above import numbers_above
-from grader.package.source.own_imports import imports_of
-from grader.package.source.pasted import WHOLE_LINES, Pasted, pasted_in
+from grader.package.source.pasted import Pasted, pasted_in
 from grader.package.source.python import SHEBANG, PythonFault, has_no_code, parse_python
-from grader.package.source.setup_scripts import scripts_line
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
 from grader.verdict.checks.actual_node import (
@@ -31,14 +26,13 @@ from grader.verdict.checks.actual_node import (
     has_node,
     is_the_node,
     near_name,
-    of_entry,
     other_path,
     possible_paths,
 )
 from grader.verdict.checks.declare import INTAKE, check
 from grader.verdict.checks.inner_package import node_in_inner_package
 from grader.verdict.checks.not_python import failed_document, not_python
-from grader.verdict.checks.parsed import data_of, file_of, names_in, node_path, printable_reason
+from grader.verdict.checks.parsed import file_of, names_in, node_path, printable_reason
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
@@ -84,7 +78,7 @@ def node_file(evidence: Evidence) -> Passed:
         _older_python(path, parsed.text)
     folder = path.removesuffix(".py")
     if evidence.submission.file(f"{folder}/__init__.py") is not None:
-        raise _hidden_by_folder(evidence, path, folder)
+        raise _hidden_by_folder(path, folder)
     advice = hints(parsed.tree, evidence.assignment.function)
     inner = evidence.assignment.folder
     if evidence.submission.file(f"{inner}/__init__.py") is None:
@@ -100,25 +94,14 @@ def node_file(evidence: Evidence) -> Passed:
     return Passed(actual=path, advice=advice[:MOST_ADVICE])
 
 
-def _hidden_by_folder(evidence: Evidence, path: str, folder: str) -> Failed:
-    """Return the failure of a node's file beside a folder with its name, from which code may import."""
-    words = {"path": path, "folder": folder, "other": f"{folder.rpartition('/')[2]}_parts"}
-    inside = {f.path for f in evidence.submission.files if f.path.startswith(f"{folder}/")}
-    inside -= {f"{folder}/__init__.py"}  # (its name is that of the node's file too)
-    uses = [
-        f"{module.path}:{node.lineno}"
-        for module in node_modules(evidence.submission.files)
-        for node in module.nodes
-        if isinstance(node, ast.stmt) and not module.path.startswith(f"{folder}/")
-        if any(inside & {*found.paths} for found in imports_of(node, module.path))
-    ]
+def _hidden_by_folder(path: str, folder: str) -> Failed:
+    """Return the failure of a node's file beside a folder with its name."""
     return Failed(
         "source.hidden_by_folder",
         expected=say("a file {path} that Python imports", path=path),
         actual=say("there is also a folder {folder}/ with an __init__.py", folder=folder),
         where=Where(file=folder),
-        variant="imported" if uses else "",
-        words={**words, "lines": ", ".join(uses[:MOST_ADVICE])},
+        words={"folder": folder},
     )
 
 
@@ -134,7 +117,7 @@ def _older_python(path: str, text: str) -> None:
         expected=say("a file that Python can read"),
         actual=say("in: {code}", code=shown(row)),
         where=Where(file=path, line=line),
-        variant="quotes_inside",
+        variant="write",
         params={"error": "SyntaxError", "kind": "syntax"},
         words={
             "found": shown(row),
@@ -194,7 +177,7 @@ def _empty(evidence: Evidence, path: str, data: bytes) -> Failed:
     else:
         elsewhere = say("the file is empty: your node is in {path}", path=shown(other))
     if other == init:
-        return _in_init(path, init, elsewhere, "init_empty")
+        return _in_init(path, init, elsewhere)
     if other:
         return Failed(
             "source.empty_node_file",
@@ -259,13 +242,13 @@ def _is_inner(evidence: Evidence, path: str) -> bool:
     return has_init and same and evidence.submission.file(evidence.assignment.folder) is None
 
 
-def _in_init(path: str, init: str, actual: str, variant: str) -> Failed:
+def _in_init(path: str, init: str, actual: str) -> Failed:
     return Failed(
         "source.misplaced_node_file",
         expected=say("your node's code in {path}", path=path),
         actual=actual,
         where=Where(file=init),
-        variant=variant,
+        variant="init",
         params={"path": init},
         words={"wanted": path, "init": init},
     )
@@ -284,7 +267,7 @@ def _not_there(evidence: Evidence, path: str) -> Failed:
         )
     init, found = f"{inner}/__init__.py", other_path(evidence)
     if found == init:
-        return _in_init(path, init, say("your node is in {path}", path=init), "init")
+        return _in_init(path, init, say("your node is in {path}", path=init))
     possible = [] if found else possible_paths(evidence)
     if len(possible) > 1:
         return _several(path, possible, expected)
@@ -342,19 +325,11 @@ def _misplaced(evidence: Evidence, place: str, *, is_inside: bool) -> Failed:
     path, inner = node_path(evidence), evidence.assignment.folder
     actual, place = say("it is in {path}", path=shown(place)), shown(place)
     movable = is_inside and evidence.submission.file(inner) is not None
-    scripts = scripts_line(data_of(evidence, "setup.py") or b"", place) if is_inside else None
     if "/" not in place:
         actual = say("{path} is beside setup.py, and not in the inner folder", path=place)
     if not is_inside:
         actual = say("it is in {path}, outside of the package", path=place)
-    if _is_inner(evidence, place):
-        variant = "folder"
-    elif place == f"src/{path}":
-        variant = "src_layout"
-    elif movable:
-        variant = "scripts" if scripts else _way(evidence, place)
-    else:
-        variant = ""
+    variant = "folder" if _is_inner(evidence, place) else "inside" if movable else ""
     return Failed(
         "source.misplaced_node_file",
         expected=say("a file {path} in the package", path=path),
@@ -367,18 +342,8 @@ def _misplaced(evidence: Evidence, place: str, *, is_inside: bool) -> Failed:
             "folder": place.partition("/")[0],
             "inner": inner,
             "there": shlex.quote(place),
-            "module": module_name(path),
-            "module_there": module_name(place),
-            "line": str(scripts[0]) if scripts else "",
-            "code": shown(scripts[1]) if scripts else "",
         },
     )
-
-
-def _way(evidence: Evidence, place: str) -> str:
-    """Return the variant of a file that can be moved: Python finds it if the entry leads to it."""
-    is_named = place == f"{node_path(evidence).removesuffix('.py')}/__init__.py"
-    return "entry" if of_entry(evidence) == place and not is_named else "inside"
 
 
 def _several(path: str, paths: list[str], expected: str) -> Failed:
@@ -403,13 +368,10 @@ def _node(evidence: Evidence) -> tuple[str, SourceFile]:
     return path, file
 
 
-def _named(evidence: Evidence, path: str) -> tuple[str, dict[str, str]]:
-    """Return variant and words for the command that changes the node's file at a path."""
-    wanted = node_path(evidence)
-    words = {"file": shown(path.rpartition("/")[2]), "path": wanted, "there": ""}
-    if path == wanted:
-        return "", words
-    return "elsewhere", {**words, "there": shlex.quote(shown(path))}
+def _named(path: str) -> dict[str, str]:
+    """Return the words for the command that changes the node's file at a path."""
+    name = shown(path.rpartition("/")[2])
+    return {"file": name, "path": shown(path), "there": shlex.quote(shown(path))}
 
 
 @check("source.exec_bit", stage=INTAKE, depends=["package.found"], covers="files")
@@ -417,13 +379,13 @@ def exec_bit(evidence: Evidence) -> Passed:
     """The node's file is executable."""
     path, file = _node(evidence)
     mode = f"{file.mode & 0o777:04o}"
-    variant, words = _named(evidence, path)
+    words = _named(path)
     if evidence.submission.modes == "unknown":
         note = say("unknown: the submission came without exec bits")
         if evidence.assignment.modes == "accept-unknown":
             advice = say(
                 "Check it yourself: ls -l {path} shows an x if the file is executable.",
-                path=words["there"] or path,
+                path=words["there"],
             )
             return Passed(actual=note, advice=[advice])
         raise Failed(
@@ -431,7 +393,6 @@ def exec_bit(evidence: Evidence) -> Passed:
             expected=say("{path} with its exec bit recorded", path=shown(path)),
             actual=note,
             where=Where(file=shown(path)),
-            variant=variant,
             words=words,
         )
     said = say("mode {mode}", mode=mode)
@@ -442,7 +403,6 @@ def exec_bit(evidence: Evidence) -> Passed:
         expected=say("{path} with the exec bit, such as mode 0755", path=shown(path)),
         actual=said,
         where=Where(file=shown(path)),
-        variant=variant,
         params={"mode": mode},
         words=words,
     )
@@ -471,7 +431,7 @@ def shebang(evidence: Evidence) -> Passed:
             return Passed(actual=_of(evidence, path, shown(first.decode("utf-8", "replace"))))
     if document_of(file.data) is not None:
         raise Blocked(by="source.node_file")
-    raise _no_shebang(evidence, path, file.data, first)
+    raise _no_shebang(path, file.data, first)
 
 
 def _unknown_option(rest: bytes) -> str:
@@ -494,7 +454,7 @@ def _beside_empty(evidence: Evidence, path: str) -> str:
     return _lone_node(evidence, path) or path
 
 
-def _no_shebang(evidence: Evidence, path: str, data: bytes, first: bytes) -> Failed:
+def _no_shebang(path: str, data: bytes, first: bytes) -> Failed:
     text = shown(first.decode("utf-8", "replace").strip()) or say("an empty line")
     later = [n for n, line in enumerate(data.splitlines()[:20], 1) if line[:2] == b"#!" and n > 1]
     line: int | None = 1
@@ -522,18 +482,12 @@ def _no_shebang(evidence: Evidence, path: str, data: bytes, first: bytes) -> Fai
         mistake, actual = "source.no_shebang", say("line 1 is: {text}", text=text)
         if not data.strip():
             actual = say("the file is empty")
-    variant, words = _named(evidence, path)
-    if slip is not None and slip.cause == "shebang":
-        variant = slip.variant
-    if mistake == "source.crlf" and b"\n" not in data:
-        variant, words = "cr", {**words, "there": shlex.quote(shown(path))}
     return Failed(
         mistake,
         expected=say("line 1: {shebang}", shebang=SHEBANG),
         actual=actual,
         where=Where(file=shown(path), line=line),
-        variant=variant if mistake == "source.crlf" or variant == "first_sign" else "",
-        words=words,
+        words=_named(path),
     )
 
 
@@ -550,13 +504,7 @@ def _wrong_shebang(text: str, first: bytes) -> str:
 
 def _pasted_above(data: bytes, slip: Slip | None, later: list[int]) -> Pasted | Slip | None:
     """Return what was pasted above or in front of the shebang; `later`: the lines that have one."""
-    numbers = numbers_above(data)
-    if numbers:
-        return Slip("pasted", "number_lines", 1, "1", other=numbers)
-    within = b"#!/" in data.partition(b"\n")[0][1:]  # behind a line number
     if slip is not None and slip.variant == "around" and later and slip.line < later[0]:
-        return slip
-    if slip is not None and within and slip.variant == "numbers" and slip.line == 1:
         return slip
     return _above_shebang(data, later[0] if later else 2)
 
@@ -565,7 +513,7 @@ def _above_shebang(data: bytes, line: int) -> Pasted | None:
     """Return what was pasted on line 1, if nothing else is above a line."""
     source = read_source(data)
     found = [p for p in pasted_in(source) if p.line < line] if source is not None else []
-    lines = {p.line: p for p in found if p.variant in WHOLE_LINES}
+    lines = {p.line: p for p in found if p.whole}
     if source is None or 1 not in lines:
         return None
     others = [n for n in range(1, line) if n not in lines and source.line(n).strip()]
@@ -578,7 +526,6 @@ def _pasted_first(path: str, pasted: Pasted | Slip) -> Failed:
         expected=say("line 1: {shebang}", shebang=SHEBANG),
         actual=joined(say("line 1 is not code"), description(pasted), by=", "),
         where=Where(file=shown(path), line=1),
-        variant=pasted.variant,
-        params={"what": pasted.variant},
+        variant=variant_of(pasted),
         words=words_of(pasted),
     )

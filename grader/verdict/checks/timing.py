@@ -13,13 +13,11 @@ from typing import TYPE_CHECKING
 from pydantic import Field
 
 from grader.base.i18n.message import Value, say
-from grader.mistakes.fixes.node_pace import throttled
 from grader.mistakes.fixes.node_timer import value_of
-from grader.package.source.counter import targets_of
-from grader.package.source.names import dotted
 from grader.package.source.node import NodeSource
 from grader.package.source.period import is_right, number_in, seconds_of, timers_of_lines
 from grader.package.source.place import place_of
+from grader.package.source.real_time import THROTTLE
 from grader.package.source.sleeps import longest_sleep
 from grader.package.source.timer import Timer
 from grader.report.model import Where
@@ -156,15 +154,19 @@ def _seen_every(evidence: Evidence, seconds: float) -> str:
     sleeps.
     """
     source = source_of_node(evidence)
-    if not seconds or (source is not None and throttled(source) is not None):
+    if not seconds or (source is not None and _is_throttled(source)):
         return say("lines came at other instants")
-    slept = longest_sleep(source) if source is not None else None
-    if slept is not None and slept[1] >= seconds:
+    if source is not None and longest_sleep(source) >= seconds:
         return say(
             "a timer of {period} s, and a callback whose sleep holds the lines back",
             period=_shown(seconds),
         )
     return say("a line about every {period} s", period=_shown(seconds))
+
+
+def _is_throttled(source: NodeSource) -> bool:
+    """Whether a line of the node's log is written at most so often."""
+    return any(option.arg == THROTTLE for call in source.own_logs for option in call.keywords)
 
 
 def _shown(seconds: float) -> str:
@@ -183,12 +185,12 @@ def _kept_apart(evidence: Evidence, on_time: Sequence[Event], wanted: float) -> 
     if held_up > wanted * (1 + WALL_TOLERANCE):
         return held_up
     source = source_of_node(evidence)
-    slept = longest_sleep(source) if source is not None else None
+    slept = longest_sleep(source) if source is not None else 0.0
     gaps = [after.wall - before.wall for before, after in pairwise(on_time)]
-    if slept is None or slept[1] <= wanted or not gaps:
+    if slept <= wanted or not gaps:
         return 0.0
     gap = statistics.median(gaps)
-    return gap if gap >= slept[1] * (1 - WALL_TOLERANCE) else 0.0
+    return gap if gap >= slept * (1 - WALL_TOLERANCE) else 0.0
 
 
 def _wall_period(evidence: Evidence, wanted: float, expected: str) -> Passed:
@@ -304,49 +306,25 @@ def _period_told(evidence: Evidence) -> Told:
     return told_of_period(source, evidence.assignment.output.period)
 
 
-def _of_class(source: NodeSource, name: str) -> ast.expr | None:
-    """Return the only value that a class of the node gives to an attribute, as in PERIOD = 1.0."""
-    attribute = name.removeprefix("self.")
-    found = [
-        statement.value
-        for each in source.family
-        for statement in each.body
-        if isinstance(statement, ast.Assign | ast.AnnAssign) and attribute in targets_of(statement)
-    ]
-    return found[0] if len(found) == 1 and name.startswith("self.") else None
-
-
 def told_of_period(source: NodeSource, wanted: float) -> Told:
     """Return what to say of the period of the timer whose callback logs.
 
     A number that is right already is not the reason: then it is the call of create_timer.
     """
-    timers = timers_of_lines(source)
-    timer = timers[0]
-    name = dotted(timer.period) if timer.period is not None else ""
-    value = value_of(source, timer.period) if timer.period is not None and name else None
-    if value is None and (value := _of_class(source, name)) is not None:
-        name = name.removeprefix("self.")
-    seconds = number_in(value)
-    if value is not None and seconds is not None and not is_right(seconds, wanted):
-        return Told(place_of(source, value), "named", {"value": name})
+    timer = timers_of_lines(source)[0]
     if _is_made_again(source, timer):
         return Told(place_of(source, timer.call), "several")
-    known = seconds_of(source, timer.period) if timer.period is not None else None
+    given = timer.period
+    known = seconds_of(source, given) if given is not None else None
     if is_right(known, wanted):
         named = {"callback": timer.method} if timer.method else {}
         return Told(place_of(source, timer.call), "there", named)
-    return _told_of_argument(source, timer)
-
-
-def _told_of_argument(source: NodeSource, timer: Timer) -> Told:
-    """Return what to say of a period of which it is not certain which number is wrong."""
-    code = _short_code(source, timer.period)
-    variant = ""
-    if code:
-        variant = "number" if number_in(timer.period) is not None else "expression"
-    at = timer.period if code and timer.period is not None else timer.call
-    return Told(place_of(source, at), variant, {"code": code})
+    value = (value_of(source, given) or given) if given is not None else None
+    code = _short_code(source, value)
+    if value is None or not code:
+        return Told(place_of(source, timer.call))
+    variant = "number" if number_in(value) is not None else "expression"
+    return Told(place_of(source, value), variant, {"code": code})
 
 
 def _short_code(source: NodeSource, part: ast.expr | None) -> str:

@@ -1,0 +1,76 @@
+"""Operators of places: a statement of a block runs earlier, later, or in another block."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from grader.base.i18n.message import msg
+from grader.change.operator import SIMPLE, Made, Operator, Site, is_text, moved, operator
+
+
+@operator(
+    "out",
+    cost=2,
+    why=msg("{name} is in the block: it runs only when the block does."),
+    fix=msg("Move the line {name} out of the block: as far to the left as the head of the block."),
+)
+def out(site: Site) -> Iterator[Made]:
+    """Yield the last statement of a block below the block."""
+    for node in site.of((ast.If, ast.For, ast.While)):
+        assert isinstance(node, ast.If | ast.For | ast.While)
+        for block in (node.body, node.orelse):
+            if block and isinstance(block[-1], ast.Expr | ast.Assign | ast.AugAssign | ast.Return):
+                last = block[-1]
+                end = (node.end_lineno or node.lineno) + 1
+                yield moved(site, last, end, site.indent(node))
+
+
+@operator(
+    "into",
+    cost=4,
+    hides=True,
+    why=msg("{name} runs each time. It belongs to the condition above it."),
+    fix=msg("Indent the line {name}, so that it is in the block above it."),
+)
+def into(site: Site) -> Iterator[Made]:
+    """Yield a statement as the last one of the block above it."""
+    for function in site.functions:
+        for statement in site.simple(function):
+            block = site.block(statement)
+            at = block.index(statement)
+            before = block[at - 1] if at else None
+            if isinstance(before, ast.If | ast.For | ast.While):
+                last = (before.orelse or before.body)[-1]
+                yield moved(site, statement, statement.lineno, site.indent(last))
+                if before.orelse:
+                    end = (before.body[-1].end_lineno or 0) + 1
+                    yield moved(site, statement, end, site.indent(before.body[-1]))
+
+
+@operator(
+    "earlier",
+    cost=2,
+    why=msg(
+        "Lines run from top to bottom: {name} comes too late, or too early, for what it is for."
+    ),
+    fix=msg("Move the line {name} to line {written}."),
+)
+def earlier(site: Site) -> Iterator[Made]:
+    """Yield a plain statement above others of its block, or below a loop or a condition."""
+    for function in site.functions:
+        for statement in site.simple(function):
+            block = site.block(statement)
+            at = block.index(statement)
+            for to in range(max(0, at - 3), at):
+                other = block[to]
+                if not is_text(other):
+                    indent = site.indent(statement)
+                    yield moved(site, statement, other.lineno, indent, more=at - to - 1)
+            for below in block[at + 1 : at + 3]:
+                if not isinstance(below, SIMPLE):
+                    line = (below.end_lineno or below.lineno) + 1
+                    yield moved(site, statement, line, site.indent(statement))
+
+
+OPERATORS: tuple[Operator, ...] = (out, into, earlier)
