@@ -91,11 +91,8 @@ def _is_logged_too(source: NodeSource, call: ast.Call) -> bool:
     return any(around & set(block_of(module, statement_of(module, log))) for log in same)
 
 
-def _printed_in_callback(suspect: Suspect) -> RecognisedMistake | None:
-    """Look for a print() or a debug in a method, where a line of the log is missing."""
-    found = _printed(suspect)
-    if found is not None:
-        return found
+def _below_level(suspect: Suspect) -> RecognisedMistake | None:
+    """Look for a debug where a line of the log is missing."""
     debug = [call for call in suspect.source.own_logs if called_name(call) == "debug"]
     return suspect.finding("debug_level", debug[0]) if debug else None
 
@@ -131,7 +128,7 @@ KINDS = (
         ),
         msg("Write self.get_logger().info(…) instead of .debug(…)."),
         fixes={"set": msg("Remove the line with {name}.")},
-        behind={"run.no_lines": _hidden_level},
+        behind={"run.no_lines": _hidden_level, "log.missing": _below_level},
         fixed_by=(node_log.level,),
         examples=(
             example(
@@ -167,7 +164,7 @@ KINDS = (
                 "logger.info(…) there instead of print(…)."
             ),
         },
-        behind={"run.print_not_logger": _printed, "log.missing": _printed_in_callback},
+        behind={"run.print_not_logger": _printed},
         fixed_by=(lines.written,),
         examples=(
             example(

@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING
 
 from grader.course.worlds import is_of_world
 from grader.mistakes.catalogue import CATALOGUE
+from grader.verdict.checks.actual_node import of_entry
 from grader.verdict.checks.declare import ANSWERS
+from grader.verdict.checks.parsed import file_of, node_path
 
 if TYPE_CHECKING:
     from grader.course.assignment import CheckUse
@@ -34,6 +36,9 @@ def explained_by(evidence: NodeEvidence, check: Check, use: CheckUse, failed: Fa
     kind = CATALOGUE.get(failed.mistake.id)
     if not check.is_of_run or kind is None:
         return ""
+    mapping = evidence.id_of("entry_point.mapping")
+    if evidence.has_failed(mapping) and _is_of_other_file(evidence):
+        return mapping
     stays = evidence.id_of("run.stays")
     ended = evidence.run.ended_by_itself and evidence.has_failed(stays)
     if failed.mistake.id.endswith(ABSENT) and ended:
@@ -49,6 +54,12 @@ def explained_by(evidence: NodeEvidence, check: Check, use: CheckUse, failed: Fa
         if here.follows_from(other, result) if is_own else here.is_fed_by(other, result):
             return other.id
     return ""
+
+
+def _is_of_other_file(evidence: NodeEvidence) -> bool:
+    """Whether the executable runs another file of the package, and the node's own is there."""
+    other, own = of_entry(evidence), node_path(evidence)
+    return other not in ("", own) and file_of(evidence, own) is not None
 
 
 class _Failure:

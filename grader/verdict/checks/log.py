@@ -17,7 +17,7 @@ from grader.base.yaml_model import broken
 from grader.course.values import Form
 from grader.verdict.checks.declare import ANSWERS, kind
 from grader.verdict.checks.faults import line_of
-from grader.verdict.checks.lines import CALLS, Level, level_of, other_texts, records, such_lines
+from grader.verdict.checks.lines import CALLS, Level, level_of, lines, other_texts, records, such_lines
 from grader.verdict.checks.parameters import EDGE, Parameters
 from grader.verdict.outcome import Blocked, Failed, Passed
 
@@ -133,6 +133,14 @@ def _too_few(use: Use[Lines], found: list[Event]) -> Failed:
             actual=joined(_with_instants(same), say("level {level}", level=level), by=", "),
             where=line_of(use.evidence, same[0].record),
             words={"level": given.level},
+        )
+    printed = [event for event in lines(use, given.text) if event.source == "print"]
+    if printed and not found:
+        raise Failed(
+            "run.print_not_logger",
+            expected=_wanted(use),
+            actual=_with_instants(printed),
+            where=line_of(use.evidence, printed[0].record),
         )
     others = [] if found else records(use, Form(contains=""))
     close = _nearest(use, others)

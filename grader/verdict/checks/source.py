@@ -56,7 +56,7 @@ def node_file(evidence: Evidence) -> Passed:
     path = node_path(evidence)
     file = file_of(evidence, path)
     if file is None:
-        raise _not_there(evidence, path)
+        raise not_there(evidence, path)
     if file.unreadable:
         reason = printable_reason(file.reason)
         raise Failed(
@@ -254,7 +254,8 @@ def _in_init(path: str, init: str, actual: str) -> Failed:
     )
 
 
-def _not_there(evidence: Evidence, path: str) -> Failed:
+def not_there(evidence: Evidence, path: str) -> Failed:
+    """Return the fault of a missing node's file: another place or name, or no file at all."""
     submission, name = evidence.submission, evidence.assignment.node_file
     inner = evidence.assignment.folder
     expected = say("a file {path} in the package", path=path)

@@ -28,6 +28,8 @@ from grader.verdict.checks.faults import (
 from grader.verdict.checks.given_file import given_file_must_be_installed
 from grader.verdict.checks.installed import executable_must_be_there
 from grader.verdict.checks.own_interface import fault_in_traceback
+from grader.verdict.checks.parsed import file_of, node_path
+from grader.verdict.checks.source import not_there
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Outcome, Passed
 
@@ -117,6 +119,9 @@ def _ended(evidence: Evidence) -> Outcome:
         manifest = evidence.has_failed("package.manifest")
         return Blocked(by="package.manifest" if manifest else "build.colcon")
     error, where = traceback_of(evidence, run)
+    path = node_path(evidence)
+    if error.startswith("ModuleNotFoundError") and file_of(evidence, path) is None:
+        return not_there(evidence, path)
     newer, older = _newer_line(evidence) if error.startswith("SyntaxError") else (0, "")
     if newer and evidence.distro is not None:
         return Inconclusive(
