@@ -149,7 +149,7 @@ def _messages(site: Site, function: Function) -> list[tuple[str, ast.Assign]]:
 @operator(
     "sent",
     cost=2,
-    why=msg("{name} fills a message, and no line sends it."),
+    why=msg("No line of this function sends the message that it makes."),
     fix=BELOW,
 )
 def sent(site: Site) -> Iterator[Made]:

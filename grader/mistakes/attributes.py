@@ -276,7 +276,7 @@ KINDS = (
         msg("The callback is outside of the class"),
         msg("A function at the margin is not a method of the class, so self does not have it."),
         msg(
-            "Put def {name}(self): and its lines at the end of the class, indented by 4 more spaces "
+            "Put def {name} and its lines at the end of the class, indented by 4 more spaces "
             "than now."
         ),
         fixed_by=(node_scope.into_class,),

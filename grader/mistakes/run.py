@@ -208,11 +208,6 @@ KINDS = (
                 fails="run.output",
             ),
             example(
-                "text_other_capital",
-                Replace(NODE, "'Hello time: '", "'Hello Time: '"),
-                fails="run.output",
-            ),
-            example(
                 "text_of_another_course",
                 Replace(NODE, "'Hello time: ' + str(self.counter_)", "'Hello World'"),
                 fails="run.output",

@@ -111,7 +111,7 @@ def out_of_init(case: Case) -> Files | None:
     last = init.body[-1] if init is not None else None
     if node is None or init is None or not isinstance(last, ast.FunctionDef) or last.name != name:
         return None
-    if [a.arg for a in last.args.args] != ["self"] or len(init.body) == 1:
+    if [a.arg for a in last.args.args][:1] != ["self"] or len(init.body) == 1:
         return None
     module = node.module_of(last)
     first = first_row(last)
@@ -131,7 +131,7 @@ def into_class(case: Case) -> Files | None:
     module, function = node.module, node.module.functions[name]
     body = module.tree.body
     above = body[body.index(function) - 1]
-    if above is not node.node_class or [a.arg for a in function.args.args] != ["self"]:
+    if above is not node.node_class or [a.arg for a in function.args.args][:1] != ["self"]:
         return None
     first = first_row(function)
     indent = indent_of(module.text.line(node.class_body[-1].lineno))

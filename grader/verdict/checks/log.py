@@ -17,7 +17,15 @@ from grader.base.yaml_model import broken
 from grader.course.values import Form
 from grader.verdict.checks.declare import ANSWERS, kind
 from grader.verdict.checks.faults import line_of
-from grader.verdict.checks.lines import CALLS, Level, level_of, lines, other_texts, records, such_lines
+from grader.verdict.checks.lines import (
+    CALLS,
+    Level,
+    level_of,
+    lines,
+    other_texts,
+    records,
+    such_lines,
+)
 from grader.verdict.checks.parameters import EDGE, Parameters
 from grader.verdict.outcome import Blocked, Failed, Passed
 

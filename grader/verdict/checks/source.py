@@ -14,23 +14,16 @@ from grader.mistakes.hints import hints
 from grader.mistakes.slips import description, variant_of, words_of
 from grader.package.edit.text import read_source
 from grader.package.source.broken_python import Slip
-from grader.package.source.documents import code_cells, document_of
+from grader.package.source.documents import document_of
 from grader.package.source.names import misnamed_init
 from grader.package.source.newer_python import SINCE, first_difference, with_older_quotes
 from grader.package.source.pasted import Pasted, pasted_in
 from grader.package.source.python import SHEBANG, PythonFault, has_no_code, parse_python
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
-from grader.verdict.checks.actual_node import (
-    actual_path,
-    has_node,
-    is_the_node,
-    near_name,
-    other_path,
-    possible_paths,
-)
+from grader.verdict.checks.actual_node import actual_path, has_node
 from grader.verdict.checks.declare import INTAKE, check
-from grader.verdict.checks.inner_package import node_in_inner_package
+from grader.verdict.checks.missing_node_file import in_init, lone_node, not_there, notebook_of
 from grader.verdict.checks.not_python import failed_document, not_python
 from grader.verdict.checks.parsed import file_of, names_in, node_path, printable_reason
 from grader.verdict.outcome import Blocked, Failed, Passed
@@ -40,7 +33,6 @@ if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
 
 MOST_ADVICE = 5
-MOST_NOTEBOOKS = 9
 UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 PYTHON3 = re.compile(
     rb"#![ \t]{0,9}(?:/usr/bin/env[ \t]{1,9}(?:-S[ \t]{1,9})?|/usr/bin/|/bin/|/usr/local/bin/)"
@@ -171,13 +163,13 @@ def _other_version(evidence: Evidence, path: str) -> str:
 
 def _empty(evidence: Evidence, path: str, data: bytes) -> Failed:
     init = f"{evidence.assignment.folder}/__init__.py"
-    other = init if has_node(evidence, init) else _lone_node(evidence, path)
+    other = init if has_node(evidence, init) else lone_node(evidence, path)
     if data.strip():
         elsewhere = say("the file has no code: your node is in {path}", path=shown(other))
     else:
         elsewhere = say("the file is empty: your node is in {path}", path=shown(other))
     if other == init:
-        return _in_init(path, init, elsewhere)
+        return in_init(path, init, elsewhere)
     if other:
         return Failed(
             "source.empty_node_file",
@@ -188,7 +180,7 @@ def _empty(evidence: Evidence, path: str, data: bytes) -> Failed:
             params={"there": shown(other)},
             words={"path": path, "copy": "", "there": shlex.quote(shown(other))},
         )
-    notebook = _notebook(evidence)
+    notebook = notebook_of(evidence)
     if notebook:
         return Failed(
             "source.empty_node_file",
@@ -208,155 +200,6 @@ def _empty(evidence: Evidence, path: str, data: bytes) -> Failed:
         where=Where(file=path),
         variant="built" if copy else "",
         words={"path": path, "copy": copy, "there": ""},
-    )
-
-
-def _lone_node(evidence: Evidence, path: str) -> str:
-    """Return the one other file with the node, in the inner folder or beside setup.py; or ""."""
-    inner = evidence.assignment.folder
-    saved = re.compile(rf"{re.escape(evidence.assignment.node_file)}(?:~|\.\w{{2,6}})")
-    inside = [n for n in names_in(evidence, inner) if n.endswith(".py") or saved.fullmatch(n)]
-    beside = [name for name in names_in(evidence, "") if name.endswith(".py")]
-    others = {f"{inner}/{name}" for name in inside}.union(beside)
-    others -= {path, f"{inner}/__init__.py", "setup.py"}
-    found = [there for there in others if is_the_node(evidence, there)]
-    return found[0] if len(found) == 1 else ""
-
-
-def _notebook(evidence: Evidence) -> str:
-    """Return the one notebook of the package whose code imports ROS; "" if there is none."""
-    files = [f for f in evidence.submission.files if f.path.endswith(".ipynb")]
-    found = [
-        file.path
-        for file in files[:MOST_NOTEBOOKS]
-        if file.kind == "file" and "rclpy" in "".join(code_cells(file.data) or ())
-    ]
-    return found[0] if len(found) == 1 else ""
-
-
-def _is_inner(evidence: Evidence, path: str) -> bool:
-    """Whether a node's file is in an inner folder, which only has a wrong name."""
-    folder, _, name = path.partition("/")
-    has_init = file_of(evidence, f"{folder}/__init__.py") is not None
-    same = name == evidence.assignment.node_file
-    return has_init and same and evidence.submission.file(evidence.assignment.folder) is None
-
-
-def _in_init(path: str, init: str, actual: str) -> Failed:
-    return Failed(
-        "source.misplaced_node_file",
-        expected=say("your node's code in {path}", path=path),
-        actual=actual,
-        where=Where(file=init),
-        variant="init",
-        params={"path": init},
-        words={"wanted": path, "init": init},
-    )
-
-
-def not_there(evidence: Evidence, path: str) -> Failed:
-    """Return the fault of a missing node's file: another place or name, or no file at all."""
-    submission, name = evidence.submission, evidence.assignment.node_file
-    inner = evidence.assignment.folder
-    expected = say("a file {path} in the package", path=path)
-    if path in submission.links_out:
-        return Failed(
-            "source.node_file_is_link",
-            expected=expected,
-            actual=say("it is a link to a place outside of the package"),
-            where=Where(file=path),
-        )
-    init, found = f"{inner}/__init__.py", other_path(evidence)
-    if found == init:
-        return _in_init(path, init, say("your node is in {path}", path=init))
-    possible = [] if found else possible_paths(evidence)
-    if len(possible) > 1:
-        return _several(path, possible, expected)
-    inside = [f.path for f in submission.files if f.path.rpartition("/")[2] == name]
-    inside = [found] if found else [p for p in inside if file_of(evidence, p)]
-    elsewhere = inside or list(submission.node_files)
-    created_inside = node_in_inner_package(evidence, inside[0]) if inside else None
-    if created_inside is not None:
-        return created_inside
-    if elsewhere and not (inside and inside[0].rpartition("/")[0] == inner):
-        return _misplaced(evidence, elsewhere[0], is_inside=bool(inside))
-    close = found or near_name(evidence)
-    notebook = close if close.endswith(".ipynb") else "" if close else _notebook(evidence)
-    if notebook:
-        return Failed(
-            "source.no_node_file",
-            expected=expected,
-            actual=say("there is {path}", path=shown(notebook)),
-            where=Where(file=shown(notebook)),
-            variant="notebook",
-            params={"notebook": shown(notebook)},
-            words={"path": path, "copy": ""},
-        )
-    if close:
-        there = say("there is {path}", path=shown(close))
-        other = close.rpartition("/")[2]
-        return Failed(
-            "source.misnamed_node_file",
-            expected=expected,
-            actual=with_difference(there, other, name),
-            where=Where(file=shown(close)),
-            params={"name": shown(other)},
-            words={"there": shlex.quote(shown(close)), "path": path},
-        )
-    beside = [n for n in names_in(evidence, inner) if n != "__init__.py"]
-    files = ", ".join(shown(n) for n in beside[:4]) or say("no file of yours yet")
-    actual = say("{inner}/ contains {files}", inner=inner, files=files)
-    if not submission.file(inner):
-        actual = say("there is no folder {inner} in the package", inner=inner)
-    copy = shown(submission.newer_copy)
-    if copy:
-        actual = joined(actual, say("but the build has a copy: {copy}", copy=copy), by=", ")
-    return Failed(
-        "source.no_node_file",
-        expected=expected,
-        actual=actual,
-        where=Where(file=path),
-        variant="built" if copy else "",
-        words={"path": path, "copy": copy},
-    )
-
-
-def _misplaced(evidence: Evidence, place: str, *, is_inside: bool) -> Failed:
-    """Return the fault of a node's file in another folder; `is_inside` of the package."""
-    path, inner = node_path(evidence), evidence.assignment.folder
-    actual, place = say("it is in {path}", path=shown(place)), shown(place)
-    movable = is_inside and evidence.submission.file(inner) is not None
-    if "/" not in place:
-        actual = say("{path} is beside setup.py, and not in the inner folder", path=place)
-    if not is_inside:
-        actual = say("it is in {path}, outside of the package", path=place)
-    variant = "folder" if _is_inner(evidence, place) else "inside" if movable else ""
-    return Failed(
-        "source.misplaced_node_file",
-        expected=say("a file {path} in the package", path=path),
-        actual=actual,
-        where=Where(file=place) if is_inside else None,
-        variant=variant,
-        params={"path": place},
-        words={
-            "wanted": path,
-            "folder": place.partition("/")[0],
-            "inner": inner,
-            "there": shlex.quote(place),
-        },
-    )
-
-
-def _several(path: str, paths: list[str], expected: str) -> Failed:
-    """Return the fault of a missing file, if more than one other file can be the node's."""
-    files = ", ".join(shown(found) for found in paths[:4])
-    return Failed(
-        "source.no_node_file",
-        expected=expected,
-        actual=say("there is no such file, but: {files}", files=files),
-        where=Where(file=path),
-        variant="several",
-        words={"path": path, "copy": "", "files": files},
     )
 
 
@@ -452,7 +295,7 @@ def _beside_empty(evidence: Evidence, path: str) -> str:
     init = f"{evidence.assignment.folder}/__init__.py"
     if has_node(evidence, init):
         return init
-    return _lone_node(evidence, path) or path
+    return lone_node(evidence, path) or path
 
 
 def _no_shebang(path: str, data: bytes, first: bytes) -> Failed:

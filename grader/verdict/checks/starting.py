@@ -27,9 +27,8 @@ from grader.verdict.checks.faults import (
 )
 from grader.verdict.checks.given_file import given_file_must_be_installed
 from grader.verdict.checks.installed import executable_must_be_there
+from grader.verdict.checks.missing_node_file import node_file_must_be_there
 from grader.verdict.checks.own_interface import fault_in_traceback
-from grader.verdict.checks.parsed import file_of, node_path
-from grader.verdict.checks.source import not_there
 from grader.verdict.node_files import source_of_node
 from grader.verdict.outcome import Blocked, Failed, Inconclusive, Outcome, Passed
 
@@ -119,24 +118,10 @@ def _ended(evidence: Evidence) -> Outcome:
         manifest = evidence.has_failed("package.manifest")
         return Blocked(by="package.manifest" if manifest else "build.colcon")
     error, where = traceback_of(evidence, run)
-    path = node_path(evidence)
-    if error.startswith("ModuleNotFoundError") and file_of(evidence, path) is None:
-        return not_there(evidence, path)
-    newer, older = _newer_line(evidence) if error.startswith("SyntaxError") else (0, "")
-    if newer and evidence.distro is not None:
-        return Inconclusive(
-            say(
-                "the f-string in line {line} of the node's file contains, in a value, the quotes that are "
-                "around it. Only Python {version} and later can read that: ROS {distro} has it, but this "
-                "grader runs with an older Python. Write that line so that every Python 3 can read it, "
-                "and grade again: {code} (Or run the grader with that Python, make setup "
-                "PYTHON=python{version}, or mark in a container.)",
-                line=str(newer),
-                code=shown(older),
-                version=evidence.distro.python,
-                distro=evidence.distro.name,
-            )
-        )
+    if error.startswith("ModuleNotFoundError"):
+        node_file_must_be_there(evidence)
+    if error.startswith("SyntaxError"):
+        python_must_be_new_enough(evidence)
     interface = fault_in_traceback(evidence, run.transcript) if error else None
     if interface is not None:
         return interface
@@ -167,6 +152,25 @@ def _ended(evidence: Evidence) -> Outcome:
 def _is_line(around: ast.AST | None) -> bool:
     """Whether what is around a call is a line of its own, as it is not in a lambda."""
     return isinstance(around, ast.Expr | ast.Assign)
+
+
+def python_must_be_new_enough(evidence: Evidence) -> None:
+    """Raise Inconclusive if a line of the node's file needs a newer Python than this one."""
+    newer, older = _newer_line(evidence)
+    if newer and evidence.distro is not None:
+        raise Inconclusive(
+            say(
+                "the f-string in line {line} of the node's file contains, in a value, the quotes that are "
+                "around it. Only Python {version} and later can read that: ROS {distro} has it, but this "
+                "grader runs with an older Python. Write that line so that every Python 3 can read it, "
+                "and grade again: {code} (Or run the grader with that Python, make setup "
+                "PYTHON=python{version}, or mark in a container.)",
+                line=str(newer),
+                code=shown(older),
+                version=evidence.distro.python,
+                distro=evidence.distro.name,
+            )
+        )
 
 
 def _newer_line(evidence: Evidence) -> tuple[int, str]:
