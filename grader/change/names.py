@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from itertools import product
 
 from grader.base.i18n.message import msg
 from grader.change.operator import Made, Operator, Site, operator, swapped
@@ -19,6 +20,7 @@ FIELDS = (
     ("range_min", "range_max"),
 )
 """Fields of messages that stand in each other's place."""
+INTERFACES = (".msg", ".srv", ".action")
 CREATES = ("create_timer", "create_subscription", "create_service")
 
 
@@ -257,6 +259,35 @@ def data_of(site: Site) -> Iterator[Made]:
                 yield swapped(site, node, f"{node.id}.data")
 
 
+@operator(
+    "of_type",
+    cost=1,
+    why=msg("A topic, a service or an action has one type, and this line imports another one."),
+    fix=INSTEAD,
+    untried=True,
+)
+def of_type(site: Site) -> Iterator[Made]:
+    """Yield the wanted type of an interface in place of an imported one, wherever that is used."""
+    wanted = [one.split("/") for one in site.wanted.types if one.count("/") == 2]
+    for node in site.of(ast.ImportFrom):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").endswith(INTERFACES):
+            for alias, (package, kind, short) in product(node.names, wanted):
+                if not alias.asname and (node.module, alias.name) != (f"{package}.{kind}", short):
+                    yield _imported(site, node, alias, f"{package}.{kind}", short)
+
+
+def _imported(site: Site, node: ast.ImportFrom, alias: ast.alias, module: str, short: str) -> Made:
+    """Return the change of one imported name, in all of its places, into that of another type."""
+    row = f"from {module} import {short}"
+    rest = ", ".join(ast.unparse(one) for one in node.names if one is not alias)
+    kept = f"from {node.module} import {rest}\n{site.indent(node)}" if rest else ""
+    names = [n for n in site.of(ast.Name) if isinstance(n, ast.Name) and n.id == alias.name]
+    uses = [site.module.text.swap(name, short) for name in names]
+    splices = (site.module.text.swap(node, kept + row), *uses)
+    old = f"from {node.module} import {alias.name}"
+    return Made(node, old, row, splices, int(alias.name != short))
+
+
 OPERATORS: tuple[Operator, ...] = (
-    *(own, kept, field, data_of, read_now, use_parameter, callback, base_name, attribute),
+    *(own, kept, of_type, field, data_of, read_now, use_parameter, callback, base_name, attribute),
 )

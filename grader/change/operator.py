@@ -22,11 +22,12 @@ SIMPLE = ast.Expr | ast.Assign | ast.AugAssign | ast.AnnAssign
 
 @dataclass(frozen=True)
 class Wanted:
-    """What the failed check asks for: plain numbers and texts, and the fields of messages."""
+    """What the failed check asks for: plain numbers and texts, the fields of messages, and types."""
 
     numbers: tuple[float, ...] = ()
     texts: tuple[str, ...] = ()
     fields: tuple[tuple[str, object], ...] = ()
+    types: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,7 +125,8 @@ class Operator:
 
     `shows` is of one that only shows the place: it could take away what the program is meant to do.
     One that `hides` can help by chance, with the mistake still there: it has to leave no other failure.
-    A `certain` one hardly helps by chance: a rule of Python or ROS is its reason.
+    A `certain` one hardly helps by chance: a rule of Python or ROS is its reason. An `untried` one shows
+    only in a run of its own: two types on one topic cannot be in one process.
     """
 
     sort: str
@@ -135,6 +137,7 @@ class Operator:
     shows: bool = False
     hides: bool = False
     certain: bool = False
+    untried: bool = False
 
 
 def operator(
@@ -146,9 +149,10 @@ def operator(
     shows: bool = False,
     hides: bool = False,
     certain: bool = False,
+    untried: bool = False,
 ) -> Callable[[Make], Operator]:
     """Declare an operator; see `Operator`."""
-    return lambda make: Operator(sort, cost, why, fix, make, shows, hides, certain)
+    return lambda make: Operator(sort, cost, why, fix, make, shows, hides, certain, untried)
 
 
 def swapped(

@@ -12,7 +12,8 @@ from dataclasses import dataclass, replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
-from grader.mistakes.kind import Family
+from grader.mistakes.fixes import lines
+from grader.mistakes.kind import INSTEAD, Family
 from grader.mistakes.recognised import FromError, Raised, RecognisedMistake, always
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, calls_in, dotted, last_part
@@ -76,19 +77,34 @@ def ends(source: NodeSource) -> Iterator[End]:
 def _refused(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """The line makes an end, and rclpy refuses it; or a callback is called or in quotes there."""
     del match
+    for end in ends(raised.source):
+        given = end.callback
+        if isinstance(given, ast.Call) and _returns_nothing(raised.source, end.method):
+            text = raised.source.module_of(given).text
+            params = {"name": text.code(given), "written": text.code(given.func)}
+            return replace(
+                raised.finding("end_arguments", at=given, params=params), variant="called"
+            )
     statement = statement_at(raised.module, raised.line)
     for call, name in calls_in(statement) if statement is not None else ():
         kind = last_part(name)
         if kind in TAKES and f"{kind}() missing" not in raised.error:
             return raised.finding("end_arguments", at=call, name=kind, written=kind + TAKES[kind])
     for end in ends(raised.source):
-        given = end.callback
-        if isinstance(given, ast.Constant) or (
-            isinstance(given, ast.Call) and end.method in raised.source.methods
-        ):
+        if isinstance(end.callback, ast.Constant):
             written = end.kind + TAKES[end.kind]
             return raised.finding("end_arguments", at=end.call, name=end.kind, written=written)
     return None
+
+
+def _returns_nothing(source: NodeSource, name: str) -> bool:
+    """Whether a node's files have a function of this name, and it returns no value."""
+    known = [
+        *source.methods.values(),
+        *(f for one in source.known_modules for f in one.functions.values()),
+    ]
+    found = next((one for one in known if one.name == name), None)
+    return found is not None and not _returns(found)
 
 
 def _sent(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -184,7 +200,15 @@ KINDS = (
             "A topic has one type in all of its ends."
         ),
         msg("Compare this line with {written}."),
+        whys={
+            "called": msg(
+                "ROS calls a callback later, with what comes. With () after its name this line calls it "
+                "now, and passes on its result (None)."
+            )
+        },
+        fixes={"called": INSTEAD},
         raised={REFUSED: _refused},
+        fixed_by=(lines.written,),
     ),
     _node(
         "other_message",

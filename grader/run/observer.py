@@ -172,7 +172,7 @@ class _Unmatched:
 class Observer:
     """Merges the lines of the terminal with the log records of ROS.
 
-    `others` are the terminals of more nodes: of them only the log lines count.
+    `others` are the terminals of more nodes.
     """
 
     def __init__(
@@ -231,15 +231,13 @@ class Observer:
         events = [self._of_record(record) for record in (answer.logs if answer else ())]
         self._doubled.update(answer.doubled if answer else ())
         now = self.run_clock.now()
-        for line in self.terminal.read(seconds):
+        came = [*self.terminal.read(seconds), *(line for one in self.others for line in one.read())]
+        for line in came:
             for part in line.parts():
                 if _is_of_a_node(part):
                     self._unmatched.append(self._unmatched_line(part, now))
                 elif part.log is None and part.text.strip():
                     events.append(self._event(part.text, part.wall, "print", None))
-        for other in self.others:
-            parts = (part for line in other.read() for part in line.parts())
-            self._unmatched += [self._unmatched_line(p, now) for p in parts if _is_of_a_node(p)]
         return events + self._match()
 
     def _unmatched_line(self, line: Line, came: float) -> _Unmatched:

@@ -157,7 +157,7 @@ class _Search:
         statuses = self._judge.statuses({self._plan.name: base.run})
         status = statuses.get(self._use.id)
         if status != "failed" and not (status == "skipped" and base.ended in STUCK):
-            return Sought()  # (what is wrong does not show in a short run)
+            return self._certain()  # (what is wrong does not show in a short run)
         facts = Facts(self._source, base.trace, base.run, self._use)
         seen = result.mistakes[-1] if result.mistakes else None
         facts.field = str(seen.params.get("field", "")) if seen is not None else ""
@@ -168,6 +168,12 @@ class _Search:
         kept = self._with_other_values(best[: 2 * MOST_FOUND])
         fact = fact_of(facts, seen.id) if seen is not None else None
         return Sought(fact, tuple(map(_found, kept[:MOST_FOUND])), runs)
+
+    def _certain(self) -> Sought:
+        """Return changes that need no short run, such as another type: they are built and run later."""
+        found = candidates(self._source, wanted_of(self._use, self._whole.asked))
+        kept = [one for one in found if one.row.untried]
+        return Sought(changes=tuple(map(_found, kept[:MOST_FOUND])))
 
     def _that_help(
         self, made: Sequence[Candidate], statuses: Mapping[str, str]
@@ -374,6 +380,7 @@ def wanted_of(use: CheckUse, assignment: Assignment) -> Wanted:
         (*numbers, *_periods(use, assignment)),
         tuple(dict.fromkeys(first.texts)),
         tuple(f for f in first.fields if all(f in one.fields for one in kept)),
+        first.types,
     )
 
 
@@ -412,7 +419,8 @@ def _wanted(given: Mapping[str, Any]) -> Wanted:
                     fields.append((str(path), plain))
         elif key not in ("type", "within", "at_least", "at_most", "apart"):
             take(value)
-    return Wanted(tuple(numbers), tuple(texts), tuple(fields))
+    types = (str(given["type"]),) if "type" in given else ()
+    return Wanted(tuple(numbers), tuple(texts), tuple(fields), types)
 
 
 def _found(one: Candidate) -> FoundChange:

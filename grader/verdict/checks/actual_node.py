@@ -75,6 +75,12 @@ def of_entry(evidence: Evidence) -> str:
     return next((p for p in (f"{path}.py", f"{path}/__init__.py") if p in paths), "")
 
 
+def other_entries(evidence: Evidence) -> set[str]:
+    """Return the paths of the files that the other executables of the package lead to."""
+    others = [e for e in _entries(evidence) if e.name != evidence.assignment.executable]
+    return {f"{_module_of(entry)}.py" for entry in others}
+
+
 def near_name(evidence: Evidence) -> str:
     """Return the path of the file in the inner folder with nearly the node's name; "" if none."""
     inner, name = evidence.assignment.folder, evidence.assignment.node_file

@@ -21,7 +21,7 @@ from grader.package.source.pasted import Pasted, pasted_in
 from grader.package.source.python import SHEBANG, PythonFault, has_no_code, parse_python
 from grader.package.source.slips import slip_of
 from grader.report.model import Where
-from grader.verdict.checks.actual_node import actual_path, has_node
+from grader.verdict.checks.actual_node import actual_path, has_node, other_entries
 from grader.verdict.checks.declare import INTAKE, check
 from grader.verdict.checks.missing_node_file import in_init, lone_node, not_there, notebook_of
 from grader.verdict.checks.not_python import failed_document, not_python
@@ -155,7 +155,8 @@ def _other_version(evidence: Evidence, path: str) -> str:
     others = {"__init__.py", *(node.file for node in evidence.assignment.nodes.values())}
     for name in names_in(evidence, inner):
         there = f"{inner}/{name}"
-        known = name in others or there == path or name.removesuffix(".py").encode() in code
+        known = name in others or there in (path, *other_entries(evidence))
+        known = known or name.removesuffix(".py").encode() in code
         if name.endswith(".py") and not known and has_node(evidence, there):
             return shown(there)
     return ""
