@@ -8,14 +8,11 @@ from functools import cached_property
 
 from grader.base.i18n.message import Value
 from grader.base.shown import shown
-from grader.course.assignment import CheckUse
-from grader.explain.parts import read_in, rows_of
+from grader.explain.parts import read_in
+from grader.explain.ran import Ran
 from grader.package.source.module import Function, Module
-from grader.package.source.names import dotted
-from grader.package.source.node import NodeSource
-from grader.package.source.place import statement_at
-from grader.run.run import Run
-from grader.run.variants import Place, Trace, TracedDone
+from grader.package.source.names import called_name, dotted
+from grader.run.variants import Place, TracedDone
 
 Answer = tuple[Place, Mapping[str, Value]]
 """Where it is, and the values of the text's places."""
@@ -25,138 +22,8 @@ LEAST_TRIES = 2  # of a condition, before it counts as one that is always the sa
 LEAVES = ast.Return | ast.Continue | ast.Break | ast.Pass
 
 
-class Facts:
-    """What a node did in a run in which a check failed: `use` is that of the check.
-
-    `field` is the field of a message that has another value than the `wanted` one, "" if it is not that.
-    """
-
-    def __init__(self, source: NodeSource, trace: Trace, run: Run, use: CheckUse) -> None:
-        self.source, self.trace, self.run, self.use = source, trace, run, use
-        self.field = self.wanted = ""
-
-    @property
-    def topic(self) -> str:
-        """The topic that the check is about; "" if it is about none."""
-        return str(self.use.with_.get("topic", ""))
-
-    @property
-    def service(self) -> str:
-        """The service that the check is about; "" if it is about none."""
-        return str(self.use.with_.get("service", ""))
-
-    @property
-    def _how(self) -> str:
-        """What the check is about: something published, answered or logged; "" if none of these."""
-        if self.topic or self.use.kind.startswith("world."):
-            return "published"
-        if self.service:
-            return "answered"
-        return "logged" if self.use.kind.startswith("log.") else ""
-
-    @cached_property
-    def done(self) -> list[TracedDone]:
-        """What the node did of the kind that the check is about: published, answered, logged."""
-        how, what = self._how, self.topic or self.service
-        same = [one for one in self.trace.done if one.how == how]
-        return [one for one in same if one.what.strip("/") == what.strip("/") or not what]
-
-    @cached_property
-    def _functions(self) -> list[tuple[Module, Function]]:
-        return [
-            (module, node)
-            for module in self.source.known_modules
-            for node in module.nodes
-            if isinstance(node, Function)
-        ]
-
-    def function_at(self, place: Place) -> Function | None:
-        """Return the innermost function with a place."""
-        found = [
-            node
-            for module, node in self._functions
-            if module.path == place[0]
-            and node.lineno <= place[1] <= (node.end_lineno or node.lineno)
-        ]
-        return max(found, key=lambda node: node.lineno, default=None)
-
-    @cached_property
-    def _near(self) -> dict[tuple[str, int], int]:
-        """How far each line is from what failed: 0 in the function that did it or should have."""
-        near: dict[tuple[str, int], int] = {}
-        read: set[str] = set()
-        parts: list[ast.stmt] = [*self._doing, *self._idle]
-        for part in dict.fromkeys(parts):
-            path = self.source.module_of(part).path
-            near |= {(path, row): 0 for row in rows_of(part)}
-            read |= set(read_in(part))
-        for step in range(1, MOST_STEPS):
-            more: set[str] = set()
-            for module, part in (*self._writers(read), *self._named(read)):
-                rows = [row for row in rows_of(part) if (module.path, row) not in near]
-                near |= {(module.path, row): min(step, 2) for row in rows}
-                more |= set(read_in(part)) if rows else set()
-            if not more - read:
-                break
-            read |= more
-        return near
-
-    @property
-    def _idle(self) -> list[ast.stmt]:
-        """The lines that made timers and subscriptions which then called nothing."""
-        made = [(one.made, one.calls) for one in self.trace.timers]
-        made += [(one.made, one.calls) for one in self.trace.callbacks]
-        places = [places[0] for places, calls in made if places and not calls]
-        found = [statement_at(self.source.module_at(path), row) for path, row in places]
-        return [one for one in found if one is not None]
-
-    @property
-    def _doing(self) -> list[Function]:
-        """The functions that did what failed, or could have done it."""
-        functions = [self.function_at(one.places[0]) for one in self.done if one.places]
-        names = {c.function for c in self.trace.callbacks if self._is_asked(c.how, c.name)}
-        functions += [node for _, node in self._functions if node.name in names]
-        found = [one for one in functions if one is not None]
-        return found or [node for _, node in self._functions if self._could_do(node)]
-
-    def _named(self, names: set[str]) -> list[tuple[Module, Function]]:
-        return [
-            (self.source.module_of(function), function)
-            for _, function in self._functions
-            if {function.name, f"self.{function.name}"} & names
-        ]
-
-    def _is_asked(self, how: str, name: str) -> bool:
-        asked = self.service if how == "service" else ""
-        return bool(asked) and name.strip("/") == asked.strip("/")
-
-    def _could_do(self, function: Function) -> bool:
-        """Whether a function has a call of the kind that should have been made."""
-        calls = [n for n in ast.walk(function) if isinstance(n, ast.Call)]
-        names = {dotted(call.func).rpartition(".")[2] for call in calls}
-        of_topic = self._how == "published"
-        wanted = {"publish"} if of_topic else {"info", "warn", "warning", "error"}
-        return bool(names & wanted) or (function.name != "__init__" and not of_topic)
-
-    def _writers(self, names: set[str]) -> Iterator[tuple[Module, ast.stmt]]:
-        for module in self.source.known_modules:
-            for node in module.nodes:
-                targets: list[ast.expr] = []
-                if isinstance(node, ast.Assign):
-                    targets = node.targets
-                elif isinstance(node, ast.AugAssign | ast.AnnAssign):
-                    targets = [node.target]
-                parts = [p for t in targets for p in (t.elts if isinstance(t, ast.Tuple) else [t])]
-                if isinstance(node, ast.stmt) and any(dotted(p) in names for p in parts):
-                    yield module, node
-
-    def distance(self, path: str, first: int, last: int | None) -> int:
-        """Return how far a place is from what failed: 0 is the function that did it."""
-        return min(
-            self._near.get((path, row), ELSEWHERE) for row in range(first, (last or first) + 1)
-        )
-
-    # the questions of the rules: each returns a place and the values of a text, or None --------------
+class Facts(Ran):
+    """The questions of the rules about a run: each returns a place and the values of a text, or None."""
 
     def stands(self) -> Answer | None:
         """Return the line in which the node waits for ever."""
@@ -311,6 +178,25 @@ class Facts:
             "calls": calls,
         }
         return place, values
+
+    def unread_parameter(self) -> Answer | None:
+        """Return the line that declares a parameter whose name no other line has."""
+        for call, name in self.source.calls:
+            given = call.args[0] if called_name(call) == "declare_parameter" and call.args else None
+            module = self.source.module_of(call) if name else None
+            if not isinstance(given, ast.Constant) or module is None:
+                continue
+            same = (
+                n
+                for each in self.source.known_modules
+                for n in each.nodes
+                if isinstance(n, ast.Constant) and n.value == given.value and n is not given
+            )
+            alone = isinstance(module.parents.get(call), ast.Expr)
+            if alone and isinstance(given.value, str) and next(same, None) is None:
+                values: dict[str, Value] = {"line": call.lineno, "name": shown(given.value)}
+                return (module.path, call.lineno), values
+        return None
 
     def unset_field(self) -> Answer | None:
         """Return the function that leaves the wrong field as it is in a new message."""
@@ -476,13 +362,19 @@ class Facts:
         for _ in range(MOST_STEPS):
             value = getattr(at, "value", None)
             name = dotted(value) if isinstance(value, ast.Name | ast.Attribute) else ""
-            writers = [
-                (each, s) for each, s in self._writers({name}) if (each.path, s.lineno) in last
-            ]
-            if not name or not writers:
+            found = self._writers({name}) if name else self._returns(value)
+            writers = [(each, s) for each, s in found if (each.path, s.lineno) in last]
+            if not writers:
                 break
             module, at = max(writers, key=lambda pair: last[pair[0].path, pair[1].lineno])
         return module, at
+
+    def _returns(self, value: ast.expr | None) -> Iterator[tuple[Module, ast.stmt]]:
+        """Yield the lines that return a value from the function of the node that is called."""
+        called = dotted(value.func).rpartition(".")[2] if isinstance(value, ast.Call) else ""
+        for module, function in self._functions:
+            if function.name == called:
+                yield from ((module, n) for n in ast.walk(function) if isinstance(n, ast.Return))
 
     def _value(self) -> str:
         seen, wrong = self.run.seen, self._wrong

@@ -163,6 +163,16 @@ RULES: tuple[Rule, ...] = (
         lambda facts: facts.unset_field(),
     ),
     Rule(
+        "parameter_not_read",
+        (*MISSING, *VALUES, "topic.not_silent"),
+        msg("No line reads a parameter"),
+        msg(
+            "Line {line} declares the parameter {name}, and no line reads it: its value changes nothing."
+        ),
+        msg("Use self.get_parameter('{name}').value where the task asks for this value."),
+        lambda facts: facts.unread_parameter(),
+    ),
+    Rule(
         "value_in_branch",
         VALUES,
         msg("A value is made in this line"),
