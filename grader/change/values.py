@@ -132,6 +132,22 @@ def truth(site: Site) -> Iterator[Made]:
     for node in site.of(ast.Constant):
         if isinstance(node, ast.Constant) and isinstance(node.value, bool):
             yield swapped(site, node, str(not node.value))
+    for call in site.of(ast.Call):
+        if isinstance(call, ast.Call) and called_name(call) in ("int", "bool") and call.args:
+            yield _opposite(site, call.args[0])
+    for node in site.of(ast.Assign):
+        value = getattr(node, "value", node)
+        if isinstance(value, ast.Compare | ast.UnaryOp | ast.Attribute):
+            bare = isinstance(value, ast.Attribute) and value.attr != "data"
+            yield from () if bare else (_opposite(site, value),)
+
+
+def _opposite(site: Site, value: ast.expr) -> Made:
+    if isinstance(value, ast.UnaryOp) and isinstance(value.op, ast.Not):
+        return swapped(site, value, site.code(value.operand))
+    simple = isinstance(value, ast.Name | ast.Attribute | ast.Call)
+    code = site.code(value)
+    return swapped(site, value, f"not {code}" if simple else f"not ({code})")
 
 
 @operator(

@@ -9,9 +9,9 @@ from functools import cached_property
 from grader.base.i18n.message import Value
 from grader.base.shown import shown
 from grader.explain.parts import read_in
-from grader.explain.ran import Ran
+from grader.explain.ran import DOERS, LOGS, Ran
 from grader.package.source.module import Function, Module
-from grader.package.source.names import called_name, dotted
+from grader.package.source.names import called_name, dotted, last_part
 from grader.run.variants import Place, TracedDone
 
 Answer = tuple[Place, Mapping[str, Value]]
@@ -200,11 +200,13 @@ class Facts(Ran):
 
     def unset_field(self) -> Answer | None:
         """Return the function that leaves the wrong field as it is in a new message."""
-        message = self._message() if self.topic or self.service else None
+        message = self._message() if self._has_fields else None
         if not self.field or message is None or self._setters(*message):
             return None
         name, function, row = message
         module = self.source.module_of(function)
+        if not self._is_new(*message):
+            return None  # (another function made it)
         code = module.text.code(function)
         if f"{name}.{self.field.partition('.')[0]} =" in code or f"({self.field}=" in code:
             return None
@@ -213,7 +215,7 @@ class Facts(Ran):
 
     def writer_of_field(self) -> Answer | None:
         """Return the line that made the wrong value of a field."""
-        message = self._message() if self.field and (self.topic or self.service) else None
+        message = self._message() if self.field and self._has_fields else None
         made = self._last_setter(message) if message is not None else None
         if message is None or made is None:
             return None
@@ -245,9 +247,23 @@ class Facts(Ran):
     def _code(self, place: Place) -> str:
         return shown(self.source.module_at(place[0]).line(place[1]))
 
+    @property
+    def _has_fields(self) -> bool:
+        return bool(self.topic or self.service) or self._how == "asked"
+
+    def _is_new(self, name: str, function: Function, row: int) -> bool:
+        """Whether a function makes the message itself, or gets it to fill it, as a service does."""
+        del row
+        made = [
+            s
+            for s in ast.walk(function)
+            if isinstance(s, ast.Assign) and dotted(s.targets[0]) == name
+        ]
+        kinds = [last_part(dotted(s.value.func)) for s in made if isinstance(s.value, ast.Call)]
+        return bool(self.service) or any(kind[:1].isupper() for kind in kinds)
+
     def _doers_in(self, function: Function) -> list[ast.Call]:
-        published = self._how == "published"
-        wanted = ("publish",) if published else ("info", "warn", "warning", "error")
+        wanted = DOERS.get(self._how, LOGS)
         if self.service:
             return []
         calls = [n for n in ast.walk(function) if isinstance(n, ast.Call)]
@@ -388,4 +404,4 @@ class Facts(Ran):
                 found = same[0].values if same else None
         for part in self.field.split("."):
             found = found.get(part) if isinstance(found, dict) else None
-        return shown(str(found))
+        return shown(str(found)) if found is not None else self.came

@@ -18,6 +18,8 @@ from grader.run.variants import Place, Trace, TracedDone
 
 Answer = tuple[Place, Mapping[str, Value]]
 """Where it is, and the values of the text's places."""
+DOERS = {"published": ("publish",), "asked": ("call_async", "call")}
+LOGS = ("info", "warn", "warning", "error")
 MOST_STEPS = 4  # from a value to where it was made
 ELSEWHERE = 3
 LEAST_TRIES = 2  # of a condition, before it counts as one that is always the same
@@ -27,12 +29,13 @@ LEAVES = ast.Return | ast.Continue | ast.Break | ast.Pass
 class Ran:
     """What a node did in a run in which a check failed: `use` is that of the check.
 
-    `field` is the field of a message that has another value than the `wanted` one, "" if it is not that.
+    `field` is the field of a message or a request that has another value (`came`) than the `wanted` one,
+    "" if it is not that.
     """
 
     def __init__(self, source: NodeSource, trace: Trace, run: Run, use: CheckUse) -> None:
         self.source, self.trace, self.run, self.use = source, trace, run, use
-        self.field = self.wanted = ""
+        self.field = self.wanted = self.came = ""
 
     @property
     def topic(self) -> str:
@@ -47,6 +50,8 @@ class Ran:
     @property
     def _how(self) -> str:
         """What the check is about: something published, answered or logged; "" if none of these."""
+        if self.use.kind == "world.event" and self.field:
+            return "asked"
         if self.topic or self.use.kind.startswith("world."):
             return "published"
         if self.service:
@@ -133,9 +138,10 @@ class Ran:
         """Whether a function has a call of the kind that should have been made."""
         calls = [n for n in ast.walk(function) if isinstance(n, ast.Call)]
         names = {dotted(call.func).rpartition(".")[2] for call in calls}
-        of_topic = self._how == "published"
-        wanted = {"publish"} if of_topic else {"info", "warn", "warning", "error"}
-        return bool(names & wanted) or (function.name != "__init__" and not of_topic)
+        wanted = DOERS.get(self._how)
+        if wanted is not None:
+            return bool(names.intersection(wanted))
+        return bool(names.intersection(LOGS)) or function.name != "__init__"
 
     def _writers(self, names: set[str]) -> Iterator[tuple[Module, ast.stmt]]:
         for module in self.source.known_modules:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 
 from grader.base.i18n.message import msg
@@ -43,12 +44,22 @@ def _undeclared(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
 
 
 def _parameter_object(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
-    """A Parameter is used as a number: name the call on this line that returns it."""
+    """A Parameter is used as a number: name the call that returns it, on this line or the only one."""
     del match
     statement = statement_at(raised.module, raised.line)
-    calls = [call for call, _ in calls_in(statement)] if statement is not None else []
-    found = [c for c in calls if called_name(c) in ("get_parameter", "declare_parameter")]
-    code = raised.module.text.code(found[0]) if found else "self.get_parameter('…')"
+    here = [call for call, _ in calls_in(statement)] if statement is not None else []
+    asked = [call for call in raised.module.nodes if isinstance(call, ast.Call)]
+    for calls in (here, asked):
+        found = [c for c in calls if called_name(c) in ("get_parameter", "declare_parameter")]
+        bare = [
+            c for c in found if isinstance(raised.module.parents.get(c), ast.BinOp | ast.Assign)
+        ]
+        first = (bare or found)[0] if found and (calls is here or len(bare) == 1) else None
+        if first is not None:
+            code = raised.module.text.code(first)
+            params = {"name": code, "written": f"{code}.value"}
+            return raised.finding("parameter_object", at=first, params=params)
+    code = "self.get_parameter('…')"
     return raised.finding("parameter_object", name=code, written=f"{code}.value")
 
 

@@ -82,7 +82,7 @@ class TracedCallback:
 
 @dataclass(frozen=True)
 class TracedDone:
-    """A message, an answer or a line of the log: `how` is "published", "answered" or "logged".
+    """A message, a request, an answer or a line of the log: `how` is "published", "asked", "answered" or "logged".
 
     `at` is in nanoseconds, `places` are those of the call, innermost first, and `last` tells for each
     line that had run when it ran last: the higher, the later.

@@ -162,6 +162,7 @@ class _Search:
         seen = result.mistakes[-1] if result.mistakes else None
         facts.field = str(seen.params.get("field", "")) if seen is not None else ""
         facts.wanted = result.expected.partition(": ")[2]
+        facts.came = result.actual.partition("\n")[0].partition(": ")[2].partition(",")[0]
         good, runs = self._that_help(self._candidates(facts), statuses)
         good.sort(key=lambda pair: (pair[1].row.shows, pair[0], pair[1].cost))
         best = _copies_first([one for left, one in good if left == good[0][0]])

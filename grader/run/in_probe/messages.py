@@ -84,6 +84,27 @@ def taken_from(subscription: Any, most: int) -> Iterator[Any]:
         yield taken[0]
 
 
+FLOATS = ("double", "float")
+TINY = 5e-324
+
+
+def as_sent(kind: str, value: Any) -> Any:
+    """Return what arrives of a field of a type: ROS copies a whole number's bytes into a float field."""
+    if type(value) is int and kind in FLOATS:
+        return TINY if value else 0.0
+    return value
+
+
+def is_sent_as_it_is(message: Any) -> bool:
+    """Whether no field of a message arrives as something else."""
+    for name, kind in fields_of(message).items():
+        value = getattr(message, name)
+        other = is_message(value) and not is_sent_as_it_is(value)
+        if other or as_sent(kind, value) is not value:
+            return False
+    return True
+
+
 class Values:
     """Turns messages into JSON values, of a bounded size."""
 
@@ -94,8 +115,12 @@ class Values:
         """Return a field's value: a number, a text, a list, or a mapping of fields."""
         self.left -= 1
         if is_message(value):
-            names = fields_of(value)
-            return {name: self.of(getattr(value, name)) for name in names if self.left > 0}
+            fields = fields_of(value)
+            return {
+                name: self.of(as_sent(kind, getattr(value, name)))
+                for name, kind in fields.items()
+                if self.left > 0
+            }
         if isinstance(value, bytes):
             return (
                 int.from_bytes(value, "little") if len(value) == 1 else value[:LONGEST_TEXT].hex()

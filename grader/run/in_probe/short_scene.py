@@ -24,7 +24,7 @@ from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from rclpy.subscription import Subscription
 
-from grader.run.in_probe.messages import Values, fill, interface
+from grader.run.in_probe.messages import Values, fill, interface, is_sent_as_it_is
 
 SECOND = 1_000_000_000
 MOST_MESSAGES = 4_000
@@ -123,6 +123,8 @@ class Scene:
 
         def call_async(client: Any, request: Any) -> Any:
             scene._asked = True
+            if traced is not None and not scene.is_working:
+                traced.asked(client.srv_name, scene.now, sys._getframe(1))
             return call(client, request)
 
         Client.call_async = call_async
@@ -138,6 +140,8 @@ class Scene:
         topic, kind = publisher.topic_name, type(message)
         heard = self._heard(topic)
         if not self.is_working:
+            if not is_sent_as_it_is(message):
+                return False
             is_reliable = publisher.qos_profile.reliability == ReliabilityPolicy.RELIABLE
             return bool(not heard and is_reliable and self._world.given(topic, message))
         if self._owners.get(id(publisher)) is not self._home:

@@ -263,6 +263,10 @@ class Traced:
         self.now = at
         self._note("published", topic, at, self._places(frame))
 
+    def asked(self, service: str, at: int, frame: Any) -> None:
+        """Note that a request goes out."""
+        self._note("asked", service, at, self._places(frame))
+
     def raised(self, error: BaseException) -> None:
         """Note the exception that ended the node, and the lines that led to it."""
         trace, places = error.__traceback__, []
