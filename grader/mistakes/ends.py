@@ -141,8 +141,12 @@ def _service_callback(raised: Raised, match: re.Match[str]) -> RecognisedMistake
         method = raised.source.methods.get(end.method)
         if end.kind != "create_service" or method is None or called not in (None, end.method):
             continue
-        if called or not _returns(method):
+        if called:
             return raised.finding("service_callback", at=method, name=end.method)
+        if not _returns(method):
+            last, given = method.body[-1], method.args.args[-1].arg
+            found = raised.finding("service_callback", at=last, name=end.method, written=given)
+            return replace(found, variant="returned")
     return None
 
 
@@ -188,6 +192,7 @@ KINDS = (
             "through it."
         ),
         links.SERVICES,
+        fixes={"returned": msg("End {name} with return {written}, on each way through it.")},
         raised={ARGUMENTS: _service_callback, r"^TypeError:?\s*$": _service_callback},
     ),
     _node(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Callable
 from dataclasses import replace
 
 from grader.base.i18n.message import msg
@@ -77,12 +78,23 @@ def _refused(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     return None
 
 
-def _other_period(suspect: Suspect) -> RecognisedMistake | None:
+def _long_period(suspect: Suspect) -> RecognisedMistake | None:
+    """No line comes in time: the period is longer, or none at all. (A shorter one can be counted down.)"""
+    return _other_period(suspect, lambda seconds: not 0 < seconds < suspect.period)
+
+
+def _short_period(suspect: Suspect) -> RecognisedMistake | None:
+    return _other_period(suspect, lambda seconds: seconds < suspect.period)
+
+
+def _other_period(suspect: Suspect, explains: Callable[[float], bool]) -> RecognisedMistake | None:
     """The timer that logs has a period whose value the source says, and it is not the required one."""
     timers = timers_of_lines(suspect.source)
     given = timers[0].period if len(timers) == 1 else None
     seconds = seconds_of(suspect.source, given) if given is not None else None
     if given is None or seconds is None or is_right(seconds, suspect.period):
+        return None
+    if not explains(seconds):
         return None
     value = node_timer.value_of(suspect.source, given) or given
     code, period = suspect.source.module_of(value).text.code(value), suspect.assignment.seconds
@@ -276,7 +288,7 @@ KINDS = (
             "must be every {written} s."
         ),
         INSTEAD,
-        behind=dict.fromkeys(("run.no_lines", "run.too_much_output"), _other_period),
+        behind={"run.no_lines": _long_period, "run.too_much_output": _short_period},
         fixed_by=(lines.written,),
         examples=(
             example(
