@@ -139,6 +139,18 @@ def test_a_line_that_looks_like_a_record_of_the_node_is_judged() -> None:
     assert [(event.source, event.logger) for event in events] == [("faked", "rclpy_node")]
 
 
+def test_what_any_program_of_a_run_prints_is_an_event() -> None:
+    first, second = SlowConsole(), SlowConsole()
+    others = [Terminal(second, most=1_000_000)]
+    observer = Observer(Terminal(first, most=1_000_000), Node(first), OUTPUT, others)
+    first.pieces, second.pieces = [b"I talk\r\n"], [b"I hear\r\n"]
+    events = [*observer.take(), *observer.take()]
+    assert [(event.source, event.text) for event in events] == [
+        ("print", "I talk"),
+        ("print", "I hear"),
+    ]
+
+
 class SetClock(RunClock):
     """A clock of a run that goes on when it is told to."""
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +18,7 @@ from grader.package.source.parameter_file import sections_of
 from grader.package.submission import take_in
 from grader.report.model import CheckResult
 from grader.run.observations import Done, End, Message, Observations, Parameter
+from grader.run.observer import Event
 from grader.run.probe_link import NodeSeen
 from grader.run.run import Run
 from grader.run.workspace import Build, Installed
@@ -58,8 +61,13 @@ def results(
     node: str,
     form: Broken | None = None,
     build: Build | None = None,
+    events: Sequence[Event] = (),
+    transcript: str = "",
 ) -> dict[str, CheckResult]:
-    """Return the results of a lesson's checks for a run in which its node showed this."""
+    """Return the results of a lesson's checks for a run in which its node showed this.
+
+    With a transcript, the program ended with it before a node was there.
+    """
     file = folder / "assignment.yaml"
     file.write_text(HEAD + lesson.assignment, encoding="utf-8")
     assignment = load_assignment(file, known_checks=CHECKS)
@@ -69,7 +77,9 @@ def results(
     seen.complete = True
     run = Run("ros2 run", name=plan.name, seen=seen, started=True, interrupted=True)
     run.nodes = (NodeSeen(node, True, True, True, services=True, answers=True),)
-    run.watch.settled = True
+    run.watch.settled, run.watch.events = True, list(events)
+    if transcript:
+        run = Run("ros2 run", name=plan.name, transcript=transcript, ended_by_itself=True, status=1)
     evidence = Evidence(
         assignment,
         package,
@@ -145,6 +155,70 @@ def test_what_the_node_does_follows_from_what_it_does_not_hear(tmp_path: Path) -
     )
     assert failed(found) == {"hears": "topic.wrong_name"}
     assert {one.blocked_by for one in found.values() if one.status == "skipped"} == {"hears"}
+
+
+def alarms() -> Observations:
+    """Return what the right node of the lesson about a threshold does."""
+    ends = [
+        End("/alarm", "publisher", "/alarm", BOOL),
+        End("/alarm", "subscription", "/temperature", FLOAT),
+    ]
+    times = [("cool", 0.5), ("hot", 1.0), ("between", 2.0), ("cold", 3.0)]
+    messages = [Message("/alarm", at, {"data": at < 2}) for at in (1.0, 3.0)]
+    return Observations(
+        0.5, ends=ends, messages=messages, done=[Done(name, at, heard=1) for name, at in times]
+    )
+
+
+@pytest.mark.parametrize(
+    ("source", "mistake"), [("print", "run.print_not_logger"), ("", "log.missing")]
+)
+def test_a_line_that_was_printed_is_told_as_that(source: str, mistake: str, tmp_path: Path) -> None:
+    events = [Event("so hot", 1.0, 1.0, "print", None)] if source else []
+    other = ((NODE, "class This", "print('starts')\n\n\nclass This"),)
+    form = Broken("form", ((NODE, ".get_logger().info", ".get_logger().debug"), *other), {})
+    found = results(HYSTERESIS, tmp_path, alarms(), node="/alarm", form=form, events=events)
+    seen = found["tells"].mistakes
+    assert [one.id for one in seen][-1] == mistake
+    assert seen[0].id == ("node.print_used" if source else "node.debug_level")
+
+
+MAPPING = replace(
+    HYSTERESIS, assignment=HYSTERESIS.assignment + "  - {id: entry_point.mapping, points: 1}\n"
+)
+
+
+def test_what_another_file_of_the_package_does_follows_from_the_entry_point(
+    tmp_path: Path,
+) -> None:
+    other = Broken(
+        "other",
+        (
+            ("small/other.py", "", MAPPING.files[NODE].replace("'alarm'", "'other'")),
+            ("setup.py", "small.node:main", "small.other:main"),
+        ),
+        {},
+    )
+    entry = ENTRY.replace("small.node", "small.other")
+    build = replace(built(), entry_points=entry)
+    seen = Observations(0.5, done=[Done("hot", 1.0), Done("between", 2.0), Done("cold", 3.0)])
+    found = results(MAPPING, tmp_path, seen, node="/other", form=other, build=build)
+    assert failed(found) == {"entry_point.mapping": "setup.other_module"}
+    skipped = {one.blocked_by for one in found.values() if one.status == "skipped"}
+    assert skipped == {"entry_point.mapping"}
+
+
+def test_a_node_file_beside_setup_py_is_told_where_its_import_fails(tmp_path: Path) -> None:
+    moved = Broken("moved", ((NODE, "", None), ("node.py", "", HYSTERESIS.files[NODE])), {})
+    traceback = (
+        "Traceback (most recent call last):\n"
+        '  File "/home/student/ws/install/small/lib/small/node", line 33, in <module>\n'
+        "ModuleNotFoundError: No module named 'small.node'\n"
+    )
+    found = results(
+        HYSTERESIS, tmp_path, Observations(0.5), node="/x", form=moved, transcript=traceback
+    )
+    assert failed(found) == {"run.starts": "source.misplaced_node_file"}
 
 
 def limited(name: str, value: Any, said: float) -> Observations:

@@ -62,6 +62,7 @@ def test_short_runs_go_through_a_scenario(tmp_path: Path) -> None:
         right.replace(*LOCAL),
         right.replace("call_async(pen)", "call(pen)"),
         right.replace("self.driving_ = False", "self.driving_ = None.x"),
+        right.replace("linear.x = 1.0", "linear.x = 1"),
     ]
     sandbox = open_sandbox("bubblewrap", distro, LIMITS, interfaces=assignment.interfaces)
     with Session(sandbox, assignment) as session:
@@ -75,7 +76,11 @@ def test_short_runs_go_through_a_scenario(tmp_path: Path) -> None:
         "time",
         "hangs",
         "AttributeError",
+        "time",
     ]
+    whole = runs[4].run.seen
+    assert whole is not None
+    assert 0 < whole.of_topic("/turtle1/cmd_vel")[0].values["linear"]["x"] < 1e-300
     observed = runs[0].run.seen
     assert observed is not None
     begin = observed.stimulus("start")
@@ -94,6 +99,8 @@ def test_short_runs_go_through_a_scenario(tmp_path: Path) -> None:
     (service,) = followed.trace.callbacks
     assert (service.name, service.function, service.calls) == ("/drive", "drive_callback", 3)
     assert [timer.calls for timer in followed.trace.timers] == [24]
+    asked = [one for one in followed.trace.done if one.how == "asked"]
+    assert [one.what for one in asked] == ["/turtle1/set_pen"] * 3
 
 
 @pytest.mark.full

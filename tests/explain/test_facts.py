@@ -1,0 +1,102 @@
+"""What the facts of a followed run answer, on constructed runs."""
+
+from __future__ import annotations
+
+from grader.course.assignment import CheckUse
+from grader.explain.facts import Facts
+from grader.package.source.node import read_node
+from grader.run.observations import Message, Observations
+from grader.run.run import Run
+from grader.run.variants import Trace, TracedDone
+
+FILE = "robot/node.py"
+TEXT = """\
+class Robot(Node):
+    def __init__(self):
+        super().__init__('robot')
+        self.declare_parameter('radius', 2.0)
+        self.publisher = self.create_publisher(Bool, '/alarm', 10)
+        self.pen = self.create_client(SetPen, '/pen')
+
+    def heard(self, message):
+        alarm = self.made()
+        alarm.data = self.is_hot(message.data)
+        self.publisher.publish(alarm)
+
+    def is_hot(self, value):
+        if value < 0:
+            return False
+        return value > 50
+
+    def made(self):
+        return Bool()
+
+    def ask(self):
+        request = SetPen.Request()
+        request.off = 1
+        self.pen.call_async(request)
+
+
+def main():
+    pass
+"""
+ORDER = {9: 1, 19: 2, 10: 3, 14: 4, 16: 5, 11: 6, 22: 7, 23: 8, 24: 9}
+
+
+def facts(text: str, how: str, row: int, **use: object) -> Facts:
+    """Return the facts of a run in which a line sent something once."""
+    source = read_node(lambda path: text.encode() if path == FILE else None, FILE, "main")
+    assert source is not None
+    done = TracedDone(how, "/alarm", 10**9, ((FILE, row),), {FILE: ORDER})
+    trace = Trace("time", {FILE: dict.fromkeys(ORDER, 1)}, done=(done,))
+    seen = Observations(0.1, messages=[Message("/alarm", 1.0, {"data": False})])
+    given = {"id": "a", "points": 1, **use}
+    return Facts(source, trace, Run("ros2 run", seen=seen), CheckUse.model_validate(given))
+
+
+ALARM = {"check": "topic.values", "with": {"topic": "/alarm"}}
+
+
+def test_a_parameter_that_no_line_reads() -> None:
+    answer = facts(TEXT, "published", 11, **ALARM).unread_parameter()
+    assert answer is not None
+    assert answer[0] == (FILE, 4)
+    assert answer[1]["name"] == "radius"
+
+
+def test_a_parameter_that_is_read_or_kept_is_not_told() -> None:
+    read = TEXT.replace("value > 50", "value > self.get_parameter('radius').value")
+    kept = TEXT.replace("self.declare_parameter", "self.radius = self.declare_parameter")
+    for text in (read, kept):
+        assert facts(text, "published", 11, **ALARM).unread_parameter() is None
+
+
+def test_a_value_is_followed_to_the_line_that_returned_it() -> None:
+    asked = facts(TEXT, "published", 11, **ALARM)
+    asked.field, asked.wanted = "data", "true"
+    answer = asked.writer_of_field()
+    assert answer is not None
+    assert answer[0] == (FILE, 16)
+    assert (answer[1]["row"], answer[1]["value"]) == (11, "False")
+    assert answer[1]["code"] == "return value > 50"
+
+
+def test_a_field_of_a_message_that_another_function_makes_may_be_set_there() -> None:
+    unset = TEXT.replace("        alarm.data = self.is_hot(message.data)\n", "        pass\n")
+    asked = facts(unset, "published", 11, **ALARM)
+    asked.field = "data"
+    assert asked.unset_field() is None
+    asked = facts(unset.replace("self.made()", "Bool()"), "published", 11, **ALARM)
+    asked.field = "data"
+    answer = asked.unset_field()
+    assert answer is not None
+    assert answer[1]["line"] == 11
+
+
+def test_the_line_that_sets_a_field_of_a_request() -> None:
+    asked = facts(TEXT, "asked", 24, check="world.event", **{"with": {"event": "pen"}})
+    asked.field, asked.wanted, asked.came = "off", "0", "1"
+    answer = asked.writer_of_field()
+    assert answer is not None
+    assert answer[0] == (FILE, 23)
+    assert (answer[1]["row"], answer[1]["value"]) == (24, "1")
