@@ -43,9 +43,9 @@ def main(args=None):
 """
 
 
-def told(error: str, at: str, *edit: str) -> tuple[RecognisedMistake, int]:
+def told(error: str, at: str, old: str, new: str) -> tuple[RecognisedMistake, int]:
     """Return the mistake behind an error that the line with `at` raises, and the line that it is told of."""
-    text = TEXT.replace(*edit)
+    text = TEXT.replace(old, new)
     assert text != TEXT
     row = next(n for n, line in enumerate(text.splitlines(), 1) if at in line)
     source = read_node(lambda path: text.encode() if path == NODE else None, NODE, "main")
