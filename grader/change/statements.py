@@ -339,8 +339,8 @@ def asked_data(site: Site) -> Iterator[Made]:
 @operator(
     "none_first",
     cost=1,
-    why=msg("{name} reads what is still None: nothing has come yet when this line runs first."),
-    fix=ABOVE,
+    why=msg("These lines use what is still None: nothing has come yet when they run first."),
+    fix=msg("Above {name}, insert {written} and, indented below it, return."),
 )
 def none_first(site: Site) -> Iterator[Made]:
     """Yield a function that returns while an attribute is None."""

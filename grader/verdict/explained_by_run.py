@@ -28,6 +28,8 @@ CLEAR = ("topic.wrong_period", "topic.int_in_float", "log.wrong_level")
 """What was seen that has one cause, which its text names."""
 OF_OTHERS = ("foreign_sender", "foreign_server", "foreign_client", "only_when_marked")
 """What no change of a line corrects: another node does it, or the node does it only for the grader."""
+OF_VALUES = ("none_used", "types_do_not_fit", "no_such_item", "not_callable")
+"""Errors of a value that another line made: what they mean is told, and the cause may be elsewhere."""
 OTHER = say("Another change may fit what you want to do better.")
 
 
@@ -113,9 +115,12 @@ def _with(
 ) -> CheckResult:
     step, old = change.steps[0], Files.of(evidence.submission)
     patch = "" if change.shows else patch_text(old, change.of(old))
+    root = root_of(result)
     if says_the_cause(result) and patch:
-        elsewhere = root_of(result) is not None and not _is_at(step, result.where)
-        return result if elsewhere else result.model_copy(update={"patch": patch})
+        if root is None or _is_at(step, result.where):
+            return result.model_copy(update={"patch": patch})
+        if root.id.partition(".")[2] not in OF_VALUES or "written" in root.params:
+            return result
     found = RecognisedMistake(
         kind=KIND,
         params={"name": step.name, "written": step.written},
