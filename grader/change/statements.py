@@ -26,7 +26,6 @@ GETTERS = ("get_logger", "get_clock", "get_name")
 LOGS = ("debug", "info", "warn", "warning", "error", "fatal")
 ENDS = ("create_timer", "create_subscription", "create_service", "create_publisher")
 BELOW = msg("Below {name}, insert the line {written}.")
-ABOVE = msg("Above {name}, insert the line {written}.")
 
 
 @operator(
