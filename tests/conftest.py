@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import atexit
 import os
+import re
 import shutil
 import signal
 import tempfile
@@ -27,6 +28,7 @@ from grader.sandbox.proof import proven_ros
 
 ROOT = Path(__file__).resolve().parent.parent
 pytest_plugins = ["tests.pages.fixtures"]
+LONG_RUN = ROOT / "tests" / "long_run.txt"
 # these mostly wait: for a terminal, a container, a browser, a clock
 WAITING = (
     "tests/lab/",
@@ -117,9 +119,19 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
         os.environ["DOCKER_HOST"] = ENGINE
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Begin with the tests that mostly wait, so that one process waits while the others compute.
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Mark what only the long run has, and begin with the tests that mostly wait.
 
-    The processes share the tests in their order, and who has none left takes others'.
+    So one process waits while the others compute: they share the tests in their order, and who has
+    none left takes others'.
     """
+    rows = LONG_RUN.read_text(encoding="utf-8").splitlines()
+    patterns = [row for row in rows if row and not row.startswith("#")]
+    for pattern in patterns:
+        found = [item for item in items if re.match(f"tests/{pattern}", item.nodeid)]
+        for item in found:
+            item.add_marker(pytest.mark.long)
+        if not found and config.args == config.getini("testpaths"):
+            raise pytest.UsageError(f"{LONG_RUN}: no test fits: {pattern}")
     items.sort(key=lambda item: not item.nodeid.startswith(WAITING))
