@@ -3,7 +3,7 @@
 # scripts should call .venv/bin/grader.
 
 .DEFAULT_GOAL := help
-.PHONY: help setup lab images grade grade-all check fix validate test test-all test-long recordings bench bench-diagnosis lock lint clean
+.PHONY: help setup lab images grade grade-all check fix validate test test-all test-long recordings bench bench-diagnosis pictures lock lint clean
 SHELL := /bin/sh
 
 # A variable's raw text reaches the recipes through the environment; nothing expands it.
@@ -175,6 +175,10 @@ bench:  ## Measure the time of a verdict relative to the bare commands (needs Do
 bench-diagnosis:  ## Measure how failed verdicts are explained, with mutants of every lesson (half an hour)
 	@$(BOOTSTRAP) --tests
 	@.venv/bin/python -m tests.bench_explained --write docs/diagnosis.md
+
+pictures:  ## Make the README's pictures of the lab and of a marked class (needs root)
+	@$(BOOTSTRAP) --tests
+	@.venv/bin/python -m tests.pictures
 
 lock:  ## Update the lock files from their .in files (needs uv)
 	@sh grader/ros/locks/lock.sh
