@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.change.operator import SIMPLE, Made, Operator, Site, is_text, moved, operator
@@ -31,7 +32,7 @@ def out(site: Site) -> Iterator[Made]:
     cost=4,
     hides=True,
     why=msg("{name} runs each time. It belongs to the condition above it."),
-    fix=msg("Indent the line {name}, so that it is in the block above it."),
+    fix=msg("Move the line {name} to the end of the lines that run only if {written}."),
 )
 def into(site: Site) -> Iterator[Made]:
     """Yield a statement as the last one of the block above it."""
@@ -41,11 +42,15 @@ def into(site: Site) -> Iterator[Made]:
             at = block.index(statement)
             before = block[at - 1] if at else None
             if isinstance(before, ast.If | ast.For | ast.While):
+                test = site.code(before.iter if isinstance(before, ast.For) else before.test)
+                other = f"not ({test})"
                 last = (before.orelse or before.body)[-1]
-                yield moved(site, statement, statement.lineno, site.indent(last))
+                made = moved(site, statement, statement.lineno, site.indent(last))
+                yield replace(made, written=other if before.orelse else test)
                 if before.orelse:
                     end = (before.body[-1].end_lineno or 0) + 1
-                    yield moved(site, statement, end, site.indent(before.body[-1]))
+                    made = moved(site, statement, end, site.indent(before.body[-1]))
+                    yield replace(made, written=test)
 
 
 @operator(

@@ -103,11 +103,21 @@ def arguments(site: Site) -> Iterator[Made]:
         if not isinstance(node, ast.Call) or len(node.args) < 2:
             continue
         first, second = node.args[:2]
+        if _fits(site, node):
+            continue
         one, other = site.code(first), site.code(second)
         text = site.module.text
         splices = (text.swap(first, other), text.swap(second, one))
         written = site.code(node).replace(one, "\0", 1).replace(other, one, 1).replace("\0", other)
         yield Made(node, site.code(node), written, splices)
+
+
+def _fits(site: Site, call: ast.Call) -> bool:
+    """Whether an argument has the name of the parameter that gets it."""
+    name = dotted(call.func).rpartition(".")[2]
+    called = next((one for one in site.functions if one.name == name), None)
+    taken = [a.arg for a in called.args.args if a.arg != "self"] if called is not None else []
+    return any(dotted(given).rpartition(".")[2] == name for given, name in zip(call.args, taken))
 
 
 @operator(
@@ -319,7 +329,7 @@ def reset(site: Site) -> Iterator[Made]:
 @operator(
     "asked_data",
     cost=1,
-    why=msg("The value is always the same here: what was asked for is in the argument."),
+    why=msg("What was asked for is in the argument, and this line does not read it."),
     fix=INSTEAD,
 )
 def asked_data(site: Site) -> Iterator[Made]:
@@ -331,7 +341,13 @@ def asked_data(site: Site) -> Iterator[Made]:
         for node in site.simple(function):
             value = getattr(node, "value", None)
             target = node.targets[0] if isinstance(node, ast.Assign) else None
-            if isinstance(value, ast.Constant) and dotted(target or value).startswith("self."):
+            own = dotted(target).startswith("self.") if target is not None else False
+            opposite = isinstance(value, ast.UnaryOp) and isinstance(value.op, ast.Not)
+            if (
+                own
+                and isinstance(value, ast.expr)
+                and (isinstance(value, ast.Constant) or opposite)
+            ):
                 yield swapped(site, value, f"{given[0]}.data")
 
 

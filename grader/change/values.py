@@ -261,9 +261,17 @@ def added(site: Site) -> Iterator[Made]:
         assert isinstance(node, ast.Assign)
         target = node.targets[0]
         is_init = (site.function_of(node) or node) and _in_init(site, node)
-        if isinstance(target, ast.Attribute) and dotted(target.value) == "self" and not is_init:
+        is_own = isinstance(target, ast.Attribute) and dotted(target.value) == "self"
+        if is_own and not is_init and _is_number(site, dotted(target)[5:]):
             new = f"{site.code(target)} += {site.code(node.value)}"
             yield swapped(site, node, new)
+
+
+def _is_number(site: Site, name: str) -> bool:
+    """Whether some line sets an attribute to a number."""
+    made = (site.module.parents.get(place) for place in site.attributes.get(name, ()))
+    values = [getattr(getattr(one, "value", None), "value", None) for one in made]
+    return any(type(value) in (int, float) for value in values)
 
 
 def _in_init(site: Site, node: ast.AST) -> bool:

@@ -40,6 +40,7 @@ SENT = (
     r"|'(?:property|member_descriptor|getset_descriptor)'"
     r"|AttributeError: '\w{1,120}' object attribute '\w{1,120}' is read-only"
 )
+OF_SERVICE = "Service classes can not be instantiated"
 PARTS = ("Request", "Response", "Goal", "Result", "Feedback")
 ARGUMENTS = (
     r"\.?(?P<function>\w{1,120})\(\) (?:takes (?:\d+|from \d+ to \d+) positional arguments? but \d+ "
@@ -109,6 +110,15 @@ def _returns_nothing(source: NodeSource, name: str) -> bool:
 
 def _sent(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     """A type is used in place of a message, or a message of another type is sent."""
+    statement = statement_at(raised.module, raised.line)
+    for call, name in calls_in(statement) if statement is not None else ():
+        if OF_SERVICE in raised.error and name in raised.interfaces:
+            code = raised.module.text.code(call)
+            written = code.replace(f"{name}(", f"{name}.Request(", 1)
+            found = raised.finding(
+                "other_message", at=call, params={"name": code, "written": written}
+            )
+            return replace(found, variant="service")
     for node in raised.source.all_nodes:
         used = _type_in(node, raised.interfaces)
         if used is not None:
@@ -228,10 +238,12 @@ KINDS = (
             "Compare the type of what this line uses with the one that made the publisher or the client."
         ),
         fixes={
+            "service": INSTEAD,
             "type": msg("Write {written} with parentheses."),
             "field": msg("Read the field of the callback's argument in place of {name}."),
         },
         raised={SENT: _sent},
+        fixed_by=(lines.written,),
     ),
     _node(
         "topic_name_invalid",

@@ -278,10 +278,12 @@ class Scene:
         barriers = 1 + (at // STEP - self.at // STEP if self.plan.world else 0)
         self.at = at
         self.observer.now = at / SECOND
-        limit = self._run_clock.limit(barriers * STEP_SECONDS)
         asked = {"each": STEP_SECONDS * self._run_clock.pace, "at": at}
         said = self.probe.said("tick", seconds=barriers * STEP_SECONDS, **asked)
         self._record(said)
+        limit = self._run_clock.limit(
+            STEP_SECONDS
+        )  # (who is silent is not waited for in each step)
         while said["barrier"] is False and not limit.over and not self.over:
             said = self.probe.said("tick", seconds=limit.rest, **asked)
             self._record(said)

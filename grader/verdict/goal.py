@@ -164,10 +164,16 @@ class _Search:
         facts.wanted = result.expected.partition(": ")[2]
         facts.came = result.actual.partition("\n")[0].partition(": ")[2].partition(",")[0]
         good, runs = self._that_help(self._candidates(facts), statuses)
-        good.sort(key=lambda pair: (pair[1].row.shows, pair[0], pair[1].cost))
+        fact = fact_of(facts, seen.id) if seen is not None else None
+        at = (fact.path, fact.line) if fact is not None else ("", 0)
+        good.sort(
+            key=lambda pair: (
+                *(pair[1].row.shows, pair[0]),
+                pair[1].cost - ((pair[1].path, pair[1].made.at.lineno) == at),
+            )
+        )
         best = _copies_first([one for left, one in good if left == good[0][0]])
         kept = self._with_other_values(best[: 2 * MOST_FOUND])
-        fact = fact_of(facts, seen.id) if seen is not None else None
         return Sought(fact, tuple(map(_found, kept[:MOST_FOUND])), runs)
 
     def _certain(self) -> Sought:

@@ -88,3 +88,49 @@ def test_no_operator_swallows_an_error_or_removes_a_condition() -> None:
         assert names.count("Raise") == 1, row.sort
         assert names.count("If") >= 1, row.sort
         assert ast.dump(after) != before
+
+
+KEPT = """\
+class Robot(Node):
+    def __init__(self):
+        self.is_on = False
+        self.way = 0.0
+
+    def on_drive(self, request, response):
+        self.is_on = not self.is_on
+        self.way = self.way_of(request.data, self.is_on)
+        if self.is_on:
+            self.go()
+        else:
+            self.stop()
+        self.tell()
+        return response
+
+    def way_of(self, data, is_on):
+        return data * is_on
+"""
+
+
+def changes_of(sort: str) -> list[tuple[str, str]]:
+    made = all_made(site_of(KEPT, {}), [BY_SORT[sort]])
+    return [(one.name, one.written) for _, one, _ in made]
+
+
+def test_only_numbers_are_added_to() -> None:
+    written = [new for _, new in changes_of("added")]
+    assert written == ["self.way += self.way_of(request.data, self.is_on)"]
+
+
+def test_arguments_with_the_names_of_their_parameters_are_not_swapped() -> None:
+    assert changes_of("swapped") == []
+
+
+def test_a_moved_line_is_told_with_the_condition_under_which_it_runs_then() -> None:
+    assert changes_of("into") == [
+        ("self.tell()", "not (self.is_on)"),
+        ("self.tell()", "self.is_on"),
+    ]
+
+
+def test_a_value_that_does_not_read_the_request_is_replaced_by_it() -> None:
+    assert ("not self.is_on", "request.data") in changes_of("asked_data")

@@ -80,6 +80,15 @@ def test_a_service_that_returns_nothing_is_told_at_its_last_line() -> None:
     assert "{written}" in str(CATALOGUE[found.kind].fixes["returned"])
 
 
+def test_a_service_class_is_told_with_the_request_that_it_has() -> None:
+    error = "NotImplementedError: Service classes can not be instantiated"
+    found, line = told(
+        error, "SetBool()", "self.speed =", "asked = SetBool()\n        self.speed ="
+    )
+    assert (found.kind, found.variant, line) == ("node.other_message", "service", 18)
+    assert found.params == {"name": "SetBool()", "written": "SetBool.Request()"}
+
+
 @pytest.mark.parametrize("value", ["('radius')", "('radius')  # m"])
 def test_value_is_told_at_the_call_that_lacks_it(value: str) -> None:
     error = "TypeError: unsupported operand type(s) for /: 'float' and 'Parameter'"
