@@ -143,15 +143,21 @@ def base_name(site: Site) -> Iterator[Made]:
     fix=INSTEAD,
 )
 def field(site: Site) -> Iterator[Made]:
-    """Yield the fields of messages that are taken for one another."""
+    """Yield the fields of messages that are taken for one another.
+
+    A field that is set is one of those that the check asks for, or becomes one.
+    """
+    asked = {name for path in site.wanted.paths for name in path.split(".")}
     for node in site.of(ast.Attribute):
         assert isinstance(node, ast.Attribute)
+        around = (node, site.module.parents.get(node))
+        is_set = any(isinstance(getattr(one, "ctx", None), ast.Store) for one in around)
         for group in FIELDS:
             if node.attr not in group:
                 continue
             base = site.code(node.value)
             for other in group:
-                if other != node.attr:
+                if other != node.attr and (not is_set or asked & {node.attr, other}):
                     yield swapped(site, node, f"{base}.{other}")
 
 

@@ -22,12 +22,13 @@ SIMPLE = ast.Expr | ast.Assign | ast.AugAssign | ast.AnnAssign
 
 @dataclass(frozen=True)
 class Wanted:
-    """What the failed check asks for: plain numbers and texts, the fields of messages, and types."""
+    """What the failed check asks for: plain numbers and texts, the fields of messages, types, and all fields' paths."""
 
     numbers: tuple[float, ...] = ()
     texts: tuple[str, ...] = ()
     fields: tuple[tuple[str, object], ...] = ()
     types: tuple[str, ...] = ()
+    paths: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,9 +5,11 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import product
 
 from grader.base.i18n.message import msg
 from grader.change.operator import SIMPLE, Made, Operator, Site, is_text, moved, operator
+from grader.package.source.names import dotted
 
 
 @operator(
@@ -78,4 +80,47 @@ def earlier(site: Site) -> Iterator[Made]:
                     yield moved(site, statement, line, site.indent(statement))
 
 
-OPERATORS: tuple[Operator, ...] = (out, into, earlier)
+@operator(
+    "split",
+    cost=2,
+    hides=True,
+    why=msg("These lines belong to a part of the condition above alone: {written}"),
+    fix=msg("Above {name}, insert the line {written}."),
+)
+def split(site: Site) -> Iterator[Made]:
+    """Yield a condition of its own, a part of an and, for the last lines of a block."""
+    for node in site.of(ast.If):
+        if not isinstance(node, ast.If) or not isinstance(node.test, ast.BoolOp):
+            continue
+        parts = node.test.values if isinstance(node.test.op, ast.And) else []
+        for part, below in product(parts, node.body[1:]):
+            row = f"{site.indent(node)}if {site.code(part)}:"
+            put = site.module.text.before(below.lineno, row)
+            yield Made(below, site.module.line(below.lineno), row.strip(), (put,))
+
+
+@operator(
+    "no_else",
+    cost=2,
+    hides=True,
+    why=msg("{name} in this else takes back what the lines above have found."),
+    fix=msg("Remove this else with the line {name}."),
+)
+def no_else(site: Site) -> Iterator[Made]:
+    """Yield a condition without its else, if that sets what a condition above it sets too."""
+    for node in site.of(ast.If):
+        last = node.orelse[0] if isinstance(node, ast.If) and len(node.orelse) == 1 else None
+        if not isinstance(node, ast.If) or not isinstance(last, ast.Assign):
+            continue
+        block = site.block(node)
+        above = [one for one in block[: block.index(node)] if isinstance(one, ast.If)]
+        names = {
+            dotted(n.targets[0]) for one in above for n in one.body if isinstance(n, ast.Assign)
+        }
+        if dotted(last.targets[0]) in names:
+            first, end = (node.body[-1].end_lineno or 0) + 1, (last.end_lineno or 0) + 1
+            gone = tuple(site.module.text.without(row) for row in range(first, end))
+            yield Made(last, site.code(last), "", gone)
+
+
+OPERATORS: tuple[Operator, ...] = (out, into, earlier, split, no_else)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from itertools import product
 
 from grader.base.i18n.message import msg
 from grader.base.nearest import nearest
@@ -191,6 +192,27 @@ def part_not(site: Site) -> Iterator[Made]:
                 yield swapped(site, part, site.code(part.operand))
             elif isinstance(part, ast.Name | ast.Attribute | ast.Call):
                 yield swapped(site, part, f"not {site.code(part)}")
+
+
+@operator(
+    "compared",
+    cost=1,
+    certain=True,
+    why=msg(
+        "{name} alone is true for each number but 0: each part of an and or or is compared alone."
+    ),
+    fix=INSTEAD,
+)
+def compared(site: Site) -> Iterator[Made]:
+    """Yield the comparison of another part of an and or or for a part that has none."""
+    for node in site.of(ast.BoolOp):
+        parts = node.values if isinstance(node, ast.BoolOp) else []
+        others = [one for one in parts if isinstance(one, ast.Compare)]
+        for part, other in product(parts, others):
+            alike = dotted(part).rpartition(".")[0] == dotted(other.left).rpartition(".")[0]
+            if isinstance(part, ast.Name | ast.Attribute) and alike:
+                rest = site.code(other)[len(site.code(other.left)) :]
+                yield swapped(site, part, f"{site.code(part)}{rest}")
 
 
 @operator(
@@ -471,6 +493,6 @@ def part(site: Site) -> Iterator[Made]:
 
 OPERATORS: tuple[Operator, ...] = (
     *(digits, as_text, bits),
-    *(number, as_float, negative, truth, condition, part_not, order, and_or, sign, added),
+    *(number, as_float, negative, truth, condition, compared, part_not, order, and_or, sign, added),
     *(unkept, branches, text, f_text, same_for_y, part),
 )

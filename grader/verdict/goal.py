@@ -388,6 +388,7 @@ def wanted_of(use: CheckUse, assignment: Assignment) -> Wanted:
         tuple(dict.fromkeys(first.texts)),
         tuple(f for f in first.fields if all(f in one.fields for one in kept)),
         first.types,
+        first.paths,
     )
 
 
@@ -424,10 +425,11 @@ def _wanted(given: Mapping[str, Any]) -> Wanted:
                 plain = form.get("about", form.get("equal")) if isinstance(form, Mapping) else form
                 if isinstance(plain, bool | int | float | str):
                     fields.append((str(path), plain))
-        elif key not in ("type", "within", "at_least", "at_most", "apart"):
+        elif key not in ("type", "within", "at_least", "at_most", "apart", "covers"):
             take(value)
     types = (str(given["type"]),) if "type" in given else ()
-    return Wanted(tuple(numbers), tuple(texts), tuple(fields), types)
+    paths = tuple(map(str, given.get("each", ())))
+    return Wanted(tuple(numbers), tuple(texts), tuple(fields), types, paths)
 
 
 def _found(one: Candidate) -> FoundChange:

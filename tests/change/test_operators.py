@@ -33,6 +33,7 @@ def site_of(text: str, given: dict[str, Any]) -> Site:
         tuple(given.get("texts", ())),
         tuple(given.get("fields", {}).items()),
         tuple(given.get("types", ())),
+        tuple(given.get("paths", ())),
     )
     return Site(parse_module("robot/node.py", text.encode()), wanted)
 
