@@ -103,6 +103,23 @@ class Facts(Ran):
                     return kept
         return None
 
+    def unset_name(self) -> Answer | None:
+        """Return the condition because of which no line set what the condition before a deed asks for."""
+        kept = self.guarded_doer()
+        guards = [n for m, n in self._conditions() if kept and (m.path, n.lineno) == kept[0]]
+        names = [name for guard in guards for name in read_in(guard.test)]
+        for name in (one for one in names if one.startswith("self.")):
+            for module, writer in self._writers({name}):
+                function = self.function_at((module.path, writer.lineno))
+                if function is None or function.name == "__init__":
+                    continue
+                why = self._kept_out(module, function, writer)
+                if why is None:
+                    break  # (it ran, or nothing called its function)
+                code = shown(module.line(writer.lineno))
+                return why[0], {**why[1], "setter": name, "code": code, "head": guards[0].lineno}
+        return None
+
     def constant(self, *, true: bool) -> Answer | None:
         """Return the only condition near what failed that was always true, or never."""
         found = []

@@ -94,6 +94,19 @@ RULES: tuple[Rule, ...] = (
         lambda facts: facts.uncalled_doer(),
     ),
     Rule(
+        "setter_not_reached",
+        MISSING,
+        msg("The line that sets a value was never reached"),
+        msg(
+            "The condition in line {head} asks for {setter}. Line {line} ({code}) would set it, and never "
+            "ran: {name} ran {count} times, and the condition in line {row} ({guard}) did not let it."
+        ),
+        msg(
+            "Let line {line} run whatever the condition in line {row} says: move it out, or above it."
+        ),
+        lambda facts: facts.unset_name(),
+    ),
+    Rule(
         "line_not_reached",
         MISSING,
         msg("The line that does it was never reached"),

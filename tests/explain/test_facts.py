@@ -100,3 +100,41 @@ def test_the_line_that_sets_a_field_of_a_request() -> None:
     assert answer is not None
     assert answer[0] == (FILE, 23)
     assert (answer[1]["row"], answer[1]["value"]) == (24, "1")
+
+
+LAST = """\
+class Meter(Node):
+    def __init__(self):
+        super().__init__('meter')
+        self.last = None
+        self.publisher = self.create_publisher(Float64, '/way', 10)
+
+    def heard(self, pose):
+        if self.last is None:
+            return
+        self.last = pose
+
+    def tick(self):
+        if self.last is None:
+            return
+        self.publisher.publish(Float64())
+
+
+def main():
+    pass
+"""
+
+
+def test_the_condition_before_the_only_line_that_sets_a_value() -> None:
+    source = read_node(lambda path: LAST.encode() if path == FILE else None, FILE, "main")
+    assert source is not None
+    lines = {4: 1, 8: 9, 9: 9, 13: 5, 14: 5}
+    use = CheckUse.model_validate({"id": "a", "points": 1, **ALARM, "with": {"topic": "/way"}})
+    run = Run("ros2 run", seen=Observations(0.1))
+    answer = Facts(source, Trace("time", {FILE: lines}), run, use).unset_name()
+    assert answer is not None
+    assert answer[0] == (FILE, 8)
+    told = {name: answer[1][name] for name in ("setter", "line", "row", "head", "count")}
+    assert told == {"setter": "self.last", "line": 10, "row": 8, "head": 13, "count": 9}
+    ran = Trace("time", {FILE: {**lines, 10: 4}})
+    assert Facts(source, ran, run, use).unset_name() is None
