@@ -10,7 +10,7 @@ from grader.base.i18n.message import msg
 from grader.change.operator import Made, Operator, Site, operator, swapped
 from grader.change.values import INSTEAD
 from grader.package.source.module import Function
-from grader.package.source.names import called_name, dotted
+from grader.package.source.names import called_name, dotted, last_part
 
 MOST_NAMES = 8
 FIELDS = (
@@ -294,6 +294,64 @@ def _imported(site: Site, node: ast.ImportFrom, alias: ast.alias, module: str, s
     return Made(node, old, row, splices, int(alias.name != short))
 
 
+@operator(
+    "none_yet",
+    cost=1,
+    certain=True,
+    why=msg(
+        "{name} is a message with zeros, and not None: the test for None never finds that none has come."
+    ),
+    fix=INSTEAD,
+)
+def none_yet(site: Site) -> Iterator[Made]:
+    """Yield None for a new message in the constructor, if a line asks whether that is None."""
+    asked = {
+        dotted(node.left)
+        for node in site.of(ast.Compare)
+        if isinstance(node, ast.Compare) and isinstance(node.ops[0], ast.Is | ast.IsNot)
+    }
+    for node in site.of(ast.Assign):
+        if isinstance(node, ast.Assign) and dotted(node.targets[0]) in asked:
+            kind = last_part(dotted(node.value.func)) if isinstance(node.value, ast.Call) else ""
+            if kind[:1].isupper():
+                yield swapped(site, node.value, "None")
+
+
+@operator(
+    "wrapped",
+    cost=1,
+    certain=True,
+    why=msg("{name} is no message: that is an object of its type, and what it says is in a field."),
+    fix=INSTEAD,
+)
+def wrapped(site: Site) -> Iterator[Made]:
+    """Yield a message around what is published, of the type that the publisher got."""
+    calls = [node for node in site.of(ast.Call) if isinstance(node, ast.Call) and node.args]
+    types = {
+        dotted(made.targets[0]): site.code(call.args[0])
+        for call in calls
+        if called_name(call) == "create_publisher"
+        and isinstance(made := site.module.parents.get(call), ast.Assign)
+    }
+    for call in calls:
+        sender, _, name = dotted(call.func).rpartition(".")
+        if name == "publish" and sender in types:
+            yield swapped(site, call.args[0], f"{types[sender]}(data={site.code(call.args[0])})")
+
+
 OPERATORS: tuple[Operator, ...] = (
-    *(own, kept, of_type, field, data_of, read_now, use_parameter, callback, base_name, attribute),
+    *(
+        own,
+        kept,
+        of_type,
+        field,
+        data_of,
+        read_now,
+        use_parameter,
+        callback,
+        base_name,
+        none_yet,
+        wrapped,
+        attribute,
+    ),
 )

@@ -58,6 +58,7 @@ def into(site: Site) -> Iterator[Made]:
 @operator(
     "earlier",
     cost=2,
+    hides=True,
     why=msg(
         "Lines run from top to bottom: {name} comes too late, or too early, for what it is for."
     ),

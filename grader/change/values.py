@@ -40,7 +40,7 @@ NAMING = (
     *("create_publisher", "create_subscription", "create_service", "create_client"),
     *("declare_parameter", "get_parameter", "__init__", "create_node"),
 )
-BITS: dict[type[ast.AST], str] = {ast.BitAnd: "and", ast.BitOr: "or"}
+BITS: dict[type[ast.AST], str] = {ast.BitAnd: "and", ast.BitOr: "or", ast.BitXor: "**"}
 NUMBER = re.compile(r"-?\d{1,9}(?:\.\d{1,9})?")
 """A text that is a number."""
 FACTORS = (10.0, 0.1, 2.0, 0.5)
@@ -450,13 +450,13 @@ def as_text(site: Site) -> Iterator[Made]:
     cost=1,
     certain=True,
     why=msg(
-        "~, & and | work on the bits of a number: ~True is -2, which counts as true, and & comes before "
-        "==. In a condition, not, and, or are meant."
+        "~, &, | and ^ work on the bits of whole numbers: ~True is -2, which counts as true. In a condition, "
+        "not, and, or are meant, and a power is **."
     ),
     fix=INSTEAD,
 )
 def bits(site: Site) -> Iterator[Made]:
-    """Yield `not`, `and` and `or` in place of the signs that work on bits."""
+    """Yield `not`, `and`, `or` and `**` in place of the signs that work on bits."""
     for node in site.of(ast.UnaryOp):
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Invert):
             yield swapped(site, node, f"(not {site.code(node.operand)})")

@@ -82,8 +82,7 @@ def _gives_nothing(raised: Raised, part: ast.AST) -> Function | None:
         values = [n.value for n in sets if name in targets_of(n)]
         calls = [value for value in values if isinstance(value, ast.Call)]
     functions = [_called(raised, call) for call in calls] if len(calls) == 1 else []
-    found = [f for f in functions if f is not None and not _has_value(f)]
-    return found[0] if found else None
+    return next((f for f in functions if f is not None and not _has_value(f)), None)
 
 
 def _called(raised: Raised, call: ast.Call) -> Function | None:
@@ -118,15 +117,13 @@ def _no_file(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     calls = [n for n in _on_line(raised) if isinstance(n, ast.Call)]
     if any(called_name(call) in STARTERS for call in calls):
         return None
-    written = any(_writes(call) for call in calls)
-    return _told("no_such_file", "written" if written else "")(raised, match)
+    return _told("no_such_file", "written" if any(map(_writes, calls)) else "")(raised, match)
 
 
 def _writes(call: ast.Call) -> bool:
     """Whether a call opens a file to write it."""
     given = [*call.args[:2], *(w.value for w in call.keywords if w.arg == "mode")]
-    modes = [n.value for n in given[-1:] if isinstance(n, ast.Constant)]
-    mode = str(modes[0]) if modes else ""
+    mode = "".join(str(n.value) for n in given[-1:] if isinstance(n, ast.Constant))
     opens = called_name(call) == "open" and re.fullmatch(r"[wax][bt+]*", mode) is not None
     return opens or called_name(call) in ("write_text", "write_bytes", "mkdir")
 
@@ -235,12 +232,13 @@ KINDS = (
         msg("An operation gets a value of a type that it cannot use"),
         msg("{operator} does not work between the types {first} and {second}."),
         msg(
-            "Look in which line each of the two gets its value. str(…) makes a text of a number, "
-            "and int(…) a number of a text."
+            "Look in which line each of the two gets its value, and which type is meant. If one is a text and "
+            "should be a number, int(…) or float(…) makes one; str(…) makes a text of a number."
         ),
         whys={
             "function": msg("name[…] reads one item. A function has no items: it is called."),
             "one": msg("What this line does with a value does not work with the type {first}."),
+            "power": msg("^ works on the bits of whole numbers. A power is written **."),
             "number": msg("int() and float() read only a number. They cannot read {text}."),
         },
         fixes={
@@ -249,9 +247,10 @@ KINDS = (
                 "Find out which value on this line has the type {first}, and which line gives it. str(…) "
                 "makes a text of a number, int(…) a whole number, and range(n) repeats something n times."
             ),
+            "power": msg("Write ** instead of ^ if you mean a power."),
             "number": msg(
-                "Look at how this line gets {text}: follow it from the value with which it begins. It "
-                "has to be a number only, without a unit."
+                "If this must be a number, correct the line that gives {text}. If another text may come, ask "
+                "before: if text.isdigit():, or try: and except ValueError:."
             ),
         },
         raised={
@@ -276,6 +275,9 @@ KINDS = (
             r"type '\w{1,60}' is not subscriptable": _told("types_do_not_fit", "function"),
             r"(?:invalid literal for int\(\) with base 10|could not convert string to float): "
             r"(?P<text>'[^'\n]{0,60}')": _told("types_do_not_fit", "number"),
+            r"type\(s\) for \^: '(?:float|int)' and '(?:float|int)'": _told(
+                "types_do_not_fit", "power"
+            ),
             rf"unsupported operand type\(s\) for (?P<operator>\S{{1,3}})(?: or \S{{1,5}})?: "
             rf"'{TYPE}' and '(?P<second>\w{{1,60}})'": _told("types_do_not_fit"),
             rf"'(?P<operator>[<>=]{{1,2}})' not supported between instances of '{TYPE}' and "

@@ -195,7 +195,7 @@ class _Search:
                 now = self._judge.statuses({self._plan.name: run.run}) if run is not None else {}
                 if now and self._is_better(statuses, now):
                     left = sum(status == "failed" for status in now.values())
-                    may_hide = one.row.hides or self._use.kind in LIVES
+                    may_hide = one.row.hides or (self._use.kind in LIVES and not one.row.certain)
                     by_chance = may_hide and _new_failures(statuses, now)
                     good += [] if by_chance else [(left, one)]
             if any(not left and not one.row.shows for left, one in good):
