@@ -208,6 +208,21 @@ def test_what_another_file_of_the_package_does_follows_from_the_entry_point(
     assert skipped == {"entry_point.mapping"}
 
 
+@pytest.mark.parametrize(
+    ("file", "fix"), [("resource/small", "touch resource/small"), ("notes.txt", "Correct the name")]
+)
+def test_what_data_files_lists_and_is_not_there_is_told(
+    file: str, fix: str, tmp_path: Path
+) -> None:
+    rest = "  - {id: build.colcon, points: 1}\n"
+    lesson = replace(HYSTERESIS, assignment=HYSTERESIS.assignment + rest)
+    said = f"error: can't copy '/ws/build/small/{file}': doesn't exist or not a regular file"
+    log = f"--- stderr: small\n{said}\n---\nFailed   <<< small [1.0s, exited with code 1]\n"
+    build = Build("colcon build", 1, log, 1.0)
+    found = results(lesson, tmp_path, Observations(0.5), node="/alarm", build=build)
+    assert fix in found["build.colcon"].fix
+
+
 def test_a_node_file_beside_setup_py_is_told_where_its_import_fails(tmp_path: Path) -> None:
     moved = Broken("moved", ((NODE, "", None), ("node.py", "", HYSTERESIS.files[NODE])), {})
     traceback = (

@@ -350,6 +350,10 @@ KINDS = (
                 "cannot be listed, only the files in it. Correct the name, delete it from data_files, or "
                 "create the file. Then build again."
             ),
+            "no_marker": msg(
+                "{name} is the empty file by which ROS finds the package. Create it in the package's folder: "
+                "mkdir -p resource && touch {name}. Then build again."
+            ),
             "option": msg(
                 "Correct or delete {name} below [{section}] in setup.cfg: setuptools does not know it "
                 "there. Then build again."

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from dataclasses import replace
 
 from grader.base.i18n.message import msg
 from grader.mistakes import links
@@ -13,9 +14,10 @@ from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
 from grader.package.source.module import Function
-from grader.package.source.names import calls_in, dotted, last_part
+from grader.package.source.names import SPINS, calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 
+LEAVES = ast.Break | ast.Return | ast.Raise | ast.Call
 LOG_OF_NUMBER = "            self.get_logger().info('Hello time: ' + self.counter_)\n"
 
 
@@ -68,6 +70,30 @@ def _swallows(suspect: Suspect) -> RecognisedMistake | None:
     return None
 
 
+def _keeps_ctrl_c(suspect: Suspect) -> RecognisedMistake | None:
+    """An except around what spins catches Ctrl+C, and the loop around it begins again."""
+    source = suspect.source
+    for tried in (node for node in source.all_nodes if isinstance(node, ast.Try)):
+        calls = [last_part(name) for part in tried.body for _, name in calls_in(part)]
+        loops = [
+            n for n in source.module_of(tried).around(tried) if isinstance(n, ast.While | ast.For)
+        ]
+        if not loops or not set(calls) & set(SPINS):
+            continue
+        for handler in filter(_goes_on, tried.handlers):
+            return replace(
+                suspect.finding("error_hidden", suspect.place_at(handler)), variant="ctrl_c"
+            )
+    return None
+
+
+def _goes_on(handler: ast.ExceptHandler) -> bool:
+    """Whether a handler catches Ctrl+C and ends neither a loop nor a function."""
+    caught = ast.unparse(handler.type) if handler.type is not None else "BaseException"
+    leaves = any(isinstance(n, LEAVES) for part in handler.body for n in ast.walk(part))
+    return not leaves and ("KeyboardInterrupt" in caught or "BaseException" in caught)
+
+
 def _all_harmless(body: list[ast.stmt]) -> bool:
     return all(isinstance(s, ast.Pass | ast.Import | ast.ImportFrom) for s in body)
 
@@ -86,7 +112,19 @@ KINDS = (
             "Remove this except (and its try), or let it catch only KeyboardInterrupt. Run the node "
             "again: now the traceback shows the line with the error."
         ),
+        whys={
+            "ctrl_c": msg(
+                "Ctrl+C raises KeyboardInterrupt in the line that spins. This except catches it, and the loop "
+                "around it begins again."
+            ),
+        },
+        fixes={
+            "ctrl_c": msg(
+                "Leave the loop here: write except KeyboardInterrupt: and, indented below it, break."
+            ),
+        },
         behind={
+            "run.ignores_interrupt": _keeps_ctrl_c,
             "run.no_lines": _swallows,
             "run.constant_counter": _swallows,
             "run.stops": _swallows,

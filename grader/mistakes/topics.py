@@ -13,7 +13,7 @@ from grader.package.source.follows_already import publishes
 
 UNDECLARED = r"ParameterNotDeclaredException: .*?: (?P<name>[\w.]{1,100})$"
 OPERAND = (
-    r"unsupported operand type\(s\) for .*'Parameter'|'Parameter' and '"
+    r"unsupported operand type\(s\) for .*'Parameter'|'Parameter' and '|' and 'Parameter'"
     r"|(?:must be|number,) (?:real number, )?not '?Parameter"
 )
 

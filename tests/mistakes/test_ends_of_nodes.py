@@ -89,9 +89,15 @@ def test_a_service_class_is_told_with_the_request_that_it_has() -> None:
     assert found.params == {"name": "SetBool()", "written": "SetBool.Request()"}
 
 
-@pytest.mark.parametrize("value", ["('radius')", "('radius')  # m"])
-def test_value_is_told_at_the_call_that_lacks_it(value: str) -> None:
-    error = "TypeError: unsupported operand type(s) for /: 'float' and 'Parameter'"
-    found, line = told(error, "2.0 / radius", "('radius').value", value)
+@pytest.mark.parametrize(
+    "error",
+    [
+        "unsupported operand type(s) for /: 'float' and 'Parameter'",
+        "'>' not supported between instances of 'float' and 'Parameter'",
+        "'<' not supported between instances of 'Parameter' and 'float'",
+    ],
+)
+def test_value_is_told_at_the_call_that_lacks_it(error: str) -> None:
+    found, line = told(f"TypeError: {error}", "2.0 / radius", "('radius').value", "('radius')")
     assert (found.kind, line) == ("node.parameter_object", 16)
     assert found.params["written"] == "self.get_parameter('radius').value"

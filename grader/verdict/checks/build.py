@@ -275,7 +275,9 @@ def _broken(evidence: Evidence) -> Failed:
     if copy is not None:  # (the apostrophe of "can't" is no quote)
         data_files = Where(file="setup.py", line=argument_line(code, "data_files"))
         place = _named_in(code, f"'{copy['path']}'") or data_files
-        return _failed(expected, last, "no_copy", place, name=shown(copy["path"]))
+        marker = f"resource/{evidence.assignment.package}"
+        kind = {marker: "no_marker"}.get(copy["path"], "no_copy")
+        return _failed(expected, last, kind, place, name=shown(copy["path"]))
     said = last or summary_of(build.log) or ended
     return _failed(expected, said, "last" if last else "", _named_in(code, last))
 
