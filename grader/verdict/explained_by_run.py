@@ -116,11 +116,12 @@ def _with(
     step, old = change.steps[0], Files.of(evidence.submission)
     patch = "" if change.shows else patch_text(old, change.of(old))
     root = root_of(result)
-    if says_the_cause(result) and patch:
-        if root is None or _is_at(step, result.where):
-            return result.model_copy(update={"patch": patch})
-        if root.id.partition(".")[2] not in OF_VALUES or "written" in root.params:
-            return result
+    is_open = (
+        root is not None and root.id.partition(".")[2] in OF_VALUES and "written" not in root.params
+    )
+    if says_the_cause(result) and patch and not is_open:
+        here = root is None or _is_at(step, result.where)
+        return result.model_copy(update={"patch": patch}) if here else result
     found = RecognisedMistake(
         kind=KIND,
         params={"name": step.name, "written": step.written},

@@ -76,6 +76,7 @@ class Scene:
         self._world: Any = None
         self._home: Any = None  # the world's node
         self._nodes: list[Any] = []
+        self._names: dict[str, None] = {}  # (a node that the program destroys has none any more)
         self._owners: dict[int, Any] = {}  # nodes by the id() of their publishers
         self._kept: list[Any] = []
         self._asked = False  # whether the node may have asked the world
@@ -193,6 +194,7 @@ class Scene:
     def made(self, node: Any) -> None:
         """Take a node of the student's; the first one brings the scene's own node and world."""
         self._nodes.append(node)
+        self._names[node.get_fully_qualified_name()] = None
         if self._tester is not None:
             return
         with self.working():
@@ -398,14 +400,9 @@ class Scene:
             "parameters": {name: list(each.values()) for name, each in self._parameters.items()},
             "path": [list(each) for each in path],
             "step": 0 if self._world is None else self._world.STEP,
-            "nodes": list(dict.fromkeys(self._names())),
+            "nodes": list(self._names),
             "now": self.now,
         }
-
-    def _names(self) -> Iterator[str]:
-        for node in self._nodes:
-            with contextlib.suppress(Exception):
-                yield node.get_fully_qualified_name()
 
 
 def _takes_plainly(subscription: Any) -> bool:
