@@ -17,7 +17,7 @@ from grader.base.unheard import unheard
 from grader.ros.distro import find_distro
 from grader.ros.interfaces import with_turtlesim
 from grader.sandbox.proof import proven_ros
-from tests.batch.classes import package
+from tests.batch.pool_tasks import package
 from tests.lab.workspaces import open_to_all
 from tests.pages.browser import browser
 from tests.processes import ROOT
@@ -91,8 +91,8 @@ def _class(chromium: Browser) -> None:
         subprocess.run(list(map(str, line)), cwd=ROOT, check=False)
         page = _opened(chromium, (out / "index.html").as_uri())
         _saved(page, "class")
-        (student,) = (out / "students").glob(f"{SHOWN.replace(' ', '_')}-*.html")
-        page.goto(student.as_uri())
+        (shown,) = (out / "students").glob(f"{SHOWN.replace(' ', '_')}-*.html")
+        page.goto(shown.as_uri())
         page.locator(".state", has_text="failed").first.scroll_into_view_if_needed()
         _saved(page, "student")
 
