@@ -210,9 +210,9 @@ while not publisher.get_subscription_count():
     rclpy.spin_once(node, timeout_sec=0.1)
 twist = Twist()
 twist.linear.x, twist.angular.z = 1.0, 1.0
+begin = time.monotonic()
 publisher.publish(twist)
 begun = pose_of("turtle1", lambda pose: pose.linear_velocity > 0)
-begin = time.monotonic()
 ended = pose_of("turtle1", lambda pose: pose.linear_velocity == 0)
 say(speed=begun.linear_velocity, turn=begun.angular_velocity, x=ended.x, y=ended.y,
     theta=ended.theta, seconds=time.monotonic() - begin)
@@ -220,7 +220,7 @@ say(speed=begun.linear_velocity, turn=begun.angular_velocity, x=ended.x, y=ended
     assert (found["speed"], found["turn"]) == (1.0, 1.0)
     # no update is made up for, so a busy machine makes fewer than the 62 of the second
     assert 0.3 < found["theta"] < 1.01
-    assert 0.8 < found["seconds"] < 3
+    assert found["seconds"] > 0.98
     assert found["x"] - MIDDLE == pytest.approx(math.sin(found["theta"]), abs=0.02)
     assert found["y"] - MIDDLE == pytest.approx(1 - math.cos(found["theta"]), abs=0.02)
 
