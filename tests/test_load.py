@@ -42,8 +42,12 @@ Outcome = tuple[str, float, tuple[str, ...]]
 
 @contextmanager
 def busy(count: int) -> Iterator[None]:
-    """Keep every core busy with other work."""
-    work = [subprocess.Popen(["sh", "-c", "while :; do :; done"]) for _ in range(count)]
+    """Keep every core busy with other work, each in a session of its own.
+
+    (Linux shares the cores between sessions first: thirty processes of one would get the time of one.)
+    """
+    endless = ["sh", "-c", "while :; do :; done"]
+    work = [subprocess.Popen(endless, start_new_session=True) for _ in range(count)]
     try:
         yield
     finally:

@@ -122,6 +122,16 @@ def test_a_limit_on_a_busy_machine_comes_to_an_end_that_proves_nothing(
     assert limit.name == "load"
 
 
+def test_a_limit_that_decides_nothing_leaves_no_doubt(monkeypatch: pytest.MonkeyPatch) -> None:
+    looks = Looks(monkeypatch)
+    clock = RunClock(lambda: ())
+    limit = clock.limit(0.03, decides=False)
+    looks.after(1.0, busy=2.0, ran=0.0, waited=1.0)
+    assert limit.over
+    assert limit.name == "load"
+    assert not clock.starved
+
+
 def test_a_limit_on_a_machine_with_free_cores_is_evidence(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

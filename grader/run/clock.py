@@ -30,6 +30,7 @@ OTHERS_SECONDS = (
 )
 QUIET_SECONDS = 0.03  # of the run's time, in which a node without services logs what was due
 UNASKED_SECONDS = 2.0  # the same until a tick is missing
+OTHER_LINE = 0.75  # of these that are left when a node has logged another line, and no more comes
 SLOW_BARRIER = 0.2  # seconds of wall time; after a slower barrier a log record ends the next ones
 UNANSWERED = 5  # unanswered barriers in a row after which the node counts as stuck
 TRIES, TRY_SECONDS = 12, 0.5  # barriers and wall time after which a tick is missing
@@ -214,7 +215,8 @@ class VirtualClock:
 
         `counts` is whether a line of the expected form has come: then only such lines are ticks.
         """
-        began = self._run_clock.now()
+        seconds = UNASKED_SECONDS if self._unasked else TRY_SECONDS
+        limit = self._run_clock.limit(seconds, decides=self._unasked)
         found: list[Event] = []
         for attempt in itertools.count():
             events = self._step(due, wait=attempt > 0, until_log=True)
@@ -224,8 +226,8 @@ class VirtualClock:
                 break
             other = bool(found) and not counts
             enough = TRIES / 4 if other else TRIES  # (another line came; the tick may follow)
-            seconds = UNASKED_SECONDS if self._unasked else TRY_SECONDS
-            if attempt >= enough and (other or self._run_clock.now() - began > seconds):
+            proven = other and (not self._unasked or limit.left < OTHER_LINE * seconds)
+            if attempt >= enough and (proven or limit.over):
                 break
             if self._over():
                 break
@@ -376,7 +378,8 @@ class VirtualClock:
                 break
             answer = observer.probe.ask("clock", seconds=limit.rest, **asked)
             events += observer.take(answer) + observer.catch_up(answer.logs)
-        quiet = self._run_clock.limit(QUIET_SECONDS)
+        # a missing tick is waited for: this limit proves nothing
+        quiet = self._run_clock.limit(QUIET_SECONDS, decides=False)
         while self._unasked and not quiet.over:
             still = observer.probe.ask("wait", seconds=QUIET_SECONDS)
             events += observer.take(still) + observer.catch_up(still.logs)

@@ -148,9 +148,9 @@ class RunClock:
         self._passed, self._wanted = self._passed * fades + passed, self._wanted * fades + wanted
         return max(1.0, min(self._wanted / self._passed, wanted / max(passed, 1e-9)))
 
-    def limit(self, seconds: float) -> Limit:
-        """Return a limit that begins now."""
-        return Limit(self, seconds)
+    def limit(self, seconds: float, *, decides: bool = True) -> Limit:
+        """Return a limit that begins now; `decides` is whether its end alone is taken as evidence."""
+        return Limit(self, seconds, decides=decides)
 
     def _look(self) -> _Look:
         at = time.monotonic()
@@ -162,8 +162,8 @@ class RunClock:
 class Limit:
     """A limit on something that goes on: over when so many seconds of a run's clock have passed."""
 
-    def __init__(self, clock: RunClock, seconds: float) -> None:
-        self._clock, self._seconds = clock, seconds
+    def __init__(self, clock: RunClock, seconds: float, *, decides: bool) -> None:
+        self._clock, self._seconds, self._decides = clock, seconds, decides
         self._begin = time.monotonic()
         self._end, self._forced = clock.now(at_once=seconds < SHORT_SECONDS) + seconds, clock.forced
 
@@ -188,7 +188,7 @@ class Limit:
         if time.monotonic() < self._begin + self._seconds:  # (it is never faster)
             return False
         over = self._clock.now(at_once=self._seconds < SHORT_SECONDS) >= self._end
-        self._clock.starved |= over and self._is_starved
+        self._clock.starved |= over and self._decides and self._is_starved
         return over
 
     @property

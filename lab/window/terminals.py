@@ -171,7 +171,7 @@ class Terminal:
             set_size(self._fd, *_allowed(rows, columns))
 
     async def end(self) -> None:
-        """Hang up; who does not end then is killed."""
+        """Hang up; who does not end then is killed, and the terminal is closed on it."""
         if self._shell is None or self._fd == NONE:
             self._on_end()
             return
@@ -183,6 +183,8 @@ class Terminal:
             return
         with contextlib.suppress(ProcessLookupError):
             os.killpg(self._shell.pid, signal.SIGKILL)
+        if self._fd != NONE:
+            self._close()
 
     async def _gone(self) -> None:
         while self._fd != NONE:

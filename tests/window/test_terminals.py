@@ -158,3 +158,15 @@ def test_the_newest_output_is_kept_and_what_is_gone_is_skipped() -> None:
     assert data[2:11].endswith(b"\n")
     assert place == output.begin + (9 - output.begin % 9) % 9 + len(data) - 2
     assert output.part(output.end) == (b"", output.end)
+
+
+def test_a_shell_that_does_not_hang_up_is_killed_and_forgotten(tmp_path: Path) -> None:
+    async def test(terminals: Terminals) -> None:
+        page = Page(terminals, terminals.open(), shows=False)
+        terminal = terminals.get(1)
+        assert terminal is not None
+        terminal.type("trap '' HUP; echo is-$((1+1))-deaf; yes\n")
+        await page.until(lambda: page.viewer.lags)
+        assert b"is-2-deaf" in page.got
+
+    running(test, tmp_path)
