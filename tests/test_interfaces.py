@@ -38,6 +38,7 @@ ASSIGNMENT = ROOT / "lab" / "course" / "own_message" / "assignment.yaml"
 MESSAGE = "my_robot_interfaces/msg/Distance.msg"
 CMAKE = "my_robot_interfaces/CMakeLists.txt"
 MANIFEST = "my_robot_interfaces/package.xml"
+NODE = "my_robot_controller/my_robot_controller/measure_distance.py"
 
 
 def changed(folder: Path, *edits: tuple[str, str, str]) -> Path:
@@ -238,6 +239,30 @@ def test_what_the_files_of_an_interface_package_show(
     assert failed == {check: mistake}
 
 
+@pytest.mark.parametrize(
+    ("written", "told"),
+    [
+        ("float64 sped", "If sped is meant to be this field, rename it to speed"),
+        ("float64 metres_a_second", "If metres_a_second is meant to be this field, rename it"),
+        ("bool moves", "Add the line: float64 speed"),
+    ],
+)
+def test_a_field_with_another_name_is_to_be_renamed(
+    written: str, told: str, tmp_path: Path
+) -> None:
+    assignment = load_assignment(ASSIGNMENT, known_checks=CHECKS)
+    found = take_in(
+        changed(tmp_path, (MESSAGE, "float64 speed", written)),
+        package=assignment.package,
+        node_file=assignment.node_file,
+        others=assignment.interface_packages,
+    )
+    (failed,) = (r for r in evaluate_static(found, assignment, only=STATIC) if r.status == "failed")
+    assert failed.fix.startswith(told)
+    assert failed.where is not None
+    assert (failed.where.line is not None) == told.startswith("If")
+
+
 HOSTILE = """
 ament_package()
 file(WRITE ${CMAKE_INSTALL_PREFIX}/../../.cache/evil "evil")
@@ -320,3 +345,19 @@ def test_a_part_that_a_service_does_not_have_is_told_when_the_file_is_loaded(
     file.write_text(text, encoding="utf-8")
     with pytest.raises(AssignmentError, match=r"no part 'respons' .did you mean 'response'"):
         load_assignment(file, known_checks=CHECKS)
+
+
+@pytest.mark.prefix
+@pytest.mark.full
+def test_a_package_that_only_a_wrong_import_needs_is_not_asked_for(tmp_path: Path) -> None:
+    old = (
+        "try:\n    from turtlesim.msg import Pose\nexcept ImportError:\n"
+        "    from turtlesim_msgs.msg import Pose  # from ROS kilted on\n"
+    )
+    report = marked(changed(tmp_path, (NODE, old, "from geometry_msgs.msg import Pose\n")))
+    hears = report.check("distance.listens")
+    assert "+from turtlesim.msg import Pose\n" in hears.patch
+    depends = report.check("package.depends")
+    assert depends.status == "failed"
+    assert depends.consequence_of == "distance.listens"
+    assert "<depend>" not in depends.fix + depends.patch

@@ -7,6 +7,7 @@ busy processes, sixteen verdicts at a time: each has less than a twentieth of a 
 
 from __future__ import annotations
 
+import os
 import statistics
 import subprocess
 import time
@@ -146,7 +147,9 @@ def rows(
             found[name].seconds.append(seconds)
         print_line(f"{name:60} alone: {found[name].seconds[-1]:.0f} s")
     print_line(f"\n{'package':60} {'alone':>14} {'':8} {'beside others':>16} {'':8} undecided")
-    with busy(BUSY), ProcessPoolExecutor(AT_ONCE, get_context("spawn")) as pool:
+    # (each in a session of its own, as in a terminal of its own)
+    workers = ProcessPoolExecutor(AT_ONCE, get_context("spawn"), initializer=os.setsid)
+    with busy(BUSY), workers as pool:
         orders = [(name, folder) for name, folder in folders.items() for _ in range(TIMES)]
         for name, report, seconds in pool.map(timed, *zip(*orders, strict=True)):
             row = found[name]

@@ -11,6 +11,7 @@ from grader.change.operator import Made, Operator, Site, operator, swapped
 from grader.change.values import INSTEAD
 from grader.package.source.module import Function
 from grader.package.source.names import called_name, dotted, last_part
+from grader.package.source.place import owns_lines
 
 MOST_NAMES = 8
 FIELDS = (
@@ -55,6 +56,37 @@ def _without_self(site: Site, function: Function) -> Iterator[str]:
             local.discard(name)
             unknown.discard(name)
             yield name
+
+
+@operator(
+    "remembered",
+    cost=1,
+    why=msg(
+        "{name} runs in each call of the function: what a call before has set is gone. An attribute of "
+        "self keeps it."
+    ),
+    fix=msg("Set it once, in __init__, and use it here: {written}"),
+)
+def remembered(site: Site) -> Iterator[Made]:
+    """Yield an attribute in place of a local name that is set to a constant first, and changed later."""
+    init, text = site.methods.get("__init__"), site.module.text
+    for function in site.methods.values() if init is not None else ():
+        names = [n for n in ast.walk(function) if isinstance(n, ast.Name)]
+        for first in function.body:
+            target = first.targets[0] if isinstance(first, ast.Assign) else None
+            if init in (None, function) or not isinstance(target, ast.Name):
+                continue
+            assert init is not None and isinstance(first, ast.Assign)
+            name, later = target.id, [n for n in names if n.id == target.id and n is not target]
+            is_state = {type(n.ctx) for n in later} == {ast.Load, ast.Store}
+            if not is_state or not isinstance(first.value, ast.Constant) or name in site.attributes:
+                continue
+            if owns_lines(site.module, first):
+                row = f"self.{name} = {site.code(first.value)}"
+                last = init.body[-1]
+                put = text.before((last.end_lineno or 0) + 1, site.indent(last) + row)
+                uses = (text.swap(use, f"self.{name}") for use in later)
+                yield Made(first, site.code(first), row, (text.without(first.lineno), put, *uses))
 
 
 @operator(
@@ -342,6 +374,7 @@ def wrapped(site: Site) -> Iterator[Made]:
 OPERATORS: tuple[Operator, ...] = (
     *(
         own,
+        remembered,
         kept,
         of_type,
         field,

@@ -82,6 +82,10 @@ class Interfaces:
         """Whether there is a package of interfaces of this name."""
         return _known(name) in self.packages
 
+    def packages_with(self, name: str, kind: str) -> list[str]:
+        """Return the packages that have a `msg`, `srv` or `action` of this name."""
+        return sorted(one.split("/")[0] for one in self.types if one.endswith(f"/{kind}/{name}"))
+
     def type_fault(self, name: str, kind: str) -> str:
         """Return what is wrong with the name of a type that must be a `msg`, `srv` or `action`.
 

@@ -1,4 +1,4 @@
-"""The frames of a traceback in a text: whose file failed."""
+"""What a text shows beside its message: whose file failed, and where a missing name is."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import re
 
 from grader.base.i18n.message import Message, say
 from grader.base.shown import shown
+from grader.course.interfaces import ros_interfaces
 
 MOST = 50_000  # characters of a traceback that are searched
 HEAD = "Traceback (most recent call last)"
@@ -19,6 +20,7 @@ LIBRARY = re.compile(
 )
 STARTS = re.compile(r"\S{0,300}/lib/([^/\s]{1,120})/[^/.\s]{1,120}$")
 """The script that ros2 run starts: it is made by the build, and nobody's to correct."""
+NOT_THERE = re.compile(r"cannot import name '(\w{1,80})' from '\w{1,80}\.(msg|srv|action)'")
 OF_PIP = re.compile(r"/(?:home|root|usr/local)\S{0,200}/(?:site|dist)-packages/(\w{1,80})")
 
 
@@ -53,6 +55,15 @@ def where_it_failed(text: str) -> Message | None:
             "No line of yours is on the way. It failed in {file}.", file=shown(frames[-1][0])
         )
     return None
+
+
+def packages_with(text: str) -> Message | None:
+    """Return the packages of ROS that have an interface which was imported from another one."""
+    found = NOT_THERE.search(text)
+    packages = ros_interfaces().packages_with(*found.groups()) if found is not None else []
+    if found is None or not packages:
+        return None
+    return say("{name} is in {packages}.", name=found[1], packages=", ".join(packages))
 
 
 def from_pip(text: str) -> Message | None:

@@ -35,6 +35,10 @@ ENTRIES: Mapping[str, Kind] = MappingProxyType(
 OF_LAUNCH = re.compile(r"^\[[\w.+-]{1,80}-\d{1,4}\] ?")
 """What `ros2 launch` writes before each line of a process."""
 DISTRO = re.compile(r"/opt/ros/([a-z]{1,20})/")
+ABSENT = re.compile(
+    r"/opt/ros/([a-z]{1,20})/\S{1,40}: No such file|no such file or directory: /opt/ros/([a-z]{1,20})/"
+)
+"""What shows that the ROS of a path is not there."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +61,7 @@ def seen_in(text: str, machine: Machine | None = None) -> list[Seen]:
     """
     lines = (OF_LAUNCH.sub("", line[:LONGEST]) for line in text[-MOST:].splitlines())
     text = "\n".join(lines)
-    distros = set(DISTRO.findall(text))
+    distros = set(DISTRO.findall(text)) - {name for one in ABSENT.findall(text) for name in one}
     common = {"distro": distros.pop()} if len(distros) == 1 else {}
     taken: list[tuple[int, int]] = []
     found: list[Seen] = []
@@ -66,7 +70,7 @@ def seen_in(text: str, machine: Machine | None = None) -> list[Seen]:
             break
         matches = kind.pattern.finditer(text) if kind.pattern is not None else iter(())
         for match in islice(matches, MOST_OF_A_KIND):
-            start, end = match.span()
+            start, end = match.span("told" if "told" in match.re.groupindex else 0)
             if any(start < other_end and other_start < end for other_start, other_end in taken):
                 continue
             seen = _read(kind, text, match, common, machine)
@@ -93,7 +97,8 @@ def _read(
 ) -> Seen | None:
     """Return what a match shows; None if the rest of the text, or the machine, speaks against it."""
     known = {**common, **groups(match)}
-    line = _line_around(text, *match.span())
+    told = known.pop("told", None)
+    line = told.strip() if told else _line_around(text, *match.span())
     if not isinstance(kind, TerminalText):
         of_source = kind.id.startswith(("node.", "source.syntax_error"))
         return (

@@ -5,10 +5,16 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cache, cached_property
 
 from grader.base.i18n.message import Message, Value
 from grader.explain.machine import Look, Machine
 from grader.mistakes.kind import Kind, Stage
+
+PARTS = re.compile(r"\\.|\[\^?\]?(?:\\.|[^\]])*\]|\(\?<[=!][^)]*\)| (?![{*+?])", re.DOTALL)
+"""What a pattern is made of, as far as a single space is to be told from one in a class or a look-behind."""
+FOLD = r"(?: {1,2}|\n {1,4})"
+"""A space between two words, as CMake prints it: it breaks and indents long lines."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +33,8 @@ class TerminalText(Kind):
     `seen` matches the message. All other patterns are searched in the whole output: with a match of
     `unless`, nothing is claimed; the first of `cases` that matches has the better texts; each of
     `shown` that matches adds its sentence on what the output shows. Named groups of all matches are
-    the values of the placeholders, `values` are examples of them.
+    the values of the placeholders, `values` are examples of them. The group `told` of `seen`, if there is
+    one, is the message; the rest of the match is what has to be before it.
 
     `facts` read the text, and return a sentence on what they find (`frames.py`).
 
@@ -55,6 +62,11 @@ class TerminalText(Kind):
     look: tuple[Look, ...] = ()
     only_if_found: bool = False
     in_lab: str = ""
+
+    @cached_property
+    def pattern(self) -> re.Pattern[str] | None:
+        """The compiled `seen`, which also fits a line that is broken; None if there is none."""
+        return re.compile(folding(self.seen), re.MULTILINE) if self.seen else None
 
     def case_in(self, text: str) -> tuple[str, dict[str, str]]:
         """Return the case that a text shows ("" if none) and the values of its placeholders."""
@@ -95,4 +107,10 @@ def groups(match: re.Match[str]) -> dict[str, str]:
 
 
 def _search(pattern: str, text: str) -> re.Match[str] | None:
-    return re.search(pattern, text, re.MULTILINE)
+    return re.search(folding(pattern), text, re.MULTILINE)
+
+
+@cache
+def folding(pattern: str) -> str:
+    """Return a pattern that also fits where a line is broken at one of its spaces."""
+    return PARTS.sub(lambda part: FOLD if part[0] == " " else part[0], pattern)

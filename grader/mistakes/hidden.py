@@ -9,7 +9,6 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import LOG_LINE, NODE, SILENT, STEP_LINE, example
-from grader.mistakes.fixes import node_try
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace
@@ -17,6 +16,8 @@ from grader.package.source.module import Function
 from grader.package.source.names import SPINS, calls_in, dotted, last_part
 from grader.package.source.node import NodeSource
 
+ENDS = ("KeyboardInterrupt", "ExternalShutdownException", "SystemExit")
+"""Exceptions that end a node as it should end."""
 LEAVES = ast.Break | ast.Return | ast.Raise | ast.Call
 LOG_OF_NUMBER = "            self.get_logger().info('Hello time: ' + self.counter_)\n"
 
@@ -40,7 +41,7 @@ def _functions(source: NodeSource) -> Iterator[Function]:
 def hides(handler: ast.ExceptHandler) -> bool:
     """Whether a handler neither raises nor shows the exception that it catches."""
     caught = handler.type.elts if isinstance(handler.type, ast.Tuple) else [handler.type]
-    if handler.type is not None and all(last_part(dotted(c)) in node_try.ENDS for c in caught if c):
+    if handler.type is not None and all(last_part(dotted(c)) in ENDS for c in caught if c):
         return False
     silent = {
         part

@@ -122,6 +122,12 @@ KINDS = (
         msg("A field of the message is missing"),
         DECLARES,
         msg("Add the line: {type} {field}"),
+        fixes={
+            "other_name": msg(
+                "If {there} is meant to be this field, rename it to {field}, here and in the code that "
+                "uses it. If not, add the line: {type} {field}"
+            )
+        },
     ),
     _interface(
         "field_type",

@@ -322,9 +322,11 @@ class Observer:
         """
         before, began = self.terminal.lines, time.monotonic()
         own = self.run_clock.now()
-        limit, events = self.run_clock.limit(seconds), list[Event]()
+        limit, events = self.run_clock.limit(seconds, decides=False), list[Event]()
         while not self.over and not limit.over:
             events += self.take(self.probe.ask("wait", seconds=min(limit.slice, 0.1)))
+        if not events:  # (what has come needs no more time)
+            limit.decide()
         slowed = (time.monotonic() - began) / MOST_SLOWED
         passed = max(self.run_clock.now() - own, slowed)
         rate = (self.terminal.lines - before) / passed

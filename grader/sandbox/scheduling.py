@@ -191,6 +191,10 @@ class Limit:
         self._clock.starved |= over and self._decides and self._is_starved
         return over
 
+    def decide(self) -> None:
+        """Take its end as evidence after all: note in the clock if it is none."""
+        self._clock.starved |= self._is_starved
+
     @property
     def name(self) -> str:
         """What ended something, once it is over: "wall time", or "load" if that is no evidence."""

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from grader.base.i18n.message import say
+from grader.base.i18n.translator import Translator
 from grader.report.model import CheckResult, Where
+from grader.verdict.checks.all import STATIC
 
 if TYPE_CHECKING:
     from grader.verdict.evidence import Evidence
@@ -47,6 +51,37 @@ def without_repeated(results: Sequence[CheckResult], evidence: Evidence) -> list
         if found.intersection(mistakes):
             replaced[use.id] = part
     return [_without(r, replaced[r.id]) if r.id in replaced else r for r in results]
+
+
+def with_same_cause(
+    results: Sequence[CheckResult], evidence: Evidence, translate: Translator
+) -> list[CheckResult]:
+    """Return the results; what the files show follows from a run's check if its change mends both.
+
+    An import from the wrong package is such a mistake: package.xml does not need that package then.
+    """
+    found = list(results)
+    for told in results:
+        fixed = evidence.tried.get(hashlib.sha256(told.patch.encode()).hexdigest())
+        if fixed is None or told.status != "failed" or told.id in STATIC:
+            continue
+        follows = translate(say("This follows from {check}. Fix {check} first.", check=told.id))
+        update = {"consequence_of": told.id, "rationale": "", "patch": "", "fix": follows}
+        for n, one in enumerate(found):
+            after = fixed.results.get(one.id)
+            passes = after is not None and after.status == "passed"
+            if passes and _is_of_files(one) and _file(one) not in told.patch:
+                found[n] = one.model_copy(update=update)
+    return found
+
+
+def _is_of_files(result: CheckResult) -> bool:
+    return result.status == "failed" and result.id in STATIC and not result.consequence_of
+
+
+def _file(result: CheckResult) -> str:
+    """Return the file that a failure is in: a change of it is a mistake of its own."""
+    return result.where.file if result.where is not None else "package.xml"
 
 
 def _without(result: CheckResult, part: str) -> CheckResult:

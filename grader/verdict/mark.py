@@ -28,7 +28,7 @@ from grader.sandbox.choose import open_sandbox
 from grader.verdict.compose import compose
 from grader.verdict.evaluate import AssignedCheck, evaluate_checks
 from grader.verdict.evidence import Evidence, Follow, Search, Seek, WithFix
-from grader.verdict.follows import without_repeated
+from grader.verdict.follows import with_same_cause, without_repeated
 from grader.verdict.order import Order
 from grader.verdict.take_in import take_in_for
 
@@ -264,7 +264,7 @@ def _decide(
         listener(events.CheckFinished(evidence.results[result.id]))
     stages.finish()
     results = [evidence.results[use.id] for use in evidence.assignment.checks]
-    return without_repeated(results, evidence)
+    return without_repeated(with_same_cause(results, evidence, translate), evidence)
 
 
 class _Stages:

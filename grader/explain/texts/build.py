@@ -14,7 +14,7 @@ KINDS = (
         title=msg("package.xml has a mistake"),
         why=msg("colcon reads package.xml before it builds. It says: {problem}"),
         fix=msg("Correct it in {path}, then build again."),
-        seen=r"Error\(s\) in package '(?P<path>[^'\n]{1,300})':\s{1,40}(?P<problem>[^\n]{1,300})"
+        seen=r"Error\(s\) in package '(?P<path>[^'\n]{1,300})':\s{1,40}(?P<problem>[^\n]{1,300}(?:(?<=:)\n[^\n]{1,100})?)"
              r"|Failed to parse (?:potential )?(?:ROS )?package(?: manifest)? (?:in )?"
              r"'(?P<path_2>[^'\n]{1,300})':? (?P<problem_2>[^\n]{1,300})",
         values={"problem": "The manifest must contain exactly one 'version' tags",

@@ -91,8 +91,27 @@ KINDS = (
                 "others."),
         fix=msg("Run ros2 param list <node> and compare the name. If it should be there, write "
                 "self.declare_parameter('name', 1.0) in the node's __init__, and start it again."),
+        cases=(
+            Case(r"parameter '(?P<name>\w{1,80})' cannot be set[\s\S]{0,3000}?^\s{0,4}(?P<close>(?:\w{1,80}\.){1,4}(?P=name))$"
+                 r"|^\s{0,4}(?P<close_2>(?:\w{1,80}\.){1,4}(?P<name_2>\w{1,80}))$[\s\S]{0,3000}parameter '(?P=name_2)' cannot be set",
+                 why=msg("The node has no parameter {name}. It has {close}: what is before a dot belongs to the "
+                         "name."),
+                 fix=msg("Use the whole name: ros2 param set <node> {close} <value>")),
+        ),
         seen=r"Setting parameter failed: (?:Invalid access to undeclared|parameter '[^'\n]{1,80}' cannot be set "
              r"because it was not declared)[^\n]{0,80}|^Parameter not set\.?$",
+    ),
+    TerminalText(
+        id="lab.transition", link=links.LIFECYCLE,
+        title=msg("A lifecycle node cannot do that in its state"),
+        why=msg("A lifecycle node goes one step after the other: unconfigured, configure, inactive, activate, "
+                "active. Each state has its own steps; those that are possible now are listed. What the node "
+                "makes in on_configure is not there before."),
+        fix=msg("Run ros2 lifecycle get <node> to see its state. From the start: ros2 lifecycle set <node> "
+                "configure, then ros2 lifecycle set <node> activate. If one of them fails, the node's own "
+                "terminal says why."),
+        seen=r"^Unknown transition requested, available ones are:"
+             r"|[Tt]ransition(?: is)? not registered|No transition matching \d{1,4} found for current state \w{1,40}",
     ),
     TerminalText(
         id="lab.parameter_type", link=links.PARAMETERS,

@@ -15,11 +15,11 @@ KINDS = (
         why=msg("The last line of a traceback is the error: {error}. The lines above it are the way there, "
                 "from the start of the program to the line that failed."),
         fix=msg("If a line of yours is on the way, open that file at that line: the mistake is there, or in "
-                "what the line is given. If none is: what pip installed below your home comes before apt's "
+                "what the line is given or imports. If none is: what pip installed below your home comes before apt's "
                 "packages, so run pip uninstall if the file is in ~/.local; for one of colcon or ROS, "
                 "sudo apt-get update && sudo apt-get upgrade."),
         in_lab=msg("If a line of yours is on the way, open that file at that line: the mistake is there, or "
-                   "in what the line is given."),
+                   "in what the line is given or imports."),
         facts=(where_it_failed, from_pip),
         seen=r"^Traceback \(most recent call last\):\n(?:(?![A-Za-z_][\w.]{0,120}(?:: |$))[^\n]{0,500}\n){1,200}?"
              r"(?P<error>[A-Za-z_][\w.]{0,120}(?:Error|Exception|Failure|Fault|Iteration|Warning)(?:: [^\n]{0,300})?)$",

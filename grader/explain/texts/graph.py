@@ -43,6 +43,15 @@ KINDS = (
         fix=msg("Run ros2 topic list -t while the node runs, and compare the name (with its / and "
                 "namespace). If the list lacks it: start the node, and check that echo $ROS_DOMAIN_ID is "
                 "the same in both terminals."),
+        cases=(
+            Case(r"^\s{0,4}(?P<close>(?:/\w{1,80}){1,4}/(?P<name>\w{1,80}))\b[\s\S]{0,3000}topic \[/(?P=name)\] does not"
+                 r"|topic \[/(?P<name_2>\w{1,80})\] does not[\s\S]{0,3000}?^\s{0,4}(?P<close_2>(?:/\w{1,80}){1,4}/(?P=name_2))\b",
+                 why=msg("Nobody publishes /{name}. There is {close}: its node runs in a namespace, which comes "
+                         "before the name."),
+                 fix=msg("Run ros2 topic echo {close}. In a node of yours, write that name too, or start it in "
+                         "the same namespace: ros2 run … --ros-args -r __ns:=/<namespace>, with the topic's "
+                         "name without a / in front.")),
+        ),
         seen=r"topic \[(?P<topic>[^\]\n]{1,120})\] does not appear to be published yet"
              r"|Could not determine the type for the passed topic|^Unknown topic '[^'\n]{1,120}'",
         look=(looks.graph_settings,),
@@ -82,6 +91,14 @@ KINDS = (
                 "other. For WSL: networkingMode=mirrored in .wslconfig; for a container: --network host"),
         in_lab=msg("Start the node in another terminal of the same lab: make lab again, with the same "
                    "workspace. Then ros2 daemon stop, and list again."),
+        cases=(
+            Case(r"\b10\.0\.2\.15\b",
+                 why=msg("10.0.2.15 is the address of a virtual machine behind NAT. It reaches others (ping), "
+                         "and they do not reach it; so nodes do not find each other."),
+                 fix=msg("In the settings of the virtual machine, set the network adapter to Bridged. Start the "
+                         "machine again: ip address must show an address like that of the other computer. "
+                         "Then ros2 daemon stop, and list again.")),
+        ),
         seen=r"ros2 topic list[^\n]{0,20}\n/parameter_events\n/rosout\n?(?=\Z|[^\n/]{0,80}[$#%>])",
         look=(looks.graph_settings,),
     ),
@@ -93,6 +110,16 @@ KINDS = (
         fix=msg("Run ros2 daemon stop, then the command again: a new daemon starts by itself."),
         seen=r"xmlrpc\.client\.(?:Fault|ProtocolError|ResponseError)[^\n]{0,200}|ros2cli/node/daemon\.py\"[\s\S]{0,3000}?"
              r"(?:ConnectionRefusedError|TimeoutError|ConnectionResetError)[^\n]{0,120}",
+    ),
+    TerminalText(
+        id="lab.network_interface", link=links.MIDDLEWARE,
+        title=msg("The middleware's settings name a network that this computer does not have"),
+        why=msg("CYCLONEDDS_URI names a file with settings, and that names {name}. There is no such network "
+                "interface here, so that no node can start."),
+        fix=msg("Run ip -br address to see the names, and write the one that is UP into the file of "
+                "CYCLONEDDS_URI. Or do without: unset CYCLONEDDS_URI (also in ~/.bashrc)."),
+        seen=r"(?P<name>[\w.:-]{1,40}): does not match an available interface",
+        values={"name": "eth0"},
     ),
     TerminalText(
         id="lab.shared_memory", link=links.MIDDLEWARE,

@@ -40,6 +40,11 @@ KINDS = (
                  why=msg("This ROS has packages for Ubuntu 24.04, and this is an older Ubuntu."),
                  fix=msg("Install the ROS of Ubuntu 22.04: sudo apt-get install ros-humble-desktop, or "
                          "install Ubuntu 24.04.")),
+            Case(r"locate package (?P<name>python3?-\S{1,100})",
+                 why=msg("None of apt's sources has a package {name}."),
+                 fix=msg("apt calls a package like the module that Python imports, and not like pip's "
+                         "package: pyserial is python3-serial. Run sudo apt-get update, then look for it: "
+                         "apt-cache search python3 | grep <part of the name>")),
             Case(r"locate package (?!ros-)(?P<name>\S{1,100})",
                  why=msg("None of apt's sources has a package {name}."),
                  fix=msg("Run sudo apt-get update, then look for its name: apt-cache search {name}")),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from grader.base.i18n.message import msg
 from grader.explain import looks
+from grader.explain.frames import packages_with
 from grader.explain.terminal_text import Case, TerminalText
 from grader.explain.texts.names import CONDA, IMPORT, OWN_INTERFACES, ROS_INTERFACES
 from grader.mistakes import links
@@ -155,6 +156,37 @@ KINDS = (
         seen=r"has no attribute '_TYPE_SUPPORT'|This might be a ROS 1 message type"
              r"|The (?:message|service|action) type provided is not valid"
              r"|has no attribute '_CREATE_ROS_MESSAGE'",
+        cases=(
+            Case(r"ROS_DISTRO was set to|/opt/ros/(?:noetic|melodic|kinetic)/",
+                 why=msg("Two releases of ROS are sourced in this terminal. Python finds the class of a message "
+                         "of the other one first."),
+                 fix=msg("Open a new terminal in which only one ROS is sourced, and start the node there.")),
+        ),
+    ),
+    TerminalText(
+        id="lab.interface_elsewhere", link=links.INTERFACES,
+        title=msg("The interface is in another package"),
+        why=msg("{package} has no {name}. Each package has its own interfaces, and an import line is for one "
+                "package."),
+        fix=msg("Run ros2 interface list | grep {name} to see the package, and import the name from that one, "
+                "in a line of its own. Name the package in package.xml too (<depend>). If the list does not "
+                "have it, compare the spelling."),
+        facts=(packages_with,),
+        seen=r"cannot import name '(?P<name>[A-Z]\w{1,80})' from '(?P<package>\w{1,80})\.(?:msg|srv|action)'",
+        values={"package": "geometry_msgs", "name": "LaserScan"},
+    ),
+    TerminalText(
+        id="lab.interface_not_rebuilt", link=links.INTERFACES,
+        title=msg("The interface as it was built does not have the field"),
+        why=msg("The build makes Python code of each interface, also with --symlink-install. {type}, as it was "
+                "built last, has no field {name}."),
+        fix=msg("If {name} is in the file of {type}: build its package again (colcon build, without "
+                "--packages-select), source install/local_setup.bash, and start all nodes again. ros2 "
+                "interface show shows the fields as they are built. If it is not in the file, compare the "
+                "spelling."),
+        seen=r"/(?:msg|srv|action)/(?P<type>[A-Z]\w{1,80})\b[\s\S]{0,8000}?"
+             r"(?P<told>AttributeError: '(?P=type)(?:_\w{1,12})?' object has no attribute '(?P<name>\w{1,80})')",
+        values={"type": "Distance"},
     ),
     TerminalText(
         id="lab.interface_unknown", link=links.INTERFACES,

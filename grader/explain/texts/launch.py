@@ -35,6 +35,12 @@ KINDS = (
         fix=msg("Run python3 on the file in src to see the line of a syntax error, correct it, build and "
                 "source the workspace again. ros2 launch -d … shows the whole traceback."),
         cases=(
+            Case(r"PackageNotFoundError: \"?package '(?P<package>[^'\n]{1,100})' not found",
+                 why=msg("The launch file uses the package {package}, and this terminal does not find it. (That "
+                         "the file may have a syntax error is said of every such end.)"),
+                 fix=msg("If {package} is yours, build it and source the workspace. If it is from others, install "
+                         "it: sudo apt-get install ros-{distro}-{debian}. A line "
+                         "<exec_depend>{package}</exec_depend> in package.xml lets rosdep install it.")),
             Case(r"keyword-only argument: 'node_(?:executable|name)'",
                  why=msg("The launch file is made for a newer ROS than this one: before Foxy, Node wanted "
                          "node_executable, node_name and node_namespace."),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 CONDA = r"(?i:/(?:ana|mini)?conda3?/|/mini(?:forge|mamba)3?/|/mambaforge/|micromamba/|^\(base\) )"
-VENV = r"/\.?v?env\w{0,20}/(?:bin|lib)/|/pyenv/|/\.virtualenvs/|^\(\.?v?env\w{0,20}\) "
+VENV = r"/\.?v?env\w{0,20}/(?:bin|lib)/|/pyenv/|/\.virtualenvs/|^\([\w.-]{0,30}env\w{0,20}\) "
 OWN_PYTHON = r"/opt/ros/(?P<distro>[a-z]{1,20})/(?:local/)?lib/python(?P<own>3\.\d{1,2})/(?:dist|site)-packages"
 ROS_INTERFACES = (
     r"(?:std|geometry|sensor|nav|trajectory|visualization|diagnostic|shape|stereo|action|lifecycle"

@@ -8,6 +8,27 @@ from grader.mistakes import links
 
 KINDS = (
     TerminalText(
+        id="lab.call_waits", link=links.CALLBACK_GROUPS,
+        title=msg("call() of a client waits in a callback, and its answer cannot come"),
+        why=msg("call() returns when the answer is there. The executor that would take the answer is still in "
+                "the callback that waits for it. Ctrl+C only ended that."),
+        fix=msg("Write future = self.client.call_async(request) and "
+                "future.add_done_callback(self.on_answer), and use the answer in on_answer: "
+                "future.result(). Check with ros2 service list that the server runs, too."),
+        seen=r"/rclpy/client\.py\", line \d{1,6}, in call\n[\s\S]{0,900}?(?P<told>^KeyboardInterrupt)$",
+    ),
+    TerminalText(
+        id="lab.bridge_type", link=links.TOPICS,
+        title=msg("The bridge to Gazebo does not know the pair of types"),
+        why=msg("parameter_bridge has a fixed list of pairs: a type of ROS as package/msg/Name, and one of "
+                "Gazebo. Without such a pair it makes no bridge, and nothing is passed on."),
+        fix=msg("Write the type of ROS with /msg/ and compare both names, upper and lower case, in quotes: "
+                "'/scan@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan'. The README of ros_gz_bridge lists all "
+                "pairs."),
+        seen=r"Failed to create a bridge for topic \[[^\n]{1,300}"
+             r"|No template specialization for the pair[^\n]{0,200}",
+    ),
+    TerminalText(
         id="lab.parameter_undeclared", link=links.PARAMETERS,
         title=msg("A parameter is read before it is declared"),
         why=msg("A node has only the parameters that it declares. {name} was not declared when this line "
@@ -81,6 +102,18 @@ KINDS = (
         values={"name": "node"},
     ),
     TerminalText(
+        id="lab.two_clocks", link=links.TF2,
+        title=msg("Messages and transforms have times of two clocks"),
+        why=msg("A message is used at its own time, and the transforms are all of another time: one node takes "
+                "the time of a simulation or of a bag (/clock), the other that of the computer, or the clocks "
+                "of two computers differ."),
+        fix=msg("With a simulation or a bag, start all nodes with use_sim_time: ros2 run … --ros-args -p "
+                "use_sim_time:=true, in a launch file parameters=[{{'use_sim_time': True}}]. ros2 param get "
+                "<node> use_sim_time shows it. With two computers, set their clocks by NTP."),
+        seen=r"for reason 'the timestamp on the message is earlier than all the data in the transform cache'"
+             r"|TF_OLD_DATA ignoring data from the past[^\n]{0,120}",
+    ),
+    TerminalText(
         id="lab.transform", link=links.TF2,
         title=msg("A transform is not known"),
         why=msg("tf2 knows only the frames that some node publishes, for the last ten seconds. In the first "
@@ -109,6 +142,12 @@ KINDS = (
                 "publish, no spin."),
         fix=msg("Let rclpy.shutdown() be the last line. In except KeyboardInterrupt, use print instead of "
                 "the logger, and ask rclpy.ok() before you publish."),
+        cases=(
+            Case(r"\[rclcpp\]|terminate called after",
+                 why=msg("Ctrl+C ends ROS in the program, and a loop that goes on uses it afterwards."),
+                 fix=msg("Write while (rclcpp::ok()) in place of while (true), and let rclcpp::shutdown() be the "
+                         "last line. Then build again.")),
+        ),
         seen=r"publisher's context is invalid|(?:the given |rcl )?context is (?:invalid|not valid)"
              r"|cannot use Destroyable because destruction was requested",
     ),

@@ -22,6 +22,10 @@ KINDS = (
                          "command again. If you built with conda active, delete the folders build and "
                          "install first and build again. For all new terminals: conda config --set "
                          "auto_activate_base false")),
+            Case(r"/\.pyenv/",
+                 fix=msg("Run pyenv shell system, then which python3: it must show /usr/bin/python3. Run the "
+                         "command again. For all new terminals: pyenv global system. If you built with the "
+                         "other Python, delete the folders build and install first and build again.")),
             Case(VENV,
                  fix=msg("Run deactivate, then which python3: it must show /usr/bin/python3. Run the "
                          "command again. A venv for ROS is made with the system's Python: "
@@ -32,7 +36,7 @@ KINDS = (
              r"|No module named 'rclpy\._rclpy(?:_pybind11)?'"
              rf"|{CONDA}[^\n]{{0,200}}libstdc\+\+[^\n]{{0,80}}version `(?:GLIBCXX|CXXABI)_",
         # (the same version: the file is missing for another reason)
-        unless=r"/python3\.(\d{1,2})/[\s\S]{0,3000}pybind11\.cpython-3\1-",
+        unless=r"/opt/ros/\S{1,80}/python3\.(\d{1,2})/[\s\S]{0,3000}pybind11\.cpython-3\1-",
         shown={
             r"\.cpython-3(?P<minor>\d{1,2})-": msg("Python 3.{minor} runs."),
             OWN_PYTHON: msg("ROS 2 {distro} has its modules for Python {own}."),
@@ -124,6 +128,12 @@ KINDS = (
                    "~/ros2_ws/venv && touch ~/ros2_ws/venv/COLCON_IGNORE, then source "
                    "~/ros2_ws/venv/bin/activate and use pip."),
         cases=(
+            Case(r"No module named '(?P<module>[a-z]\w{1,80})'",
+                 fix=msg("Try apt first, whose package is often called like the module that you import: sudo "
+                         "apt-get install python3-{module}. If apt does not have it, make a venv that sees the "
+                         "modules of ROS: python3 -m venv --system-site-packages ~/ros2_ws/venv && touch "
+                         "~/ros2_ws/venv/COLCON_IGNORE, then source ~/ros2_ws/venv/bin/activate and use "
+                         "pip.")),
             Case(r"pip3? install (?:-\S{1,40} ){0,4}(?!\S{1,90}\.txt)"
                  r"(?P<name>[A-Za-z][\w.-]{0,80})(?=\s|$|[=<>~!\[])",
                  fix=msg("Try apt first: sudo apt-get install python3-{name} (search: apt-cache search "
@@ -186,9 +196,16 @@ KINDS = (
                 "workspaces that this terminal has sourced."),
         fix=msg("If {module} is a file of your package, import it with the package's name: from "
                 "my_package.{module} import …. If it is a package of yours, build it and source the "
-                "workspace. If it is from the internet, install it with apt: its name begins with "
-                "python3-. Otherwise compare the spelling."),
+                "workspace. If it is from the internet, install it with apt, where it is often called "
+                "python3-{module}. Otherwise compare the spelling."),
         cases=(
+            Case(r"\b(?P<module>[a-z]\w{1,80})\.py\b[\s\S]{0,6000}/(?P<package>\w{1,80})/[\w/]{1,120}\.py\", line \d{1,6}, "
+                 r"in <module>\n +(?:from|import) (?P=module)\b[^\n]{0,120}\n(?:[ ^~]{1,120}\n)?"
+                 r"ModuleNotFoundError: No module named '(?P=module)'",
+                 why=msg("{module}.py is a file of your package {package}. python3 finds it beside the file "
+                         "that it starts; ros2 run starts a script that is installed somewhere else."),
+                 fix=msg("Write the package's name before it, also in the files that {module} imports: from "
+                         "{package}.{module} import …. Then build again.")),
             Case(rf"(?:{VENV})[\s\S]*/install/",
                  why=msg("A venv is active, but ros2 run starts the node with the Python in the first line of "
                          "the installed script: the one with which colcon was started, usually "

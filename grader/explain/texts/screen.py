@@ -29,6 +29,13 @@ KINDS = (
                          "is not the one who is logged in."),
                  fix=msg("Run xhost +local: in a terminal of your desktop, then start the program again. "
                          "Do not start it with sudo.")),
+            Case(r"could not connect to display (?P<display>(?!localhost)[\w.-]{1,80}:\d\S{0,10})",
+                 why=msg("DISPLAY names an X server at {display}, and none answers there: it is not started, "
+                         "it refuses, or the address is an old one."),
+                 fix=msg("Run grep -n DISPLAY ~/.bashrc. In WSL, delete that line, run wsl --update and wsl "
+                         "--shutdown in Windows, and open a new terminal: it has a screen of its own, and "
+                         "DISPLAY is :0. With an X server of your own in Windows, start it without access "
+                         "control, and let the firewall pass it.")),
             Case(r"libxcb-cursor0|xcb-cursor",
                  why=msg("Qt needs the library libxcb-cursor0, which is not installed."),
                  fix=msg("Run: sudo apt-get install libxcb-cursor0")),
@@ -46,6 +53,14 @@ KINDS = (
                 "of the graphics card is often missing or breaks off."),
         fix=msg("Let the processor draw: run export LIBGL_ALWAYS_SOFTWARE=1, then start the program in the "
                 "same terminal. If that helps, write the line at the end of ~/.bashrc."),
+        cases=(
+            Case(r"Invalid parentWindowHandle|^wayland$|XDG_SESSION_TYPE=wayland",
+                 why=msg("RViz draws in a window of X11. Your desktop runs Wayland, and Qt has made a window of "
+                         "that."),
+                 fix=msg("Run export QT_QPA_PLATFORM=xcb, then start the program in the same terminal; or choose "
+                         "Ubuntu on Xorg when you log in. If it is the same there, try export "
+                         "LIBGL_ALWAYS_SOFTWARE=1.")),
+        ),
         seen=r"D3D12: Removing Device|libGL error: [^\n]{1,120}|Failed to create (?:an )?OpenGL context"
              r"|[Uu]nable to create (?:a suitable |the )?(?:GLXContext|rendering window|glx visual)"
              r"|Invalid parentWindowHandle|MESA(?:-LOADER)?: (?:error|failed)[^\n]{0,120}"

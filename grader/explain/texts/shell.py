@@ -37,6 +37,18 @@ KINDS = (
         values={"wanted": "humble"}, look=(looks.ros_sourced,),
     ),
     TerminalText(
+        id="lab.two_releases", link=links.ENVIRONMENT,
+        title=msg("Two releases of ROS are sourced in one terminal"),
+        why=msg("The second one comes first from then on, and programs find parts of both: a message of ROS 1 "
+                "in ROS 2, or a library of another release."),
+        fix=msg("Keep one of the lines source /opt/ros/… in ~/.bashrc, and open a new terminal: the old one "
+                "stays mixed. If you have built in it, delete the folders build, install and log of the "
+                "workspace, and build again."),
+        seen=r"ROS_DISTRO was set to '(?P<name>\w{1,20})' before\. Please make sure"
+             r"|/opt/ros/(?:noetic|melodic|kinetic)/setup[\s\S]{0,9000}?(?=has no attribute '_TYPE_SUPPORT)",
+        values={"name": "noetic"},
+    ),
+    TerminalText(
         id="lab.other_shell", link=links.ENVIRONMENT,
         title=msg("The setup file is for another shell"),
         why=msg("setup.bash is for bash. In zsh, it does not find its own folder, and looks in yours."),
@@ -136,6 +148,7 @@ KINDS = (
                 "package's name."),
         seen=r"^Package '(?P<package>[^'\n]{1,120})' not found"
              r"|[Pp]ackage '(?P<package_2>[^'\n]{1,120})' not found, searching: ",
+        unless=r"The manifest contains invalid XML",  # (then colcon builds it as any package of Python)
         look=(looks.package_built,),
     ),
     TerminalText(

@@ -227,19 +227,6 @@ def main_arguments(case: Case) -> Files | None:
     return case.changed(module, Splice(at, at, "=None"))
 
 
-def main_takes_arguments(case: Case) -> Files | None:
-    """Write args=None into main's empty parentheses."""
-    main = case.node.main if case.node else None
-    if case.node is None or main is None or ast.unparse(main.args):
-        return None
-    module = case.node.module_of(main)
-    empty = re.search(r"\(\s*\)", module.text.line(main.lineno))
-    if empty is None:
-        return None
-    start = module.text.start_of(main.lineno)
-    return case.changed(module, Splice(start + empty.start(), start + empty.end(), "(args=None)"))
-
-
 def own_init(case: Case) -> Files | None:
     """Call __init__ of the base class through super()."""
     node = case.node

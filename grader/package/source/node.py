@@ -62,11 +62,6 @@ class NodeSource:
         """All files that are read: those of the node, and what they import from the package."""
         return *self.modules, *self.beside
 
-    @cached_property
-    def classes_by_name(self) -> dict[str, ast.ClassDef]:
-        """All classes of the files that are read."""
-        return {c.name: c for module in self.known_modules for c in module.classes}
-
     def module_of(self, node: ast.AST) -> Module:
         """Return the file that a piece of syntax is in."""
         return next((m for m in (*self.modules, *self.beside) if m.has(node)), self.module)

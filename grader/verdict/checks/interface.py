@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from pydantic import Field
@@ -21,6 +22,7 @@ from grader.verdict.checks.parameters import Parameters
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
+    from grader.package.source.interface import Declared
     from grader.package.source.manifest import Manifest
     from grader.package.submission import Package
     from grader.verdict.use import Use
@@ -190,6 +192,7 @@ def fields(use: Use[Fields]) -> Passed:
             names = [one.name for one in declared.declared]
             close = "" if same else nearest(last, names) or ""
             near = same or [one for one in declared.declared if one.name == close]
+            near = near or _unasked(declared.declared, kind_, use.given.fields)
             there = f"{in_part[id(same[0])]}.{last}" if same else ", ".join(names) or "-"
             raise Failed(
                 "interface.field_missing",
@@ -197,7 +200,8 @@ def fields(use: Use[Fields]) -> Passed:
                 actual=with_difference(close, close, last) if close else there,
                 where=Where(file=file, line=near[0].line if near else None),
                 params={"field": last},
-                words={"type": kind_},
+                words={"type": kind_, "there": near[0].name if near else ""},
+                variant="other_name" if near and not same else "",
             )
         if own.type != kind_:
             raise Failed(
@@ -209,6 +213,17 @@ def fields(use: Use[Fields]) -> Passed:
                 words={"type": kind_},
             )
     return Passed()
+
+
+def _unasked(
+    declared: Sequence[Declared], kind_: str, asked: Iterable[str]
+) -> Sequence[Declared]:
+    """Return the only field of a type that nobody asks for: it has the right place and another name."""
+    known = {field.rpartition(".")[2] for field in asked}
+    found = [
+        one for one in declared if (one.type, one.constant) == (kind_, "") and one.name not in known
+    ]
+    return found if len(found) == 1 else ()
 
 
 def _package(use: Use[Parameters], name: str) -> Package:
