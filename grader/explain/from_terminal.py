@@ -34,7 +34,9 @@ ENTRIES: Mapping[str, Kind] = MappingProxyType(
 """All entries: what concerns the environment comes before what is said of a student's source."""
 OF_LAUNCH = re.compile(r"^\[[\w.+-]{1,80}-\d{1,4}\] ?")
 """What `ros2 launch` writes before each line of a process."""
-DISTRO = re.compile(r"/opt/ros/([a-z]{1,20})/")
+DISTRO = re.compile(
+    r"(?:/opt/ros/|\bROS_DISTRO=|\$\{?ROS_DISTRO\}?\n|printenv ROS_DISTRO\n)([a-z]{1,20})(?=/|\s|\Z)"
+)
 ABSENT = re.compile(
     r"/opt/ros/([a-z]{1,20})/\S{1,40}: No such file|no such file or directory: /opt/ros/([a-z]{1,20})/"
 )

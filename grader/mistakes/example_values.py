@@ -45,6 +45,10 @@ ENTRY = "my_node = my_package.my_node:main"
 COUNTER: Mapping[str, Value] = {"name": "self.counter"}
 LINE: Mapping[str, Value] = {"line": "Count: 0"}
 OF_KIND: Mapping[str, Mapping[str, Value]] = {
+    "node.callback_called": {
+        "name": "create_timer(1.0, self.on_timer())",
+        "written": "create_timer(1.0, self.on_timer)",
+    },
     "node.counter_local": {"name": "counter", "function": CALLBACK},
     "node.counter_not_increased": COUNTER,
     "node.f_prefix": {"name": "'Count: {self.counter}'", "written": "f'Count: {self.counter}'"},

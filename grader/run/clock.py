@@ -334,7 +334,8 @@ class VirtualClock:
         if not self._unasked and not self._over():
             watch.events += self._step(self._at, wait=True)
         left = self._deadline - self._run_clock.now()
-        still = self._observer.watch_still(min(left, STILL * self._output.period))
+        seconds = min(left, STILL * self._output.period)
+        still = self._observer.watch_still(seconds, decides=True)
         watch.events += still
         kinds = {event.kind for event in watch.counted}
         if any(event.kind in kinds for event in still) or (still and not watch.dues):

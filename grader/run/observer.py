@@ -315,17 +315,18 @@ class Observer:
             events += self.take(self.probe.ask("wait", seconds=min(left, 0.1)))
         return events
 
-    def watch_still(self, seconds: float) -> list[Event]:
+    def watch_still(self, seconds: float, *, decides: bool = False) -> list[Event]:
         """Do the same while ROS time stands still, when no timer of the node has lines to make.
 
-        The seconds are of the run's clock: a node that follows the wall clock has had a core.
+        The seconds are of the run's clock: a node that follows the wall clock has had a core. `decides`
+        is whether it means something that no line comes.
         """
         before, began = self.terminal.lines, time.monotonic()
         own = self.run_clock.now()
         limit, events = self.run_clock.limit(seconds, decides=False), list[Event]()
         while not self.over and not limit.over:
             events += self.take(self.probe.ask("wait", seconds=min(limit.slice, 0.1)))
-        if not events:  # (what has come needs no more time)
+        if decides and not events:  # (what has come needs no more time)
             limit.decide()
         slowed = (time.monotonic() - began) / MOST_SLOWED
         passed = max(self.run_clock.now() - own, slowed)

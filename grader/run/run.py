@@ -423,7 +423,7 @@ def _count_while_still(run: Run, observer: Observer) -> bool | None:
         return None
     run.watch.events += observer.watch_still(SETTLE_SECONDS)
     kinds = {event.kind for event in run.watch.counted}
-    still = observer.watch_still(STILL * observer.output.period)
+    still = observer.watch_still(STILL * observer.output.period, decides=True)
     run.watch.events += still
     return any(event.kind in kinds for event in still)
 

@@ -99,11 +99,12 @@ KINDS = (
     TerminalText(
         id="lab.cmake_package", link=links.INTERFACES,
         title=msg("CMake does not find a package"),
-        why=msg("{package} has to be built before the package that needs it, in this workspace or in one "
-                "that this terminal has sourced. colcon takes the order from package.xml."),
-        fix=msg("If {package} is a package of yours: write <depend>{package}</depend> in package.xml of the "
-                "package that needs it, check that colcon list shows both, and build again. If it is a "
-                "package of ROS: sudo apt-get install ros-{distro}-{debian}"),
+        why=msg("{package} is not installed in ROS, and not in a workspace that this terminal has sourced. A "
+                "package of this workspace is built before another one only if package.xml of that one names "
+                "it."),
+        fix=msg("If {package} is a package of ROS, install it: sudo apt-get install ros-{distro}-{debian}. If "
+                "it is one of yours: write <depend>{package}</depend> in package.xml of the package that needs "
+                "it, check that colcon list shows both, and build again."),
         seen=r"By not providing \"Find(?P<package>\w{1,100})\.cmake\"",
         look=(looks.package_built,),
     ),

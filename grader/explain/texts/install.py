@@ -15,11 +15,12 @@ KINDS = (
                 "old one ended in 2025."),
         fix=msg("Install the package that brings the key and renews it:\n"
                 "sudo rm -f /etc/apt/sources.list.d/ros2.list\n"
-                "V=$(curl -s https://api.github.com/repos/ros-infrastructure/ros-apt-source/releases/latest "
-                "| grep -F tag_name | cut -d'\"' -f4)\n"
-                "curl -L -o /tmp/ros2.deb https://github.com/ros-infrastructure/ros-apt-source/releases/"
-                "download/$V/ros2-apt-source_$V.$(lsb_release -cs)_all.deb\n"
-                "sudo dpkg -i /tmp/ros2.deb && sudo apt-get update"),
+                "R=ros-infrastructure/ros-apt-source\n"
+                "V=$(curl -s https://api.github.com/repos/$R/releases/latest |\n"
+                "grep -F tag_name | cut -d'\"' -f4)\n"
+                "F=ros2-apt-source_$V.$(lsb_release -cs)_all.deb\n"
+                "curl -LO https://github.com/$R/releases/download/$V/$F\n"
+                "sudo dpkg -i $F && sudo apt-get update"),  # (no line is so long that it is broken)
         seen=r"(?:EXPKEYSIG|NO_PUBKEY|KEYEXPIRED)[^\n]{0,200}"
              r"|repository '[^'\n]{0,80}ros\.org[^'\n]{0,120}' is not signed",
     ),

@@ -18,6 +18,17 @@ KINDS = (
         seen=r"/rclpy/client\.py\", line \d{1,6}, in call\n[\s\S]{0,900}?(?P<told>^KeyboardInterrupt)$",
     ),
     TerminalText(
+        id="lab.entry_without_module", link=links.PYTHON_PACKAGES,
+        title=msg("The entry in setup.py names the package, and not the file with the function"),
+        why=msg("ros2 run looks for {name} in {package}/__init__.py, because the entry in console_scripts has "
+                "no module before the colon."),
+        fix=msg("Write the name of the file, without .py, after the package in setup.py: "
+                "{package}.<file>:{name}. Then build again. The function {name} has to be in that file."),
+        seen=r"functools\.reduce\(getattr, attrs, module\)\n(?:[ ~^]{1,120}\n)?"
+             r"(?P<told>AttributeError: module '(?P<package>\w{1,80})' has no attribute '(?P<name>\w{1,80})')",
+        values={"name": "main"},
+    ),
+    TerminalText(
         id="lab.bridge_type", link=links.TOPICS,
         title=msg("The bridge to Gazebo does not know the pair of types"),
         why=msg("parameter_bridge has a fixed list of pairs: a type of ROS as package/msg/Name, and one of "

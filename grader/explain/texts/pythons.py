@@ -120,8 +120,9 @@ KINDS = (
         title=msg("pip may not change the system's Python"),
         why=msg("Ubuntu's own programs, ROS among them, need the modules of the system's Python in the "
                 "versions of apt. pip installs there no longer."),
-        fix=msg("Install the package with apt: its name begins with python3- (search: apt-cache search "
-                "python3-). If apt does not have it, make a venv that sees the modules of ROS: python3 -m "
+        fix=msg("Look for it in apt first: apt-cache search python3 | grep -i <part of the name>. apt's name "
+                "is python3- and the name that Python imports, as python3-serial for pyserial: sudo apt-get "
+                "install that. If apt does not have it, make a venv that sees the modules of ROS: python3 -m "
                 "venv --system-site-packages ~/ros2_ws/venv && touch ~/ros2_ws/venv/COLCON_IGNORE, then "
                 "source ~/ros2_ws/venv/bin/activate and use pip."),
         in_lab=msg("Make a venv that sees the modules of ROS: python3 -m venv --system-site-packages "
@@ -132,13 +133,6 @@ KINDS = (
                  fix=msg("Try apt first, whose package is often called like the module that you import: sudo "
                          "apt-get install python3-{module}. If apt does not have it, make a venv that sees the "
                          "modules of ROS: python3 -m venv --system-site-packages ~/ros2_ws/venv && touch "
-                         "~/ros2_ws/venv/COLCON_IGNORE, then source ~/ros2_ws/venv/bin/activate and use "
-                         "pip.")),
-            Case(r"pip3? install (?:-\S{1,40} ){0,4}(?!\S{1,90}\.txt)"
-                 r"(?P<name>[A-Za-z][\w.-]{0,80})(?=\s|$|[=<>~!\[])",
-                 fix=msg("Try apt first: sudo apt-get install python3-{name} (search: apt-cache search "
-                         "{name}). If apt does not have it, make a venv that sees the modules of ROS: "
-                         "python3 -m venv --system-site-packages ~/ros2_ws/venv && touch "
                          "~/ros2_ws/venv/COLCON_IGNORE, then source ~/ros2_ws/venv/bin/activate and use "
                          "pip.")),
         ),
@@ -206,7 +200,7 @@ KINDS = (
                          "that it starts; ros2 run starts a script that is installed somewhere else."),
                  fix=msg("Write the package's name before it, also in the files that {module} imports: from "
                          "{package}.{module} import …. Then build again.")),
-            Case(rf"(?:{VENV})[\s\S]*/install/",
+            Case(rf"(?:{VENV}|^\((?!base\))[\w.-]{{1,40}}\) \S+@)[\s\S]*/install/",
                  why=msg("A venv is active, but ros2 run starts the node with the Python in the first line of "
                          "the installed script: the one with which colcon was started, usually "
                          "/usr/bin/python3. It does not see what pip installed in the venv."),
