@@ -9,13 +9,13 @@ from typing import TextIO
 
 from grader.base.errors import UsageError
 from grader.base.gate import show
-from grader.base.i18n.message import Message, Value, joined, msg, say
+from grader.base.i18n.message import Message, Value, joined, msg, reworded, say
 from grader.base.i18n.translator import Translator, errors_in
 from grader.base.nearest import meant, nearest
 from grader.base.shown import shown
 from grader.base.stream import takes_styles, width_of
 from grader.course.assignment import Assignment
-from grader.explain.from_terminal import ENTRIES, Seen, seen_in
+from grader.explain.from_terminal import ENTRIES, WORKSPACE, Seen, seen_in, workspace_in
 from grader.explain.machine import Machine
 from grader.explain.rules import BY_MISTAKE, RULES, Rule
 from grader.explain.terminal_text import TerminalText
@@ -88,6 +88,8 @@ def print_recognised(text: str, *, file: TextIO, reader: Reader) -> bool:
     """Print the entries of the mistakes in a text, root causes first; return whether there are any."""
     page = _page(file, reader)
     found = seen_in(text, reader.machine)
+    place = workspace_in(text)
+    words = ((WORKSPACE, place),) if place and not reader.in_lab else ()
     if not text.strip():
         page.line(say("Nothing came through the pipe."))
         page.field(say("fix"), Message(WITH_ERRORS))
@@ -97,7 +99,7 @@ def print_recognised(text: str, *, file: TextIO, reader: Reader) -> bool:
         if number:
             page.gap()
         page.quote([shown(line) for line in seen.line.splitlines()])
-        _entry(page, seen, reader)
+        _entry(page, seen, reader, words)
     if len(found) > MOST_ROOTS:
         page.gap()
         names = ", ".join(seen.kind.id for seen in found[MOST_ROOTS:])
@@ -116,7 +118,8 @@ def print_list(*, file: TextIO, reader: Reader) -> None:
     show(str(page), file)
 
 
-def _entry(page: Page, seen: Seen, reader: Reader) -> None:
+def _entry(page: Page, seen: Seen, reader: Reader, words: tuple[tuple[str, str], ...] = ()) -> None:
+    """Add an entry to the page; `words` are the text's own names for what the entry calls otherwise."""
     kind, params = seen.kind, seen.params
     own = kind.values if isinstance(kind, TerminalText) else {}
     known = {**{n: v for n, v in reader.words(kind).items() if n not in own}, **params}
@@ -129,11 +132,11 @@ def _entry(page: Page, seen: Seen, reader: Reader) -> None:
     page.line((kind.id, "bold"), ": ", Message(kind.title))
     if seen.shown:
         page.field(say("shown"), joined(*seen.shown))
-    page.field(say("why"), why)
+    page.field(say("why"), reworded(why, words))
     absent = _absent(fix) if reader.in_lab else ""
     if seen.here and not absent:
         page.field(say("here"), joined(*seen.here))
-    page.field(say("fix"), fix, "bold")
+    page.field(say("fix"), reworded(fix, words), "bold")
     if absent:
         note = say(
             "This is for the computer that printed the text. The lab has no {names}.", names=absent

@@ -43,6 +43,15 @@ ABSENT = re.compile(
 """What shows that the ROS of a path is not there."""
 
 
+WORKSPACE = "~/ros2_ws"
+"""How the texts call the workspace."""
+IN_WORKSPACE = re.compile(
+    r"(?:~|/home/[\w.-]{1,40}|/root)/([\w.-]{1,60}(?:/[\w.-]{1,60}){0,2}?)/(?:install|build|src)\b"
+    r"|:~/([\w.-]{0,50}ws)(?=[/$ ])"
+)
+"""A path below a workspace, or a prompt in one."""
+
+
 @dataclass(frozen=True)
 class Seen:
     """A mistake that a text shows, the line that shows it, and what else the text shows of it."""
@@ -82,6 +91,12 @@ def seen_in(text: str, machine: Machine | None = None) -> list[Seen]:
             if not any(_same(seen, other) for other in found):
                 found.append(seen)
     return found
+
+
+def workspace_in(text: str) -> str:
+    """Return the only workspace that a text names, from the home folder on; "" if it is not clear."""
+    found = {first or second for first, second in IN_WORKSPACE.findall(text[-MOST:])}
+    return f"~/{found.pop()}" if len(found) == 1 else ""
 
 
 def _same(seen: Seen, other: Seen) -> bool:

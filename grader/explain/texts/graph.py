@@ -92,6 +92,13 @@ KINDS = (
         in_lab=msg("Start the node in another terminal of the same lab: make lab again, with the same "
                    "workspace. Then ros2 daemon stop, and list again."),
         cases=(
+            Case(r"\bROS_DOMAIN_ID=(?P<number>[1-9]\d{0,2})\b",
+                 why=msg("ROS_DOMAIN_ID is {number} in one place of this text. Nodes find each other only in the "
+                         "same domain; where it is not set, the domain is 0."),
+                 fix=msg("Run echo $ROS_DOMAIN_ID in both terminals. Where {number} does not come: export "
+                         "ROS_DOMAIN_ID={number}, then ros2 daemon stop, and start the nodes there again. (A line "
+                         "in ~/.bashrc is for new terminals only.) If it is the same in both, test the network: "
+                         "ros2 multicast receive on one, ros2 multicast send on the other.")),
             Case(r"\b10\.0\.2\.15\b",
                  why=msg("10.0.2.15 is the address of a virtual machine behind NAT. It reaches others (ping), "
                          "and they do not reach it; so nodes do not find each other."),
@@ -99,6 +106,7 @@ KINDS = (
                          "machine again: ip address must show an address like that of the other computer. "
                          "Then ros2 daemon stop, and list again.")),
         ),
+        values={"number": "30"},
         seen=r"ros2 topic list[^\n]{0,20}\n/parameter_events\n/rosout\n?(?=\Z|[^\n/]{0,80}[$#%>])",
         look=(looks.graph_settings,),
     ),

@@ -215,9 +215,7 @@ def fields(use: Use[Fields]) -> Passed:
     return Passed()
 
 
-def _unasked(
-    declared: Sequence[Declared], kind_: str, asked: Iterable[str]
-) -> Sequence[Declared]:
+def _unasked(declared: Sequence[Declared], kind_: str, asked: Iterable[str]) -> Sequence[Declared]:
     """Return the only field of a type that nobody asks for: it has the right place and another name."""
     known = {field.rpartition(".")[2] for field in asked}
     found = [
