@@ -126,7 +126,7 @@ def test_a_limit_that_decides_nothing_leaves_no_doubt(monkeypatch: pytest.Monkey
     looks = Looks(monkeypatch)
     clock = RunClock(lambda: ())
     limit = clock.limit(0.03, decides=False)
-    looks.after(1.0, busy=2.0, ran=0.0, waited=1.0)
+    looks.after(2.0, busy=4.0, ran=0.0, waited=2.0)
     assert limit.over
     assert limit.name == "load"
     assert not clock.starved

@@ -178,6 +178,10 @@ class Scene:
             self._look()
             self._look_at_programs(last=True)
         run.ended_by_itself = self.terminals[0].ended
+        if run.ended_by_itself and len(self.terminals) == 1:
+            # whether a request of its last moment still arrives is chance: it leaves meanwhile
+            last = round(self.at / SECOND, 6)
+            self.seen.events = [e for e in self.seen.events if e["at"] < last or e["kind"] == "bump"]
         run.flooded, run.logged = self.observer.flooded, self.observer.logged
         run.doubled = self.observer.doubled
         run.started = watch.settled or bool(run.nodes and not run.ended_by_itself)

@@ -4,7 +4,7 @@ No wall-clock limit decides a point. On a busy machine everything takes longer, 
 may only have had no core. So every limit on a build, a run or a part of it is measured by a
 `RunClock`: what it ends has been given that much time in which no process of the run waited for a
 core, whatever the load. On a machine that is so busy that there is hardly any such time, the clock
-goes on at a twentieth of the wall clock nevertheless, so that everything comes to an end; a limit
+goes on at a fortieth of the wall clock nevertheless, so that everything comes to an end; a limit
 that is reached in that way is no evidence (`RunClock.starved`).
 
 A program that keeps every core busy makes the others wait, and that time is its own: waiting counts
@@ -25,7 +25,7 @@ from dataclasses import dataclass
 from grader.base.errors import SurroundingsError
 
 SECOND = 1_000_000_000
-STRETCH = 20.0
+STRETCH = 40.0
 """How many times its limit of wall time something may take at most, on however busy a machine."""
 SAMPLE_SECONDS = 0.02  # of wall time between two looks at the processes
 LOOKS_COST = 20  # times its own duration until the next look, so that it takes 5 % of a core
