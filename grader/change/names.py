@@ -71,22 +71,27 @@ def remembered(site: Site) -> Iterator[Made]:
     """Yield an attribute in place of a local name that is set to a constant first, and changed later."""
     init, text = site.methods.get("__init__"), site.module.text
     for function in site.methods.values() if init is not None else ():
-        names = [n for n in ast.walk(function) if isinstance(n, ast.Name)]
-        for first in function.body:
-            target = first.targets[0] if isinstance(first, ast.Assign) else None
-            if init in (None, function) or not isinstance(target, ast.Name):
-                continue
-            assert init is not None and isinstance(first, ast.Assign)
-            name, later = target.id, [n for n in names if n.id == target.id and n is not target]
-            is_state = {type(n.ctx) for n in later} == {ast.Load, ast.Store}
-            if not is_state or not isinstance(first.value, ast.Constant) or name in site.attributes:
-                continue
-            if owns_lines(site.module, first):
-                row = f"self.{name} = {site.code(first.value)}"
+        for first, uses in _states(function) if function is not init else ():
+            target = first.targets[0]
+            assert init is not None and isinstance(target, ast.Name)
+            if target.id not in site.attributes and owns_lines(site.module, first):
+                row = f"self.{target.id} = {site.code(first.value)}"
                 last = init.body[-1]
                 put = text.before((last.end_lineno or 0) + 1, site.indent(last) + row)
-                uses = (text.swap(use, f"self.{name}") for use in later)
-                yield Made(first, site.code(first), row, (text.without(first.lineno), put, *uses))
+                now = (text.swap(use, f"self.{target.id}") for use in uses)
+                yield Made(first, site.code(first), row, (text.without(first.lineno), put, *now))
+
+
+def _states(function: Function) -> Iterator[tuple[ast.Assign, list[ast.Name]]]:
+    """Yield what sets a local name to a constant at first, and the later places that read and set it."""
+    names = [n for n in ast.walk(function) if isinstance(n, ast.Name)]
+    for first in function.body:
+        target = first.targets[0] if isinstance(first, ast.Assign) else None
+        if isinstance(first, ast.Assign) and isinstance(target, ast.Name):
+            later = [n for n in names if n.id == target.id and n is not target]
+            is_state = {type(n.ctx) for n in later} == {ast.Load, ast.Store}
+            if is_state and isinstance(first.value, ast.Constant):
+                yield first, later
 
 
 @operator(

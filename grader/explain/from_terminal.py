@@ -72,8 +72,7 @@ def seen_in(text: str, machine: Machine | None = None) -> list[Seen]:
     """
     lines = (OF_LAUNCH.sub("", line[:LONGEST]) for line in text[-MOST:].splitlines())
     text = "\n".join(lines)
-    distros = set(DISTRO.findall(text)) - {name for one in ABSENT.findall(text) for name in one}
-    common = {"distro": distros.pop()} if len(distros) == 1 else {}
+    common = _distro_in(text)
     taken: list[tuple[int, int]] = []
     found: list[Seen] = []
     for kind in ENTRIES.values():
@@ -91,6 +90,12 @@ def seen_in(text: str, machine: Machine | None = None) -> list[Seen]:
             if not any(_same(seen, other) for other in found):
                 found.append(seen)
     return found
+
+
+def _distro_in(text: str) -> dict[str, str]:
+    """Return the only ROS that is named and there, as a value of the texts."""
+    distros = set(DISTRO.findall(text)) - {name for one in ABSENT.findall(text) for name in one}
+    return {"distro": distros.pop()} if len(distros) == 1 else {}
 
 
 def workspace_in(text: str) -> str:

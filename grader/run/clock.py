@@ -20,14 +20,12 @@ from grader.base.i18n.message import say
 from grader.course.assignment import Output
 from grader.run.observer import SECOND, Event, Observer, Watch, recurring
 from grader.run.probe_link import Answer
-from grader.sandbox.scheduling import seconds_waited
+from grader.sandbox.scheduling import Limit, seconds_waited
 
 MILLISECOND = 1_000_000
 BARRIER_SECONDS = 2.0  # of the run's time, for one barrier
 SETTLE_SECONDS = 2.5  # of the run's time, within which a spinning node gives its first answer
-OTHERS_SECONDS = (
-    1.0  # of the run's time, for the first answers of the other nodes, after one has answered
-)
+OTHERS_SECONDS = 1.0  # of the run's time, for the other nodes' first answers, after one has come
 QUIET_SECONDS = 0.03  # of the run's time, in which a node without services logs what was due
 UNASKED_SECONDS = 2.0  # the same until a tick is missing
 OTHER_LINE = 0.75  # of these that are left when a node has logged another line, and no more comes
@@ -225,13 +223,16 @@ class VirtualClock:
             if any(event.n is not None for event in found):
                 break
             other = bool(found) and not counts
-            enough = TRIES / 4 if other else TRIES  # (another line came; the tick may follow)
-            proven = other and (not self._unasked or limit.left < OTHER_LINE * seconds)
-            if attempt >= enough and (proven or limit.over):
-                break
-            if self._over():
+            if self._is_missing(attempt, limit, other=other) or self._over():
                 break
         return found
+
+    def _is_missing(self, attempt: int, limit: Limit, *, other: bool) -> bool:
+        """Whether a tick is not there after so many barriers; after an `other` line it may follow."""
+        if attempt < (TRIES / 4 if other else TRIES):
+            return False
+        proven = not self._unasked or limit.left < OTHER_LINE * UNASKED_SECONDS
+        return (other and proven) or limit.over
 
     def _find_period(self, watch: Watch, on_event: Callable[[Event], None]) -> None:
         """Measure the period in small steps; if it is right, check the phase to 1 ms."""

@@ -179,12 +179,18 @@ class Scene:
             self._look_at_programs(last=True)
         run.ended_by_itself = self.terminals[0].ended
         if run.ended_by_itself and len(self.terminals) == 1:
-            # whether a request of its last moment still arrives is chance: it leaves meanwhile
-            last = round(self.at / SECOND, 6)
-            self.seen.events = [e for e in self.seen.events if e["at"] < last or e["kind"] == "bump"]
+            self._forget_last_requests()
         run.flooded, run.logged = self.observer.flooded, self.observer.logged
         run.doubled = self.observer.doubled
         run.started = watch.settled or bool(run.nodes and not run.ended_by_itself)
+
+    def _forget_last_requests(self) -> None:
+        """Leave out what a program that has ended asked of the world at last.
+
+        Whether such a request still arrives is chance: the program leaves the network meanwhile.
+        """
+        last, events = round(self.at / SECOND, 6), self.seen.events
+        self.seen.events = [e for e in events if e["at"] < last or e["kind"] == "bump"]
 
     def _look_at_programs(self, *, last: bool = False) -> None:
         """Note what runs besides the files of the entry points, once each program has its node."""

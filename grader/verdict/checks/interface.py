@@ -189,20 +189,8 @@ def fields(use: Use[Fields]) -> Passed:
         in_part = {id(one): parts[bisect(ends, one.line)] for one in same} if part else {}
         own = next((one for one in same if in_part.get(id(one), "") == part), None)
         if own is None:
-            names = [one.name for one in declared.declared]
-            close = "" if same else nearest(last, names) or ""
-            near = same or [one for one in declared.declared if one.name == close]
-            near = near or _unasked(declared.declared, kind_, use.given.fields)
-            there = f"{in_part[id(same[0])]}.{last}" if same else ", ".join(names) or "-"
-            raise Failed(
-                "interface.field_missing",
-                expected=f"{kind_} {field}",
-                actual=with_difference(close, close, last) if close else there,
-                where=Where(file=file, line=near[0].line if near else None),
-                params={"field": last},
-                words={"type": kind_, "there": near[0].name if near else ""},
-                variant="other_name" if near and not same else "",
-            )
+            there = f"{in_part[id(same[0])]}.{last}" if same else ""
+            raise _field_missing(use, declared.declared, field, there, same, file)
         if own.type != kind_:
             raise Failed(
                 "interface.field_type",
@@ -213,6 +201,32 @@ def fields(use: Use[Fields]) -> Passed:
                 words={"type": kind_},
             )
     return Passed()
+
+
+def _field_missing(
+    use: Use[Fields],
+    declared: Sequence[Declared],
+    field: str,
+    there: str,
+    same: Sequence[Declared],
+    file: str,
+) -> Failed:
+    """Return that a field is missing: `there` is what has its name in another part, if anything has."""
+    last, kind_ = field.rpartition(".")[2], use.given.fields[field]
+    names = [one.name for one in declared]
+    close = "" if same else nearest(last, names) or ""
+    alike = [one for one in declared if one.name == close]
+    near = same or alike or _unasked(declared, kind_, use.given.fields)
+    there = there or ", ".join(names) or "-"
+    return Failed(
+        "interface.field_missing",
+        expected=f"{kind_} {field}",
+        actual=with_difference(close, close, last) if close else there,
+        where=Where(file=file, line=near[0].line if near else None),
+        params={"field": last},
+        words={"type": kind_, "there": near[0].name if near else ""},
+        variant="other_name" if near and not same else "",
+    )
 
 
 def _unasked(declared: Sequence[Declared], kind_: str, asked: Iterable[str]) -> Sequence[Declared]:
