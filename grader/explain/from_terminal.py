@@ -35,7 +35,7 @@ ENTRIES: Mapping[str, Kind] = MappingProxyType(
 OF_LAUNCH = re.compile(r"^\[[\w.+-]{1,80}-\d{1,4}\] ?")
 """What `ros2 launch` writes before each line of a process."""
 DISTRO = re.compile(
-    r"(?:/opt/ros/|\bROS_DISTRO=|\$\{?ROS_DISTRO\}?\n|printenv ROS_DISTRO\n)([a-z]{1,20})(?=/|\s|\Z)"
+    r"(?:/opt/ros/|\bROS_DISTRO=|\$\{?ROS_DISTRO\}?\n|printenv ROS_DISTRO\n)([a-z]{1,20})(?![\w.-])"
 )
 ABSENT = re.compile(
     r"/opt/ros/([a-z]{1,20})/\S{1,40}: No such file|no such file or directory: /opt/ros/([a-z]{1,20})/"

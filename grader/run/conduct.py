@@ -134,6 +134,7 @@ class Scene:
         self.grid = 0  # ns, the steps of the clock between two instants; 0 for none
         self.at = 0  # ns
         self._unanswered = 0
+        self._proven = 0  # events of the world until the last answer of all nodes
         self._dying_left = DYING_SECONDS
         self._names = {begin.node: full_name(assignment, begin) for begin in plan.start}
         self._unknown: set[str] = set()  # topics with messages of publishers that are not known
@@ -185,12 +186,12 @@ class Scene:
         run.started = watch.settled or bool(run.nodes and not run.ended_by_itself)
 
     def _forget_last_requests(self) -> None:
-        """Leave out what a program that has ended asked of the world at last.
+        """Leave out what a program that has ended asked of the world after its last answer.
 
         Whether such a request still arrives is chance: the program leaves the network meanwhile.
         """
-        last, events = round(self.at / SECOND, 6), self.seen.events
-        self.seen.events = [e for e in events if e["at"] < last or e["kind"] == "bump"]
+        last = self.seen.events[self._proven :]
+        self.seen.events[self._proven :] = [event for event in last if event["kind"] == "bump"]
 
     def _look_at_programs(self, *, last: bool = False) -> None:
         """Note what runs besides the files of the entry points, once each program has its node."""
@@ -297,6 +298,8 @@ class Scene:
         while said["barrier"] is False and not limit.over and not self.over:
             said = self.probe.said("tick", seconds=limit.rest, **asked)
             self._record(said)
+        if said["barrier"]:
+            self._proven = len(self.seen.events)
         silent = said["barrier"] is False
         self._unanswered = self._unanswered + 1 if silent else 0
         if said["barrier"] is None:

@@ -172,7 +172,7 @@ KINDS = (
                 "in a line of its own. Name the package in package.xml too (<depend>). If the list does not "
                 "have it, compare the spelling."),
         facts=(packages_with,),
-        seen=r"cannot import name '(?P<name>[A-Z]\w{1,80})' from '(?P<package>\w{1,80})\.(?:msg|srv|action)'",
+        seen=r"cannot import name '(?P<name>[A-Z]\w{1,80})' from '(?P<package>\w{1,80})\.(?:msg|srv|action)' \(/opt/ros/",
         values={"package": "geometry_msgs", "name": "LaserScan"},
     ),
     TerminalText(
