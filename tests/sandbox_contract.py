@@ -217,7 +217,7 @@ DOTS = "trap '' INT; while :; do printf .; sleep 0.01; done"
 
 def test_output_without_a_line_end_extends_no_wait(sandbox: Sandbox) -> None:
     opened = terminal(sandbox, DOTS, most=400)  # (for four seconds)
-    while "." not in opened.transcript:
+    while "." * 20 not in opened.transcript:
         assert opened.read(0.2) == []
     begin = time.monotonic()
     assert opened.read(0.3) == []

@@ -46,8 +46,8 @@ COUNTER: Mapping[str, Value] = {"name": "self.counter"}
 LINE: Mapping[str, Value] = {"line": "Count: 0"}
 OF_KIND: Mapping[str, Mapping[str, Value]] = {
     "node.callback_called": {
-        "name": "create_timer(1.0, self.on_timer())",
-        "written": "create_timer(1.0, self.on_timer)",
+        "name": f"create_timer(0.5, self.{CALLBACK}())",
+        "written": f"create_timer(0.5, self.{CALLBACK})",
     },
     "node.counter_local": {"name": "counter", "function": CALLBACK},
     "node.counter_not_increased": COUNTER,
