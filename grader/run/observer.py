@@ -20,8 +20,6 @@ NUMBER = re.compile(r"\d+")
 BELOW_RCLPY = re.compile(r"(?:rcl|rcutils|rmw)(?:[._][\w.]{0,80})?")  # names of their loggers
 FLOOD = 200  # lines per second of the run's time, above which a program does not wait between them
 MOST_SLOWED = 8  # times as many lines as it has had wall time for may be due to a busy machine
-SLOW_PACE = 4.0
-"""From which pace of the run's clock on a machine is so busy that records may be late at any time."""
 COMPARED = 1_000  # characters of a log line and its record; both are cut later than that
 PREFIX = 60  # bytes, about, that a log line on the terminal has in front of its text
 
@@ -291,7 +289,7 @@ class Observer:
             return now - came > LATE_GRACE
         if came < self._linked:
             return now - self._linked > LATE_GRACE
-        return now - came > (GRACE if self.run_clock.pace < SLOW_PACE else LATE_GRACE)
+        return now - came > GRACE
 
     def catch_up(self, records: Sequence[LogRecord]) -> list[Event]:
         """Wait for the records' lines on the terminal; return the events that come with them.
