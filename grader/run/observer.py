@@ -158,7 +158,7 @@ def number_reader(output: Output) -> Callable[[str], int | None]:
 class _Unmatched:
     """A line that looks like a log record, which has not come yet.
 
-    `came` is when it was read by the run's clock, `virtual` in ROS time; `lacks` is whether it may
+    `came` is when it was read (`RunClock.fair`), `virtual` in ROS time; `lacks` is whether it may
     have none although it was logged: DDS loses what is sent while two are getting to know one
     another, and the publisher of a program that ends may be gone before.
     """
@@ -224,13 +224,13 @@ class Observer:
     def linked(self, nodes: Sequence[NodeSeen]) -> None:
         """Note when the probe first saw a node's /rosout publisher: older records come late."""
         if self._linked is None and any(node.rosout for node in nodes):
-            self._linked = self.run_clock.now()
+            self._linked = self.run_clock.fair
 
     def take(self, answer: Answer | None = None, *, seconds: float = 0) -> list[Event]:
         """Return the new events of a probe answer and of the terminal, in order."""
         events = [self._of_record(record) for record in (answer.logs if answer else ())]
         self._doubled.update(answer.doubled if answer else ())
-        now = self.run_clock.now()
+        now = self.run_clock.fair
         came = [*self.terminal.read(seconds), *(line for one in self.others for line in one.read())]
         for line in came:
             for part in line.parts():
@@ -284,7 +284,7 @@ class Observer:
 
     def _is_overdue(self, came: float) -> bool:
         """Whether the log record of a line that came then should have come by now."""
-        now = self.run_clock.now()
+        now = self.run_clock.fair
         if self._linked is None:
             return now - came > LATE_GRACE
         if came < self._linked:

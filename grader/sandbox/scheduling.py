@@ -118,6 +118,11 @@ class RunClock:
             self._next = time.monotonic() + max(SAMPLE_SECONDS, LOOKS_COST * cost)
         return self._now
 
+    @property
+    def fair(self) -> float:
+        """The time without what it went on by force: what is late by this one is late by itself."""
+        return self.now() - self.forced
+
     def _starved(self, before: _Look, after: _Look) -> float:
         """Return the seconds since a look in which a process waited for a core of others, at most.
 
