@@ -125,11 +125,13 @@ def test_a_limit_on_a_busy_machine_comes_to_an_end_that_proves_nothing(
 def test_a_limit_that_decides_nothing_leaves_no_doubt(monkeypatch: pytest.MonkeyPatch) -> None:
     looks = Looks(monkeypatch)
     clock = RunClock(lambda: ())
+    before = clock.fair
     limit = clock.limit(0.03, decides=False)
     looks.after(2.0, busy=4.0, ran=0.0, waited=2.0)
     assert limit.over
     assert limit.name == "load"
     assert not clock.starved
+    assert clock.fair == pytest.approx(before, abs=0.01)
 
 
 def test_a_limit_on_a_machine_with_free_cores_is_evidence(

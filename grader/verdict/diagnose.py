@@ -25,7 +25,7 @@ from grader.verdict.checks.faults import calls_to, raised_in, raised_inside
 from grader.verdict.checks.not_python import unreadable_module
 from grader.verdict.checks.parsed import data_of, file_of, has_subpackages, line_at, names_in
 from grader.verdict.circular import circular_import
-from grader.verdict.follows import followed
+from grader.verdict.follows import follow_text, followed
 from grader.verdict.node_files import source_around, source_of_node
 from grader.verdict.node_words import words_for
 from grader.verdict.outcome import Failed
@@ -172,7 +172,7 @@ def _not_spun(symptom: str, evidence: Evidence) -> str:
 def _left_to(diagnosis: Diagnosis, cause: str) -> Diagnosis:
     """Leave reason and fix to a check."""
     diagnosis.consequence_of, diagnosis.rationale = cause, ""
-    diagnosis.fix = say("This follows from {check}. Fix {check} first.", check=cause)
+    diagnosis.fix = follow_text(cause)
     return diagnosis
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from grader.base.i18n.message import say
+from grader.base.i18n.message import Message, say
 from grader.base.i18n.translator import Translator
+from grader.package.edit.diff import digest_of
 from grader.report.model import CheckResult, Where
 from grader.verdict.checks.all import STATIC
 
@@ -42,6 +42,11 @@ The text before them is in that advice in every language; "" is in any.
 """
 
 
+def follow_text(cause: str) -> Message:
+    """Return what to do about a failure whose cause another check tells."""
+    return say("This follows from {check}. Fix {check} first.", check=cause)
+
+
 def without_repeated(results: Sequence[CheckResult], evidence: Evidence) -> list[CheckResult]:
     """Return the results without the advice that a failed check replaces."""
     found = {one.id for result in results if result.status == "failed" for one in result.mistakes}
@@ -62,10 +67,10 @@ def with_same_cause(
     """
     found = list(results)
     for told in results:
-        fixed = evidence.tried.get(hashlib.sha256(told.patch.encode()).hexdigest())
+        fixed = evidence.tried.get(digest_of(told.patch.encode()))
         if fixed is None or told.status != "failed" or told.id in STATIC:
             continue
-        follows = translate(say("This follows from {check}. Fix {check} first.", check=told.id))
+        follows = translate(follow_text(told.id))
         update = {"consequence_of": told.id, "rationale": "", "patch": "", "fix": follows}
         for n, one in enumerate(found):
             after = fixed.results.get(one.id)

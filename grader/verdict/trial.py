@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,7 +11,7 @@ from grader.base.i18n.message import Message, joined
 from grader.base.i18n.translator import Translator
 from grader.base.shown import shown
 from grader.mistakes.catalogue import CATALOGUE
-from grader.package.edit.diff import diff
+from grader.package.edit.diff import diff, digest_of
 from grader.package.edit.files import Files
 from grader.report.model import CheckResult, Mistake
 from grader.verdict.checks.parsed import line_at
@@ -127,7 +126,7 @@ class Trial:
 
     def passes_with(self, new: Files) -> bool:
         """Whether the check passed with files that were tried already."""
-        digest = hashlib.sha256(diff(self._old, new)).hexdigest()
+        digest = digest_of(diff(self._old, new))
         fixed = self._evidence.tried.get(digest)
         return fixed is not None and fixed.results[self._before.id].status == "passed"
 
@@ -167,7 +166,7 @@ class Trial:
     def _fixed(self, new: Files) -> Evidence | None:
         """Return the judged evidence of the package with a fix; None if it cannot be tried."""
         tried = self._evidence.tried
-        digest = hashlib.sha256(diff(self._old, new)).hexdigest()
+        digest = digest_of(diff(self._old, new))
         if digest not in tried:
             if self._evidence.with_fix is None or len(tried) >= MOST_TRIED:
                 return None

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import difflib
+import hashlib
 from collections.abc import Iterator
 
 from grader.package.edit.files import Files
@@ -16,6 +17,11 @@ MOST_COMPARED = 400
 """If more lines differ, all are shown as replaced: the cost of comparing is quadratic."""
 NO_END = b"\\ No newline at end of file\n"
 Opcode = tuple[bool, int, int, int, int]  # equal; start, end in old; start, end in new
+
+
+def digest_of(patch: bytes) -> str:
+    """Return by what a change is known that was tried: the SHA-256 of its diff."""
+    return hashlib.sha256(patch).hexdigest()
 
 
 def diff(old: Files, new: Files) -> bytes:
