@@ -14,6 +14,7 @@ import contextlib
 import os
 import signal
 from collections.abc import Callable
+from pathlib import Path
 
 from lab.window.keeper import Shell, set_size
 from lab.window.shells import Shells
@@ -25,6 +26,7 @@ MOST_TERMINALS = 12
 SMALLEST, LARGEST = 2, 1000  # rows and columns
 NONE = -1  # no descriptor
 END_SECONDS = 2.0
+HANG_UP_SECONDS = 0.05
 RESET = b"\x1bc"  # the terminal's own reset: what follows does not depend on what was before
 
 
@@ -171,24 +173,30 @@ class Terminal:
             set_size(self._fd, *_allowed(rows, columns))
 
     async def end(self) -> None:
-        """Hang up; who does not end then is killed, and the terminal is closed on it."""
+        """Hang up; who does not end then is killed, and the terminal is closed on it.
+
+        Readline looks for a signal and then waits for a key: a signal between the two is kept until
+        the next one, so the shell is hung up more than once. At another moment the first signal
+        ends it at once, and it does not hang up its jobs.
+        """
         if self._shell is None or self._fd == NONE:
             self._on_end()
             return
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(self._shell.pid, signal.SIGHUP)
-            os.killpg(self._shell.pid, signal.SIGCONT)
         with contextlib.suppress(asyncio.TimeoutError):
-            await asyncio.wait_for(self._gone(), END_SECONDS)
+            await asyncio.wait_for(self._hang_up(self._shell.pid), END_SECONDS)
             return
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(self._shell.pid, signal.SIGKILL)
+        for pid in _session(self._shell.pid):
+            _signal(pid, signal.SIGHUP, os.kill)
+            _signal(pid, signal.SIGCONT, os.kill)
+        _signal(self._shell.pid, signal.SIGKILL)
         if self._fd != NONE:
             self._close()
 
-    async def _gone(self) -> None:
+    async def _hang_up(self, group: int) -> None:
         while self._fd != NONE:
-            await asyncio.sleep(0.02)
+            _signal(group, signal.SIGHUP)
+            _signal(group, signal.SIGCONT)
+            await asyncio.sleep(HANG_UP_SECONDS)
 
     def _write(self) -> None:
         if self._fd == NONE:
@@ -227,6 +235,21 @@ class Terminal:
         for viewer in list(self.viewers):
             viewer.ended()
         self._on_end()
+
+
+def _signal(to: int, number: int, kill: Callable[[int, int], None] = os.killpg) -> None:
+    with contextlib.suppress(ProcessLookupError):
+        kill(to, number)
+
+
+def _session(leader: int) -> list[int]:
+    """Return the processes that a shell has started, which are still in its session."""
+    found = []
+    for entry in Path("/proc").iterdir():
+        with contextlib.suppress(ValueError, ProcessLookupError):
+            if os.getsid(int(entry.name)) == leader:
+                found.append(int(entry.name))
+    return found
 
 
 def _allowed(rows: int, columns: int) -> tuple[int, int]:
