@@ -10,8 +10,10 @@ from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.base.i18n.translator import OWN, SOURCE
 from grader.base.shown import shown
+from grader.course.find import GONE_ON
 from grader.ros.distro import Distro
 from grader.sandbox.base import HOME, PATH
+from lab.guide.progress import FOLDER, LESSON_FILE
 from lab.lesson import OpenedLesson
 from lab.limits import LabLimits
 from lab.workspace import Student, Workspace
@@ -89,6 +91,7 @@ class LabConfig:
             "LAB_HOME_KEPT": "1",
             OWN: self.lang,
             **self.lesson.environment,
+            **({GONE_ON: f"{WORKSPACE}/{FOLDER}/{LESSON_FILE}"} if self.lesson.chosen else {}),
         }
 
 

@@ -20,12 +20,15 @@ INSIDE = "/opt/ros2_teaching_lab/course"
 class OpenedLesson:
     """A lesson: its assignment's `file` on this machine; `own` if it belongs to our own course.
 
+    It was `chosen` if nobody has named it: then the student may go on with the next one in this lab.
+
     The lab always contains our own course. Of another course, only this lesson's folder is mounted,
     read-only.
     """
 
     file: Path
     own: bool
+    chosen: bool = False
 
     @property
     def folder(self) -> Path | None:
@@ -76,4 +79,4 @@ def chosen_lesson(assignment: str | None, workspace: Path | None = None) -> Open
             remedy=say("Put it into a folder that contains only the lesson."),
         )
     own = file.name == FILE and file.parent.parent == own_course().resolve()
-    return OpenedLesson(file, own)
+    return OpenedLesson(file, own, chosen=own and unfinished is not None)

@@ -7,11 +7,13 @@ below it the address of a page of the documentation.
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from grader.base.errors import GraderError
-from grader.course.find import lessons_of
+from grader.base.i18n.message import Message, joined, say
+from grader.course.find import GONE_ON, lessons_of
 from grader.course.folder import course_folder
 from grader.ros.distro import distros
 
@@ -32,6 +34,26 @@ class After:
     documentation: str = ""
     id: str = ""
     title: str = ""
+
+    def in_lab(self, environment: Mapping[str, str]) -> str:
+        """Return how a student in a lab gets to the next lesson; "" if this is the last one."""
+        if self.goes_on(environment):
+            title = self.title or self.id
+            return say("lab next goes on with the next lesson: {title}.", title=title)
+        return "" if environment.get(GONE_ON) else say("The next lesson: exit, then make lab.")
+
+    def goes_on(self, environment: Mapping[str, str]) -> bool:
+        """Whether there is a next lesson, and `lab next` goes on with it."""
+        return bool(self.id and environment.get(GONE_ON))
+
+
+def hand_in(following: str, archive: str = "") -> Message:
+    """Return what is left when a lesson is done: to hand in, and to go on (`After.in_lab`)."""
+    if archive:
+        return joined(
+            say("The archive to hand in: {file}.", file=f"~/ros2_ws/{archive}"), following
+        )
+    return joined(say("lab submit makes the archive to hand in."), following)
 
 
 def after_lesson(assignment: str, *, lang: str, distro: str) -> After:

@@ -6,6 +6,7 @@ them gives the order of the lessons, of which the first is the default.
 
 from __future__ import annotations
 
+import contextlib
 import os
 from pathlib import Path
 from typing import Literal
@@ -21,6 +22,8 @@ from grader.base.yaml_model import validated
 from grader.course.folder import COURSE, course_folder, own_course
 
 LESSON = "GRADER_ASSIGNMENT"  # the lesson to use; the lab sets it for its programs
+GONE_ON = "LAB_LESSON_FILE"
+"""The lab's variable with the path of a file: the lesson of the lab, and the one after `lab next`."""
 FILE = "assignment.yaml"
 ORDER = "course.yaml"
 KEYS = PACKAGE / "keys"
@@ -66,6 +69,16 @@ def is_file(path: Path) -> bool:
     return os.path.isfile(path)  # noqa: PTH113 - Path.is_file raises PermissionError
 
 
+def selected() -> str:
+    """Return the lesson that the environment names, or the one that the student has gone on to."""
+    opened, file = os.environ.get(LESSON, ""), os.environ.get(GONE_ON)
+    if file:
+        with contextlib.suppress(OSError, UnicodeDecodeError):
+            before, _, now = Path(file).read_text(encoding="utf-8").strip().partition(" ")
+            return now if before == opened and now else opened
+    return opened
+
+
 def chosen(assignment: str | None) -> str:
     """Return the assignment to use, an id or a file's path.
 
@@ -73,7 +86,7 @@ def chosen(assignment: str | None) -> str:
     else the course's only lesson. Raises UsageError, with a list of the lessons, if the course has
     none, or several and no course.yaml.
     """
-    named = assignment or os.environ.get(LESSON)
+    named = assignment or selected()
     if named:
         return named
     course = course_folder()

@@ -28,6 +28,7 @@ COMMANDS = {
         "lab.commands.file:file", msg("Print the path of the node's file."), hidden=True
     ),
     "hint": LazyCommand("lab.commands.hint:hint", msg("Say more about the current step.")),
+    "next": LazyCommand("lab.commands.next:next_", msg("Go on with the next lesson.")),
     "notice": LazyCommand(
         "lab.commands.notice:notice", msg("Say which step has just been done, if any."), hidden=True
     ),

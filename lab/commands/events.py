@@ -13,18 +13,20 @@ import tty
 from collections.abc import Collection, Iterator
 from pathlib import Path
 
+from lab.guide.progress import FILE, FOLDER, LESSON_FILE
+
 IGNORED = {"build", "log", "__pycache__", ".git", ".vscode"}
 DEBOUNCE = 100  # ms in which further changes belong to the same event
 STEP = 50  # ms without a change that end an event
 FIRST = 100  # ms after which the watch says that it runs: what changed before is looked at then
 CHANGED = 0  # no signal has this number
-KEPT = ("terminal", "progress.json")  # of the folder .lab
+KEPT = ("terminal", FILE, LESSON_FILE)  # of the folder .lab
 
 
 def counts(path: Path, workspace: Path, kept: Collection[str] = KEPT) -> bool:
     """Whether the guide looks again when this file changes; `kept` are those of the folder .lab."""
     parts = path.relative_to(workspace).parts
-    if parts[:1] == (".lab",):
+    if parts[:1] == (FOLDER,):
         return parts[-1] in kept and len(parts) == 2
     return not IGNORED.intersection(parts)
 

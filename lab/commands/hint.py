@@ -33,7 +33,7 @@ def hint(lang: str | None) -> None:
         lab = opened_lab(lang)
         console = console_for(sys.stdout)
         task = lab.task(os.environ, look=True)
-        show_next(console, task.action, lab.translate, archive=task.archive, more=False)
+        show_next(console, task, lab.translate, more=False)
         for line in next_hint(lab, task):
             show_line(console, line)
 

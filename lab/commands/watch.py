@@ -135,12 +135,18 @@ class _Watch:
             ended.set()
 
     def _changed(self) -> None:
-        """Show the step again if something about it is new."""
+        """Show the step again if something about it is new, or the lesson is another one."""
+        before, self._lab = self._lab, self._lab.now()
         task, old = self._look(), self._task
-        if task == old:
+        moved = self._lab is not before
+        if task == old and not moved:
             return
         self._task, self._ahead = task, 0
-        done = [n for n in range(old.position, task.position) if task.actions[n - 1] is None]
+        done: list[int] = []
+        if moved:
+            self._screen = type(self._screen)(self._lab)
+        else:
+            done += [n for n in range(old.position, task.position) if task.actions[n - 1] is None]
         self._screen.step(task, done=done)
 
     def _next(self) -> None:

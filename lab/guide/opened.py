@@ -5,12 +5,13 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from grader.base.i18n.translator import Translator, chosen_language
+from grader.course.after import After, after_lesson
 from grader.course.assignment import Assignment
-from grader.course.find import assignment_file
+from grader.course.find import GONE_ON, assignment_file, selected
 from grader.course.load import load_assignment
 from grader.ros.distro import DEFAULT, find_distro
 from lab.guide.graph import sees
@@ -78,6 +79,8 @@ class OpenedLab:
             had_seen=had_seen,
         )
         task = find_task(state, self.lesson.steps, kept)
+        if task.action is None:
+            task = replace(task, following=self.after().in_lab(os.environ))
         if seen != kept.seen:
             with contextlib.suppress(OSError):
                 self.keep(seen=seen)
@@ -88,6 +91,16 @@ class OpenedLab:
         assignment = self.assignment
         topics = {f"/{str(use.with_.get('topic', '')).lstrip('/')}" for use in assignment.checks}
         return name.rpartition("/")[2] == assignment.node_name or name in topics - {"/"}
+
+    def after(self) -> After:
+        """Return what comes after this lesson."""
+        return after_lesson(self.assignment.id, lang=self.translate.lang, distro=self.distro)
+
+    def now(self) -> OpenedLab:
+        """Return the lab of the lesson that the student has gone on to, if any; else this one."""
+        if not os.environ.get(GONE_ON) or selected() == self.assignment.id:
+            return self
+        return opened_lab(self.translate.lang, self.workspace)
 
     def progress(self) -> LessonProgress:
         """Return what is known of this lesson."""
@@ -107,6 +120,7 @@ def opened_lab(
     """
     translate = Translator(lang or chosen_language(os.environ))
     distro = os.environ.get("ROS_DISTRO") or DEFAULT
+    place = (workspace or Path(WORKSPACE)).expanduser()
     file = assignment_file(assignment)
     assigned = load_assignment(file).on(find_distro(distro))
     lesson = read_lesson(
@@ -114,5 +128,4 @@ def opened_lab(
         distro=distro,
         packages=[name for name in OPTIONAL_PACKAGES if has_package(name, os.environ)],
     )
-    place = workspace or Path(WORKSPACE)
-    return OpenedLab(place.expanduser(), Path.home(), distro, assigned, lesson, translate)
+    return OpenedLab(place, Path.home(), distro, assigned, lesson, translate)

@@ -17,6 +17,8 @@ from grader.base.folder import Folder
 
 FOLDER = ".lab"
 FILE = "progress.json"
+LESSON_FILE = "lesson"
+"""The file of the lesson that the student has gone on to (`grader.course.find.GONE_ON`)."""
 SCHEMA = 1
 MOST_BYTES = 1_000_000
 

@@ -17,9 +17,9 @@ from grader.base.errors import UsageError
 from grader.base.gated_console import GatedConsole
 from grader.base.i18n.message import Message, say
 from grader.base.i18n.translator import Translator
+from grader.course.after import hand_in
 from grader.report.commands import REMARK, broken, command_behind, is_command
 from grader.report.wrap import breaks, rows
-from lab.guide.action import Action
 from lab.guide.changes import MARGIN
 from lab.guide.lesson import Lesson, Step
 from lab.guide.markdown import StyledMarkdown, plain_lines
@@ -92,7 +92,7 @@ def show_list(
         mark = "x" if done else ">" if position == here else " "
         style = "green" if done else "bold" if position == here else ""
         console.print(Text(f"[{mark}] {step.number:2}. {step.title}", style=style))
-    show_next(console, task.action, translate, archive=task.archive)
+    show_next(console, task, translate)
 
 
 def show_current(
@@ -111,7 +111,7 @@ def show_current(
         show_step(out, replace(step, text=text), lesson, translate)
         if number < len(parts):
             out.print(Text(whole, style="dim"))
-        show_next(out, task.action, translate, archive=task.archive)
+        show_next(out, task, translate)
 
     def fits(number: int) -> bool:
         if number < len(parts) and parts[number - 1].rstrip().endswith(":"):
@@ -213,35 +213,24 @@ def show_line(console: GatedConsole, line: str, *, lead: tuple[str, str] = ("", 
     console.print(text, soft_wrap=True)
 
 
-def all_done(archive: str) -> tuple[Message, Message]:
-    """Return what is said when nothing is left to do; `archive` is the one to hand in, if made."""
-    done = say("All steps of this lesson are done.")
-    if archive:
-        return done, say(
-            "The archive to hand in: {file}. The next lesson: exit, then make lab.",
-            file=f"~/ros2_ws/{archive}",
-        )
-    return done, say(
-        "lab submit makes the archive to hand in. The next lesson: exit, then make lab."
-    )
+def all_done(task: Task) -> tuple[Message, Message]:
+    """Return what is said when nothing is left to do in a lesson: that, and what follows."""
+    return say("All steps of this lesson are done."), hand_in(task.following, task.archive)
 
 
 def show_next(
     console: GatedConsole,
-    action: Action | None,
+    task: Task,
     translate: Translator,
     *,
-    archive: str = "",
     more: bool = True,
 ) -> None:
-    """Print what was found and what to do next; `action` is None if all is done.
-
-    `more` names the command that says more.
-    """
+    """Print what was found and what to do next; `more` names the command that says more."""
+    action = task.action
     if action is None:
-        done, hand_in = all_done(archive)
+        done, following = all_done(task)
         console.print(Text(translate(done), style="bold green"))
-        console.print(Text(translate(hand_in)))
+        console.print(Text(translate(following)))
         return
     if action.found:
         show_line(console, translate(action.found), lead=(translate(say("Found: ")), "bold yellow"))

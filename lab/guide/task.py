@@ -45,7 +45,8 @@ class Task:
     """The current step: `position` from 1, its next `action` (None: everything is done).
 
     `passed` is whether the files as they are had full marks, `is_checked` whether they are what the
-    last check read. `of_check` is whether `action` is about what it found first. `archive` is what was made of them to hand in, if everything is done.
+    last check read. `of_check` is whether `action` is about what it found first. `archive` is what was made of them to hand in, if everything is done, and
+    `following` says how to get to the next lesson.
     """
 
     position: int
@@ -55,6 +56,7 @@ class Task:
     is_checked: bool = False
     of_check: bool = False
     archive: str = ""
+    following: str = ""
 
 
 def find_task(state: StudentState, steps: Sequence[Step], kept: LessonProgress) -> Task:

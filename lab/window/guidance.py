@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -26,6 +27,11 @@ class Guidance:
     def __init__(self, lab: OpenedLab, graph: Callable[[], Graph]) -> None:
         self._lab = lab
         self._graph = graph
+
+    def moved(self) -> bool:
+        """Whether the student has gone on to another lesson: this is the guide of that one then."""
+        before, self._lab = self._lab, self._lab.now()
+        return self._lab is not before
 
     @property
     def lesson(self) -> Message:
@@ -78,8 +84,10 @@ class Guidance:
     def _next(self, task: Task) -> Message:
         lab, action = self._lab, task.action
         if action is None:
-            done = [lab.translate(text) for text in all_done(task.archive)]
-            return {"found": "", "next": " ".join(done), "command": "", "ready": True, "hints": []}
+            done = " ".join(lab.translate(text) for text in all_done(task))
+            following = "lab next" if lab.after().goes_on(os.environ) else ""
+            command = following if task.archive else "lab submit"
+            return {"found": "", "next": done, "command": command, "ready": True, "hints": []}
         following = lab.translate(action.next)
         is_typed = is_command(following) or following == CHECK.next
         package = Path(WORKSPACE, "src", lab.assignment.package)

@@ -178,6 +178,8 @@ class Work:
             if changed:
                 self._tell({"kind": "files", "names": self._files.names(), "changed": changed})
             with contextlib.suppress(GraderError, OSError):
+                if await asyncio.to_thread(self._guidance.moved):
+                    self._tell(self._guidance.lesson)
                 self._set_guide(await asyncio.to_thread(self._guidance.state))
 
     async def _watch(self) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -235,11 +236,10 @@ def test_who_has_made_the_archive_is_not_told_to_make_it(tmp_path: Path) -> None
     lab = lab_in(workspace)
     done = Task(10, None, (), passed=True)
     assert next_hint(lab, done) == []  # (what is next is said before the hints)
-    assert all_done(done.archive)[1].startswith("lab submit makes the archive")
-    made = Task(10, None, (), passed=True, archive="submit/hello_time.zip")
-    assert all_done(made.archive)[1] == (
-        "The archive to hand in: ~/ros2_ws/submit/hello_time.zip. "
-        "The next lesson: exit, then make lab."
+    assert all_done(done)[1].startswith("lab submit makes the archive")
+    made = replace(done, archive="submit/hello_time.zip", following="The next lesson: that.")
+    assert all_done(made)[1] == (
+        "The archive to hand in: ~/ros2_ws/submit/hello_time.zip. The next lesson: that."
     )
 
 

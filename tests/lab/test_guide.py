@@ -259,7 +259,7 @@ def test_a_line_to_copy_is_not_wrapped_either(lang: str, width: int) -> None:
     text = Translator(lang)(say("Add this line to console_scripts in setup.py: {line}", line=line))
     file = io.StringIO()
     console = GatedConsole(file, width=width, force_terminal=True, color_system=None)
-    show_next(console, Action(text, "setup.no_entry"), Translator(lang), more=False)
+    show_next(console, Task(1, Action(text, "setup.no_entry"), ()), Translator(lang), more=False)
     shown = file.getvalue().splitlines()
     assert any(part.endswith(line) for part in shown)
     assert " ".join(part.strip() for part in shown) == Translator(lang)(say("Next: ")) + text
@@ -338,7 +338,7 @@ TURTLE = "ros2 run turtlesim turtlesim_node"
 def test_a_command_within_a_line_stays_whole(line: str, shown: list[str]) -> None:
     file = io.StringIO()
     console = GatedConsole(file, width=80, force_terminal=True, color_system=None)
-    show_next(console, Action(line, "a"), Translator("en"), more=False)
+    show_next(console, Task(1, Action(line, "a"), ()), Translator("en"), more=False)
     assert file.getvalue().splitlines() == shown
 
 

@@ -354,3 +354,30 @@ def test_every_text_is_there_in_korean(home: Path) -> None:
     for words in (("status",), ("doctor",), ("hint",), ("--help",), ("reset", "6")):
         said = lab(home, *words, GRADER_LANG="ko").stdout
         assert re.search("[가-힣]", said), words
+
+
+def test_the_lab_goes_on_with_the_next_lesson_after_full_marks(home: Path) -> None:
+    opened = {"LAB_LESSON_FILE": str(home / "ros2_ws/.lab/lesson")}
+    too_early = lab(home, "next", **opened)
+    assert too_early.returncode == 2
+    assert "full marks" in too_early.stderr
+    keep_progress(home / "ros2_ws", "hello_time", passed=True)
+    done = lab(home, "next", **opened)
+    assert done.returncode == 0, done.stderr
+    assert "The lesson is now: A publisher: draw a circle." in done.stdout
+    assert "geometry_msgs" in done.stdout  # (its first step that is left)
+    assert "draw_circle" in lab(home, "file", **opened).stdout  # every command of the lab
+    assert "my_first_node" in lab(home, "file").stdout  # (not of a lab for one lesson)
+
+
+def test_a_lab_for_one_lesson_and_the_last_one_say_that_none_follows(home: Path) -> None:
+    keep_progress(home / "ros2_ws", "hello_time", passed=True)
+    alone = lab(home, "next")
+    assert alone.returncode == 2
+    assert "The next lesson: exit, then make lab." in alone.stderr
+    keep_progress(home / "ros2_ws", "own_message", passed=True)
+    file = str(home / "ros2_ws/.lab/lesson")
+    last = {"LAB_LESSON_FILE": file, "GRADER_ASSIGNMENT": "own_message"}
+    done = lab(home, "next", **last)
+    assert done.returncode == 2
+    assert "make lab" not in done.stderr

@@ -55,6 +55,16 @@ def server_of(workspace: Path) -> int:
     return 0
 
 
+def lab_of(workspace: Path) -> int:
+    """Return the process that has opened the lab of a workspace with its page; 0 if none."""
+    for entry in Path("/proc").iterdir():
+        with contextlib.suppress(OSError):
+            words = (entry / "cmdline").read_bytes().split(b"\0")
+            if b"--page" in words and str(workspace).encode() in words:
+                return int(entry.name)
+    return 0
+
+
 def owned(workspace: Path) -> Path:
     """Give a workspace that root has made to the lab's student, and return it."""
     if os.geteuid() == 0:
@@ -127,6 +137,12 @@ class PagePlayer:
             self._do(action)
             expect(self.page.locator("#todo")).not_to_have_text(action, timeout=SLOW)
         raise AssertionError(f"no end: {self.played}")
+
+    def follow(self, command: str) -> None:
+        """Do what the guide says when a lesson is done: its button writes this command."""
+        expect(self.page.locator("#todo")).to_contain_text(command, timeout=SLOW)
+        self._write()
+        wait_for_prompt(self.page)
 
     def _do(self, action: str) -> None:
         page, package = self.page, self.assignment.package

@@ -251,19 +251,25 @@ def test_two_labs_do_not_see_each_other(
 
 @pytest.mark.long
 @pytest.mark.parametrize("lang", ["en", "ko"])
-def test_the_first_lesson_is_played_to_full_marks_in_the_page_alone(
+def test_two_lessons_are_played_to_full_marks_in_the_page_alone(
     visit: Open, ros_jazzy: Ros, tmp_path: Path, lang: str
 ) -> None:
     with_turtlesim(ros_jazzy, notify=unheard)
     workspace = tmp_path / "ws"
     with page_lab(workspace, "--lang", lang) as address:
         record = visit(viewport=WIDE)
-        record.page.goto(address)
-        expect(record.page.locator("#todo")).not_to_be_empty(timeout=SOON)
-        PagePlayer(record.page, "hello_time", workspace).play()
-        show(record.page, "check")
-        expect(record.page.locator("#verdict .score")).to_contain_text("100")
-        type_line(record.page, "lab submit")
-        wait_for_prompt(record.page)
-        assert (workspace / "submit" / "hello_time.zip").is_file()
+        page = record.page
+        page.goto(address)
+        expect(page.locator("#todo")).not_to_be_empty(timeout=SOON)
+        for lesson in ("hello_time", "draw_circle"):
+            player = PagePlayer(page, lesson, workspace)
+            player.play()
+            show(page, "check")
+            expect(page.locator("#verdict .score")).to_contain_text("100")
+            player.follow("lab submit")
+            expect(page.locator("#todo")).to_contain_text(f"submit/{lesson}.zip", timeout=SLOW)
+            assert (workspace / "submit" / f"{lesson}.zip").is_file()
+            if lesson == "hello_time":
+                player.follow("lab next")
+                expect(page.locator("#next.ready")).to_have_count(0, timeout=SLOW)
         assert record.complaints == []

@@ -16,6 +16,8 @@ export class Guide {
   }
 
   lesson({ title, introduction, steps }) {
+    if (this.title !== title) [this.now, this.shown] = [null, 0];
+    this.title = title;
     this.steps = steps;
     this.introduction = introduction;
     document.title = title;
@@ -72,7 +74,7 @@ export class Guide {
     const say = (id, words) => { const at = document.getElementById(id); at.replaceChildren(words); at.hidden = !words; };
     say("found", found);
     document.getElementById("next").classList.toggle("ready", ready);
-    say("todo", command ? make("span", {}, make("code", {}, command), next.slice(command.length).replace(/^ +/, " ")) : next);
+    say("todo", command && !ready ? make("span", {}, make("code", {}, command), next.slice(command.length).replace(/^ +/, " ")) : next);
     const actions = [];
     if (command) actions.push(button(command === "check" ? "check_start" : "type_it", () => (command === "check" ? this.desk.check.start() : this.desk.type(command)), "main"));
     if (file) actions.push(button("show_line", () => this.desk.open(file, line || 1), command ? "" : "main"));
