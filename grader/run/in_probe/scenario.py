@@ -372,7 +372,7 @@ class Scenario:
         ours = self.hearing.own(command["topic"])
         there = self.await_ready(lambda: publisher.get_subscription_count() > ours, deadline)
         if not there and not command["last"]:
-            return {**self.result(True), "heard": 0}
+            return {**self.result(self.trips(2, deadline)), "heard": 0}
         message, why = made(command, "")
         if why:
             return self.undone(deadline, why)
