@@ -27,6 +27,10 @@ def package(name: str, folder: Path, *, called: str = "") -> Path:
     return place
 
 
+FLAGS, PF_EXITING = 6, 0x4
+"""The place of a process' flags in its stat, and the one of a process that ends (linux/sched.h)."""
+
+
 def tasks(folder: Path, names: Sequence[str]) -> Iterator[Task]:
     """Yield a task for each name; the student's name is the package's and its number."""
     for number, name in enumerate(names):
@@ -57,10 +61,11 @@ def _command_line(pid: int) -> bytes:
     """Return a process' command line, also of a process that Popen started just now.
 
     Popen returns as soon as the new program closes its inherited files. The kernel sets the command
-    line only after that, and until then it is empty. It is also empty when the process has ended.
+    line only after that, and until then it is empty. It is also empty while the process ends, which
+    may wait for a child of ours.
     """
     path = Path(f"/proc/{pid}/cmdline")
-    while not (command := path.read_bytes()) and stat_fields(pid)[0] != "Z":
+    while not (command := path.read_bytes()) and not int(stat_fields(pid)[FLAGS]) & PF_EXITING:
         os.sched_yield()
     return command
 
