@@ -362,8 +362,14 @@ def none_yet(site: Site) -> Iterator[Made]:
     fix=INSTEAD,
 )
 def wrapped(site: Site) -> Iterator[Made]:
-    """Yield a message around what is published, of the type that the publisher got."""
+    """Yield a message around what is published, if the publisher's type has just the field data."""
     calls = [node for node in site.of(ast.Call) if isinstance(node, ast.Call) and node.args]
+    plain = {
+        alias.asname or alias.name
+        for node in site.of(ast.ImportFrom)
+        if isinstance(node, ast.ImportFrom) and node.module == "std_msgs.msg"
+        for alias in node.names
+    }
     types = {
         dotted(made.targets[0]): site.code(call.args[0])
         for call in calls
@@ -372,7 +378,7 @@ def wrapped(site: Site) -> Iterator[Made]:
     }
     for call in calls:
         sender, _, name = dotted(call.func).rpartition(".")
-        if name == "publish" and sender in types:
+        if name == "publish" and types.get(sender) in plain:
             yield swapped(site, call.args[0], f"{types[sender]}(data={site.code(call.args[0])})")
 
 

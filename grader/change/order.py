@@ -65,7 +65,7 @@ def into(site: Site) -> Iterator[Made]:
     fix=msg("Move the line {name} to line {written}."),
 )
 def earlier(site: Site) -> Iterator[Made]:
-    """Yield a plain statement above others of its block, or below a loop or a condition."""
+    """Yield a plain statement above others of its block, below a condition, or what self keeps at the end."""
     for function in site.functions:
         for statement in site.simple(function):
             block = site.block(statement)
@@ -75,6 +75,16 @@ def earlier(site: Site) -> Iterator[Made]:
                 if not is_text(other):
                     indent = site.indent(statement)
                     yield moved(site, statement, other.lineno, indent, more=at - to - 1)
+            kept = isinstance(statement, ast.Assign) and dotted(statement.targets[0])
+            last = block[-2] if isinstance(block[-1], ast.Return) else block[-1]
+            if (
+                kept
+                and kept.startswith("self.")
+                and isinstance(last, SIMPLE)
+                and last in block[at + 1 :]
+            ):
+                end = (last.end_lineno or last.lineno) + 1
+                yield moved(site, statement, end, site.indent(statement))
             for below in block[at + 1 : at + 3]:
                 if not isinstance(below, SIMPLE):
                     line = (below.end_lineno or below.lineno) + 1

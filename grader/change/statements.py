@@ -171,15 +171,25 @@ def sent(site: Site) -> Iterator[Made]:
         elif isinstance(made, ast.Call) and called_name(made) == "create_client":
             senders.append(f"self.{name}.call_async")
     for function in site.functions:
-        for name, _ in _messages(site, function):
+        names = [name for name, _ in _messages(site, function)]
+        for name in (*names, *_filled_attributes(function)):
             uses = [
                 s
                 for s in site.simple(function)
-                if any(isinstance(n, ast.Name) and n.id == name for n in ast.walk(s))
+                if any(isinstance(n, ast.expr) and dotted(n) == name for n in ast.walk(s))
             ]
             for sender in senders:
                 if uses and f"{sender}({name})" not in site.code(uses[-1]):
                     yield inserted(site, uses[-1], f"{sender}({name})")
+
+
+def _filled_attributes(function: Function) -> list[str]:
+    """Return the attributes of self whose fields a function sets: messages that are kept."""
+    targets = [
+        dotted(n) for n in ast.walk(function) if isinstance(getattr(n, "ctx", None), ast.Store)
+    ]
+    parts = [target.split(".") for target in targets if target.startswith("self.")]
+    return list(dict.fromkeys(f"self.{part[1]}" for part in parts if len(part) > 2))
 
 
 @operator(

@@ -68,7 +68,7 @@ def _number(value: float) -> str:
     "number",
     cost=2,
     hides=True,
-    why=msg("What the node does is worked out with {name}, and the check asks for another value."),
+    why=msg("What the node does depends on {name}. With another value the failed check passes."),
     fix=INSTEAD,
 )
 def number(site: Site) -> Iterator[Made]:
@@ -474,7 +474,11 @@ def bits(site: Site) -> Iterator[Made]:
     fix=INSTEAD,
 )
 def part(site: Site) -> Iterator[Made]:
-    """Yield a part of an expression in place of the whole: an operand, an item, an argument."""
+    """Yield a part of an expression in place of the whole: an operand, an item, an argument, a place."""
+    for node in site.of(ast.JoinedStr):
+        only = node.values[0] if isinstance(node, ast.JoinedStr) and len(node.values) == 1 else None
+        if isinstance(node, ast.expr) and isinstance(only, ast.FormattedValue):
+            yield swapped(site, node, ast.unparse(only.value))
     for node in site.of((ast.BinOp, ast.List, ast.Tuple, ast.Subscript, ast.Call)):
         parts: list[ast.expr] = []
         if isinstance(node, ast.BinOp):

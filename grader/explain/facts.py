@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 
 from grader.base.i18n.message import Value
 from grader.base.shown import shown
-from grader.explain.parts import read_in
+from grader.explain.parts import compared_with_itself, read_in
 from grader.explain.ran import DOERS, LOGS, Ran
 from grader.package.source.module import Function, Module
 from grader.package.source.names import called_name, dotted, last_part
@@ -19,6 +20,10 @@ Answer = tuple[Place, Mapping[str, Value]]
 MOST_STEPS = 4  # from a value to where it was made
 ELSEWHERE = 3
 LEAST_TRIES = 2  # of a condition, before it counts as one that is always the same
+FIELD_TYPE = re.compile(
+    r"AssertionError: The '(?P<field>\w+)' field must be of type '(?P<type>\w+)'"
+)
+NO_FIELD = re.compile(r"AttributeError: '(?P<type>\w+)' object has no attribute '(?P<field>\w+)'")
 LEAVES = ast.Return | ast.Continue | ast.Break | ast.Pass
 
 
@@ -42,6 +47,29 @@ class Facts(Ran):
         error, places = self.trace.raised
         place = places[0]
         return place, {"line": place[1], "error": shown(error), "code": self._code(place)}
+
+    def field_of_other_type(self) -> Answer | None:
+        """Return the line that gives a field a value of a type that the interface does not allow."""
+        error, places = self.trace.raised or ("", ())
+        found = FIELD_TYPE.search(error)
+        if found is None or not places:
+            return None
+        place = places[0]
+        return place, {"line": place[1], "field": found["field"], "type": found["type"]}
+
+    def no_such_field(self) -> Answer | None:
+        """Return the line that asks a message for a field which its type does not have."""
+        error, places = self.trace.raised or ("", ())
+        found = NO_FIELD.search(error)
+        if found is None or not places or not self.trace.fields:
+            return None
+        values: dict[str, Value] = {
+            "line": places[0][1],
+            "type": found["type"],
+            "field": found["field"],
+            "fields": shown(", ".join(self.trace.fields)),
+        }
+        return places[0], values
 
     def idle_timer(self) -> Answer | None:
         """Return a timer whose callback was never called."""
@@ -95,6 +123,21 @@ class Facts(Ran):
                 return (module.path, function.lineno), values
         return None
 
+    def just_set(self) -> Answer | None:
+        """Return the line that sets what a later line of its block compares with the same value."""
+        for module, statement in self._near_statements():
+            found = compared_with_itself(module, statement)
+            if found is not None and self.trace.count(module.path, statement.lineno):
+                values: dict[str, Value] = {
+                    "line": statement.lineno,
+                    "setter": shown(module.line(statement.lineno)),
+                    "kept": dotted(statement.targets[0]),
+                    "row": found.lineno,
+                    "code": shown(module.text.code(found)),
+                }
+                return (module.path, statement.lineno), values
+        return None
+
     def guarded_doer(self) -> Answer | None:
         """Return a deed that no call of its function came to, because of a condition."""
         for module, function in self._functions:
@@ -138,6 +181,30 @@ class Facts(Ran):
             "count": count,
         }
         return (module.path, node.lineno), values
+
+    def constant_from(self, *, true: bool) -> Answer | None:
+        """Return the same, with the line that made the value in it, if one other line did."""
+        answer = self.constant(true=true)
+        if answer is None:
+            return None
+        module = self.source.module_at(answer[0][0])
+        guard = next(n for _, n in self._conditions() if (module.path, n.lineno) == answer[0])
+        for name in dict.fromkeys(n for n in read_in(guard.test) if n.startswith("self.")):
+            ran = [
+                (each, s)
+                for each, s in self._writers({name})
+                if self.trace.count(each.path, s.lineno)
+                and not self._in_init((each.path, s.lineno))
+            ]
+            if len(ran) == 1:
+                each, at = ran[0]
+                code = self._with_values(each, at)
+                return answer[0], {**answer[1], "name": name, "line": at.lineno, "code": code}
+        return None
+
+    def _in_init(self, place: Place) -> bool:
+        function = self.function_at(place)
+        return function is None or function.name == "__init__"
 
     def kept_state(self) -> Answer | None:
         """Return the line that sets what a condition asks for, if no line sets it back."""
@@ -242,7 +309,7 @@ class Facts(Ran):
             "field": self.field,
             "value": self._value(),
             "line": at.lineno,
-            "code": shown(module.line(at.lineno)),
+            "code": self._with_values(module, at),
             "wanted": self.wanted,
         }
         around = [n for n in module.around(at) if isinstance(n, ast.If | Function)][:1]
@@ -286,6 +353,12 @@ class Facts(Ran):
         calls = [n for n in ast.walk(function) if isinstance(n, ast.Call)]
         return [c for c in calls if dotted(c.func).rpartition(".")[2] in wanted]
 
+    def _near_statements(self) -> Iterator[tuple[Module, ast.Assign]]:
+        """Yield the lines that set something, of the functions that have to do with what failed."""
+        for module, function in self._functions:
+            if self.distance(module.path, function.lineno, function.end_lineno) < ELSEWHERE:
+                yield from ((module, n) for n in ast.walk(function) if isinstance(n, ast.Assign))
+
     def _conditions(self) -> Iterator[tuple[Module, ast.If]]:
         """Yield the conditions in the functions that did what failed, or should have done it."""
         for module in self.source.known_modules:
@@ -293,19 +366,21 @@ class Facts(Ran):
                 if isinstance(node, ast.If) and not self.distance(module.path, node.lineno, None):
                     yield module, node
 
-    def _with_values(self, module: Module, guard: ast.If) -> str:
-        """Return a condition with the values that its names had: `x > 11.0; x = 3.2 ... 9.4`."""
-        place = (module.path, guard.lineno)
+    def _with_values(self, module: Module, at: ast.If | ast.stmt) -> str:
+        """Return a condition, or a line, with the values that its names had: `x > 11.0; x = 3.2 ... 9.4`."""
+        place = (module.path, at.lineno)
         seen = []
         for code, (low, high) in self.trace.ranges.get(place, {}).items():
             seen.append(f"{code} = {low:.4g}" + (f" ... {high:.4g}" if low != high else ""))
         for code, values in self.trace.kinds.get(place, {}).items():
             seen.append(f"{code} = {', '.join(values)}")
-        names = {dotted(n.func) for n in ast.walk(guard.test) if isinstance(n, ast.Call)}
-        for name in dict.fromkeys(read_in(guard.test)):
+        if not isinstance(at, ast.If):
+            return shown("; ".join([module.line(at.lineno), *seen]))
+        names = {dotted(n.func) for n in ast.walk(at.test) if isinstance(n, ast.Call)}
+        for name in dict.fromkeys(read_in(at.test)):
             if name.partition(".")[2] in self.source.methods and name not in names:
                 seen.append(f"{name} = <bound method>")
-        return shown("; ".join([module.text.code(guard.test), *seen]))
+        return shown("; ".join([module.text.code(at.test), *seen]))
 
     def _kept_out(self, module: Module, function: Function, node: ast.AST) -> Answer | None:
         """Return the condition that kept a part of a function from running in all its calls."""

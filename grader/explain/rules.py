@@ -16,7 +16,10 @@ from grader.explain.facts import Answer, Facts
 
 @dataclass(frozen=True)
 class Rule:
-    """A rule: `ask` returns the answer for the symptoms `of`, None if the facts have none."""
+    """A rule: `ask` returns the answer for the symptoms `of`, None if the facts have none.
+
+    It says more than the mistakes in `over`, and is told in their place.
+    """
 
     id: str
     of: tuple[str, ...]
@@ -24,6 +27,7 @@ class Rule:
     why: Template
     fix: Template
     ask: Callable[[Facts], Answer | None]
+    over: tuple[str, ...] = ()
 
     @property
     def mistake(self) -> str:
@@ -52,6 +56,27 @@ RULES: tuple[Rule, ...] = (
         ),
         msg("Do not wait in a callback: replace line {line} by something that returns at once."),
         lambda facts: facts.stands(),
+    ),
+    Rule(
+        "field_gets",
+        (*MISSING, "service.", "topic.", "run."),
+        msg("A field has a value of another type"),
+        msg(
+            "Line {line} gives the field {field} a value of another type. The interface says that it is of "
+            "the type {type}, and ROS ends the program when the message goes out."
+        ),
+        msg("Give {field} a value of the type {type} in line {line}."),
+        lambda facts: facts.field_of_other_type(),
+        over=("node.field_type",),
+    ),
+    Rule(
+        "no_field",
+        (*MISSING, "service.", "topic.", "run."),
+        msg("A message has no field with that name"),
+        msg("{type} has no field {field}. Its fields are: {fields}."),
+        msg("Write the field that is meant in line {line}."),
+        lambda facts: facts.no_such_field(),
+        over=("node.attribute_unknown",),
     ),
     Rule(
         "callback_raises",
@@ -94,6 +119,17 @@ RULES: tuple[Rule, ...] = (
         lambda facts: facts.uncalled_doer(),
     ),
     Rule(
+        "just_set",
+        (*MISSING, *VALUES, "topic.not_silent"),
+        msg("A value is compared with itself"),
+        msg(
+            "Line {line} ({setter}) runs before line {row}. There {kept} already has the new value, so that "
+            "both sides of {code} are the same."
+        ),
+        msg("Set {kept} below the lines that still need its old value."),
+        lambda facts: facts.just_set(),
+    ),
+    Rule(
         "setter_not_reached",
         MISSING,
         msg("The line that sets a value was never reached"),
@@ -118,6 +154,20 @@ RULES: tuple[Rule, ...] = (
         lambda facts: facts.guarded_doer(),
     ),
     Rule(
+        "never_true_from",
+        (*MISSING, *VALUES),
+        msg("A condition was never true"),
+        msg(
+            "The condition in line {row} was evaluated {count} times, and was never true: {guard}. "
+            "{name} comes from line {line}: {code}"
+        ),
+        msg(
+            "Compare the values in line {row} with those for which it should be true, and look at how line "
+            "{line} makes them."
+        ),
+        lambda facts: facts.constant_from(true=False),
+    ),
+    Rule(
         "never_true",
         (*MISSING, *VALUES),
         msg("A condition was never true"),
@@ -135,6 +185,20 @@ RULES: tuple[Rule, ...] = (
         ),
         msg("Set {name} back where the state that it stands for is over."),
         lambda facts: facts.kept_state(),
+    ),
+    Rule(
+        "always_true_from",
+        (*VALUES, "topic.not_silent", "topic.reacts_too_often", "log.too_often", "log.forbidden"),
+        msg("A condition was always true"),
+        msg(
+            "The condition in line {row} was evaluated {count} times, and was true each time: {guard}. "
+            "{name} comes from line {line}: {code}"
+        ),
+        msg(
+            "Compare the values in line {row} with those for which it should not be true, and look at how "
+            "line {line} makes them."
+        ),
+        lambda facts: facts.constant_from(true=True),
     ),
     Rule(
         "always_true",

@@ -12,11 +12,11 @@ from grader.mistakes.alike import is_typo, meant_by, plain_letters
 from grader.mistakes.example import DEAD, NODE, example
 from grader.mistakes.fixes import lines, node_names, node_scope, node_timer, rename
 from grader.mistakes.imports import RCLPY, ROS_1
-from grader.mistakes.kind import Family
+from grader.mistakes.kind import INSTEAD, Family
 from grader.mistakes.recognised import OWN_ATTRIBUTE, Raised, RecognisedMistake, of_self
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
-from grader.package.source.module import Module
+from grader.package.source.module import Function, Module
 from grader.package.source.names import dotted, own_name
 from grader.package.source.node import LOG_METHODS, NODE_METHODS
 from grader.package.source.node_here import node_here
@@ -162,6 +162,12 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return raised.finding("callback_outside", at=at, name=name)
     if name in NODE_METHODS or _close(raised, match):
         return None
+    local = _local_of_init(raised, name)
+    if local is not None:
+        params = {"name": name, "written": f"self.{name}"}
+        return replace(
+            raised.finding("attribute_not_set", at=local, params=params), variant="local"
+        )
     lines_that_set = _set_in(raised, name)
     if lines_that_set:
         params = {"name": name, "lines": ", ".join(map(str, lines_that_set))}
@@ -170,6 +176,18 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     found = raised.finding("attribute_not_set", name=name, close=close)
     counts = close or node_names.counts(raised.source, name)
     return found if counts else replace(found, variant="value")
+
+
+def _local_of_init(raised: Raised, name: str) -> ast.expr | None:
+    """Return where __init__ sets a variable of its own with the name of an attribute that is missing."""
+    owner = class_of(raised.module, function_at(raised.module, raised.line))
+    body = owner[0].body if owner is not None else []
+    inits = [s for s in body if isinstance(s, Function) and s.name == "__init__"]
+    for init in inits:
+        names = [n for n in ast.walk(init) if isinstance(n, ast.Name) and n.id == name]
+        if len(names) == 1 and isinstance(names[0].ctx, ast.Store):
+            return names[0]
+    return None
 
 
 def _set_in(raised: Raised, name: str) -> list[int]:
@@ -348,12 +366,17 @@ KINDS = (
         msg("Give it a value in __init__: self.{name} = {start}"),
         close=msg("Write self.{close} instead of self.{name}."),
         whys={
+            "local": msg(
+                "{name} without self. is a variable of __init__ alone: it is gone when __init__ ends, and "
+                "self.{name} does not exist."
+            ),
             "set_here": msg(
                 "self.{name} does not exist until a line assigns to it. Line {lines} does so, but had not "
                 "run for this object when Python came to this line."
-            )
+            ),
         },
         fixes={
+            "local": INSTEAD,
             "value": msg(
                 "Give it a value in __init__, before this line can run: self.{name} = and the value that it "
                 "has at the beginning. If a method is meant, write its def in the class, or its right name."
@@ -365,7 +388,7 @@ KINDS = (
             ),
         },
         raised={OWN_ATTRIBUTE: _not_set},
-        fixed_by=(rename.attribute, node_names.counter),
+        fixed_by=(lines.written, rename.attribute, node_names.counter),
         examples=(
             example(
                 "counter_set_by_uncalled_method",

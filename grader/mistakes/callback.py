@@ -87,8 +87,8 @@ KINDS = (
             "node runs: no timer, no subscription, no answer to a call, and nothing spins it."
         ),
         msg(
-            "Remove {name} from {method}: a timer does the repeating and the waiting, and an answer comes "
-            "to a function that add_done_callback gets."
+            "Remove {name} from {method}. Let a timer do the repeating and the waiting. If the program needs "
+            "the answer to a call there, give add_done_callback() a function that gets it."
         ),
         behind={
             "run.stuck": _waits(sleeps=True),

@@ -200,7 +200,10 @@ KINDS = (
             "folder msg of this package, or one of another package with its name: "
             "geometry_msgs/Point."
         ),
-        msg("Write a type that exists instead of '{type}': upper and lower case matter."),
+        msg(
+            "Write a type that exists instead of '{type}', letter by letter: float64 for numbers with a "
+            "point, int32 for whole ones, bool for true and false, string for texts."
+        ),
     ),
     _interface(
         "value_range",

@@ -116,7 +116,7 @@ KINDS = (
         "class",
         msg("The node has a different name"),
         msg(
-            "ros2 node list, topics and logs show the name that is passed to super().__init__(), "
+            "ros2 node list and the logs show the name that is passed to super().__init__(), "
             "not the name of the file or the class."
         ),
         msg("Write super().__init__('{wanted}')."),

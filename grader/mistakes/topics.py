@@ -19,13 +19,13 @@ OPERAND = (
 
 
 CALL_PUBLISH = msg(
-    "Call self.publisher_.publish(message) in the callback of the timer or of the subscription, "
-    "with parentheses."
+    "Call publish(…) of this publisher, with the message, at the end of the function that fills the "
+    "message."
 )
 PUBLISH_THERE = msg("Publish on {topic} in the callback of the subscription.")
 NAMED = msg(
-    "Nodes find each other by the name of the topic alone: a publisher and a subscription meet if "
-    "their names are equal, to the letter."
+    "A publisher and a subscription meet only if the names of their topics are equal, to the letter. "
+    "If they are not, no error comes."
 )
 TYPED = msg(
     "A topic has one type. A publisher and a subscription of different types never exchange a "

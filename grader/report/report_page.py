@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from grader.report.model import CheckResult, Quote, Report, RunInfo
 
 LINES, LINES_VERBOSE = 12, 200  # per text
-VALUES_KEY = say("* as wanted, x not as wanted, - wanted")
+VALUES_KEY = say("* a message, x not as wanted, - wanted")
 INSTANTS_KEY = say("* a message")
 DUE_KEY = say("below, | is a due instant")
 PATH_KEY = say("* driven from S to E, . wanted")

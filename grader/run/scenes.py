@@ -60,6 +60,7 @@ class SceneRun:
     ended: str
     used: float
     trace: Trace | None = None
+    checked: bool = False
 
 
 def run_scenes(

@@ -102,7 +102,8 @@ class Trace:
     `logged` has for each line of the log the places of the call and the number of the timer whose
     callback it came from, -1 if from none. `stand` is where threads were at the end. `values`
     are those that pieces of code had first in a line, `ranges` the least and the greatest of
-    numbers, `kinds` the different values that are none.
+    numbers, `kinds` the different values that are none. `fields` are those of the message whose missing
+    attribute ended the node.
     """
 
     ended: str
@@ -114,6 +115,7 @@ class Trace:
     callbacks: tuple[TracedCallback, ...] = ()
     done: tuple[TracedDone, ...] = ()
     raised: tuple[str, tuple[Place, ...]] | None = None
+    fields: tuple[str, ...] = ()
     ranges: Mapping[Place, Mapping[str, tuple[float, float]]] = field(default_factory=dict)
     kinds: Mapping[Place, Mapping[str, tuple[str, ...]]] = field(default_factory=dict)
 
@@ -281,6 +283,7 @@ def trace_from(seen: Any, files: Sequence[str], conditions: Sequence[Watched]) -
         tuple(callbacks),
         tuple(done),
         (str(raised["text"]), places(raised["places"])) if raised else None,
+        tuple(map(str, raised["fields"])) if raised else (),
         {
             (one.file, one.first): {
                 code: (float(each[0]), float(each[1]))

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator, Sequence
 from datetime import datetime
-from pathlib import Path
+from pathlib import Path, PurePath
 
 from grader.base.i18n.message import Message, msg, say
 from grader.base.i18n.translator import Translator
 from grader.base.shown import shown
 from grader.course.assignment import Assignment
+from grader.package.intake.model import SourceFile
 from grader.package.source.remarks import remarks_on
 from grader.package.source.telling import telling
 from grader.package.submission import Submission
@@ -109,6 +111,7 @@ def _to_look_at(evidence: Evidence) -> Iterator[str]:
     if run is not None and not _is_told_plainly(evidence, run):
         hidden = {(one.path, one.line) for one in remarks if one.kind == "hides"}
         files = [*submission.files, *(file for one in submission.packages for file in one.files)]
+        files = list(_named(evidence, files))
         remarks += [one for one in telling(files) if (one.path, one.line) not in hidden]
     for remark in remarks:
         if remark.kind == "ends" or (remark.kind == "rosout" and run is None):
@@ -122,6 +125,23 @@ def _to_look_at(evidence: Evidence) -> Iterator[str]:
             yield say(
                 "To look at: the node started another program: {command}", command=shown(command)
             )
+
+
+def _named(evidence: Evidence, files: Sequence[SourceFile]) -> Iterator[SourceFile]:
+    """Yield the files but modules that only entry points of other lessons name: they do not run."""
+    asked = evidence.assignment
+    own = {asked.executable, *(node.executable for node in asked.nodes.values())}
+    paths = {asked.node_file, *(node.file for node in asked.nodes.values())}
+    known = {PurePath(path).name for path in paths}
+    for file in files:
+        path = PurePath(file.path)
+        entry = re.compile(rf"(\w+)\s*=\s*[\w.]*\b{re.escape(path.stem)}:\w+".encode())
+        others = [one.data for one in files if one is not file and one.path.endswith(".py")]
+        named = sum(data.count(path.stem.encode()) for data in others)
+        entries = [found[1].decode() for data in others for found in entry.finditer(data)]
+        other = bool(entries) and own.isdisjoint(entries) and len(entries) == named
+        if path.suffix != ".py" or path.name in known or not other:
+            yield file
 
 
 def _is_told_plainly(evidence: Evidence, run: Run) -> bool:

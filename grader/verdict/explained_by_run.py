@@ -75,7 +75,8 @@ def with_fact(
     """Return the result with what a fact explains, unless a mistake behind it is known."""
     rule, values = BY_ID[fact.rule], fact.values
     where = Where(file=fact.path, line=fact.line)
-    if says_the_cause(result):
+    root = root_of(result)
+    if says_the_cause(result) and (root is None or root.id not in rule.over):
         has_line = result.where is None or result.where.line is not None
         return result if has_line else result.model_copy(update={"where": where})
     mistake = Mistake(id=rule.mistake, params={"line": fact.line})

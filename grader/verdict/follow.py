@@ -6,6 +6,7 @@ import ast
 
 from grader.explain.facts import Facts
 from grader.explain.rules import explained
+from grader.package.source.module import Module
 from grader.package.source.names import calls_in, module_name, named_in
 from grader.package.source.node import NodeSource
 from grader.report.model import CheckResult
@@ -42,17 +43,23 @@ def trace_in(sandbox: Sandbox, until: float, evidence: Evidence) -> Trace | None
 
 
 def conditions_of(source: NodeSource) -> list[Watched]:
-    """Return the conditions of the files, with the names whose values tell why a block does not run."""
+    """Return the conditions of the files, and the lines that set something, with the names in them."""
     found = []
     for module in source.known_modules:
         for part in module.nodes:
             if isinstance(part, ast.If | ast.While):
-                called = {call.func for call, _ in calls_in(part.test)}
-                pieces = [n for n in named_in(part.test) if n not in called]
-                code = dict.fromkeys(map(module.text.code, pieces))
-                last = part.test.end_lineno or part.lineno
-                found.append(Watched(module.path, part.lineno, last, tuple(code)[:LONGEST_CODE]))
-    return found
+                found.append(_watched(module, part, part.test))
+            elif isinstance(part, ast.Assign | ast.AugAssign):
+                found.append(_watched(module, part, part.value))
+    return [one for one in found if one.code]
+
+
+def _watched(module: Module, part: ast.stmt, read: ast.expr) -> Watched:
+    called = {call.func for call, _ in calls_in(read)}
+    code = dict.fromkeys(module.text.code(n) for n in named_in(read) if n not in called)
+    return Watched(
+        module.path, part.lineno, read.end_lineno or part.lineno, tuple(code)[:LONGEST_CODE]
+    )
 
 
 def fact_behind(evidence: Evidence, result: CheckResult) -> Fact | None:

@@ -90,7 +90,7 @@ class Seeker:
                 )
                 if run is None or run.ended != "killed":
                     break
-            self._followed[key] = run
+            self._followed[key] = replace(run, checked=checked) if run is not None else None
         return self._followed[key]
 
     def run(
@@ -131,6 +131,7 @@ class _Search:
         self._plan = view.assignment.plan(view.run_name)
         self._scene = Scene(view.assignment, self._plan, view.start, _heard(view))
         self._judge = Judge(whole, view)
+        self._checked = False  # (whether each field is: one of another type has ended the process)
 
     @classmethod
     def of(cls, seeker: Seeker, evidence: Evidence, result: CheckResult) -> _Search | None:
@@ -163,6 +164,7 @@ class _Search:
         facts.field = str(seen.params.get("field", "")) if seen is not None else ""
         facts.wanted = result.expected.partition(": ")[2]
         facts.came = result.actual.partition("\n")[0].partition(": ")[2].partition(",")[0]
+        self._checked = base.checked
         good, runs = self._that_help(self._candidates(facts), statuses)
         fact = fact_of(facts, seen.id) if seen is not None else None
         at = (fact.path, fact.line) if fact is not None else ("", 0)
@@ -189,7 +191,8 @@ class _Search:
         good: list[tuple[int, Candidate]] = []
         count = 0
         for batch in _batches(made[:MOST_RUNS]):
-            runs = self._seeker.run(self._scene, [{one.path: one.text} for one in batch], SECONDS)
+            texts = [{one.path: one.text} for one in batch]
+            runs = self._seeker.run(self._scene, texts, SECONDS, checked=self._checked)
             for one, run in zip(batch, runs):
                 count += run is not None
                 now = self._judge.statuses({self._plan.name: run.run}) if run is not None else {}
@@ -220,7 +223,8 @@ class _Search:
         if other is None or not good:
             return good
         scene = Scene(other, other.plan(self._plan.name), self._view.start, self._scene.heard)
-        runs = self._seeker.run(scene, [{one.path: one.text} for one in good], SECONDS)
+        texts = [{one.path: one.text} for one in good]
+        runs = self._seeker.run(scene, texts, SECONDS, checked=self._checked)
         judge = Judge(self._whole, self._view, other)
         kept = []
         for one, run in zip(good, runs):

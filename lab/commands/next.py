@@ -11,10 +11,12 @@ from grader.base.folder import Folder
 from grader.base.i18n.message import msg, say
 from grader.base.i18n.translator import errors_in
 from grader.cli import options
+from grader.course.assignment import BUILT
 from grader.course.find import LESSON
 from lab.guide.opened import opened_lab
 from lab.guide.progress import FOLDER, LESSON_FILE
 from lab.guide.show import show
+from lab.ros_packages import has_package
 
 
 @click.command(
@@ -39,6 +41,12 @@ def next_(lang: str | None) -> None:
                 remedy=say(
                     "Run check. Another lesson all the same: exit, then make lab LESSON=ID."
                 ),
+            )
+        asked = opened_lab(lang, lab.workspace, after.id).assignment.interfaces
+        for package in (one for one in BUILT if one in asked and not has_package(one, os.environ)):
+            raise UsageError(
+                say("this lab has no {package}, which the next lesson needs", package=package),
+                remedy=say("exit, then make lab LESSON={id}", id=after.id),
             )
         with Folder.open(lab.workspace) as root, root.private(FOLDER) as own:
             own.replace(LESSON_FILE, f"{os.environ[LESSON]} {after.id}\n".encode())

@@ -138,3 +138,110 @@ def test_the_condition_before_the_only_line_that_sets_a_value() -> None:
     assert told == {"setter": "self.last", "line": 10, "row": 8, "head": 13, "count": 9}
     ran = Trace("time", {FILE: {**lines, 10: 4}})
     assert Facts(source, ran, run, use).unset_name() is None
+
+
+METER = """\
+class Meter(Node):
+    def __init__(self):
+        super().__init__('meter')
+        self.last = None
+        self.way = 0.0
+
+    def heard(self, pose):
+        self.last = pose
+        dx = pose.x - self.last.x
+        self.way = self.way + dx
+
+    def tick(self):
+        message = Distance()
+        message.way = f'{self.way:.2f}'
+        message.turn = self.last.theta
+        self.publisher.publish(message)
+
+
+def main():
+    pass
+"""
+WAY = {"check": "topic.values", "with": {"topic": "/way"}}
+
+
+def meter(text: str = METER, **trace: object) -> Facts:
+    """Return the facts of a run of `text`, of which every line ran three times."""
+    source = read_node(lambda path: text.encode() if path == FILE else None, FILE, "main")
+    assert source is not None
+    rows = dict.fromkeys(range(1, len(text.splitlines())), 3)
+    run = Run("ros2 run", seen=Observations(0.1))
+    use = CheckUse.model_validate({"id": "a", "points": 1, **WAY})
+    return Facts(source, Trace("time", {FILE: rows}, **trace), run, use)  # type: ignore[arg-type]
+
+
+def test_a_difference_with_what_the_line_above_has_just_set() -> None:
+    answer = meter().just_set()
+    assert answer is not None
+    assert answer[0] == (FILE, 8)
+    assert (answer[1]["row"], answer[1]["code"]) == (9, "pose.x - self.last.x")
+    assert answer[1]["kept"] == "self.last"
+
+
+def test_a_difference_before_the_new_value_is_set_is_not_told() -> None:
+    kept = "        self.last = pose\n"
+    right = METER.replace(kept, "").replace("+ dx\n", f"+ dx\n{kept}")
+    other = METER.replace("self.last.x", "self.last.y")
+    again = METER.replace(kept, f"{kept}        pose = self.other\n")
+    for text in (right, other, again):
+        assert meter(text).just_set() is None
+
+
+def test_a_field_of_another_type_has_its_line_and_its_type() -> None:
+    error = "AssertionError: The 'way' field must be of type 'float'"
+    answer = meter(raised=(error, ((FILE, 14),))).field_of_other_type()
+    assert answer is not None
+    assert answer[0] == (FILE, 14)
+    assert answer[1] == {"line": 14, "field": "way", "type": "float"}
+    other = ("AssertionError: way < 3", ((FILE, 14),))
+    assert meter(raised=other).field_of_other_type() is None
+
+
+def test_a_message_without_the_field_that_a_line_sets() -> None:
+    error = "AttributeError: 'Distance' object has no attribute 'turn'"
+    raised = (error, ((FILE, 15),))
+    answer = meter(raised=raised, fields=("way", "turtle")).no_such_field()
+    assert answer is not None
+    assert answer[0] == (FILE, 15)
+    assert (answer[1]["type"], answer[1]["fields"]) == ("Distance", "way, turtle")
+    assert meter(raised=raised).no_such_field() is None
+
+
+NEVER = """\
+class Robot(Node):
+    def __init__(self):
+        super().__init__('robot')
+        self.gap = None
+        self.publisher = self.create_publisher(Twist, '/way', 10)
+
+    def heard(self, scan):
+        self.gap = min(scan.ranges[-3:3], default=math.inf)
+
+    def tick(self):
+        speed = 0.5
+        if self.gap <= 0.9:
+            speed = 0.0
+        self.publisher.publish(Twist(x=speed))
+
+
+def main():
+    pass
+"""
+
+
+def test_a_condition_that_is_never_true_names_the_line_that_makes_its_value() -> None:
+    ranges = {(FILE, 12): {"self.gap": (9.0, 9.0)}}
+    asked = meter(NEVER, ranges=ranges)
+    asked.trace.lines[FILE].update({13: 0})  # type: ignore[attr-defined]
+    answer = asked.constant_from(true=False)
+    assert answer is not None
+    assert answer[0] == (FILE, 12)
+    assert (answer[1]["name"], answer[1]["line"]) == ("self.gap", 8)
+    assert answer[1]["guard"] == "self.gap <= 0.9; self.gap = 9"
+    asked.trace.lines[FILE].update({8: 0})  # type: ignore[attr-defined]
+    assert asked.constant_from(true=False) is None  # (only __init__ has set it)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -368,6 +369,27 @@ def test_the_lab_goes_on_with_the_next_lesson_after_full_marks(home: Path) -> No
     assert "geometry_msgs" in done.stdout  # (its first step that is left)
     assert "draw_circle" in lab(home, "file", **opened).stdout  # every command of the lab
     assert "my_first_node" in lab(home, "file").stdout  # (not of a lab for one lesson)
+
+
+def test_a_lab_without_what_the_next_lesson_needs_is_not_gone_on_with(
+    home: Path, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    course = tmp_path_factory.mktemp("course")
+    for name in ("hello_time", "start_stop"):
+        shutil.copytree(COURSE.parent / name, course / name)
+    (course / "course.yaml").write_text("schema: 1\nlessons: [hello_time, start_stop]\n")
+    other = course / "start_stop" / "assignment.yaml"
+    text = other.read_text(encoding="utf-8")
+    other.write_text(text.replace("std_srvs/srv/SetBool", "example_interfaces/srv/SetBool"))
+    own = {"GRADER_COURSE": str(course), "LAB_LESSON_FILE": str(home / "ros2_ws/.lab/lesson")}
+    keep_progress(home / "ros2_ws", "hello_time", passed=True)
+    stays = lab(home, "next", **own)
+    assert stays.returncode == 2
+    assert "this lab has no example_interfaces" in stays.stderr
+    assert "make lab LESSON=start_stop" in stays.stderr
+    assert "my_first_node" in lab(home, "file", **own).stdout
+    other.write_text(text, encoding="utf-8")
+    assert lab(home, "next", **own).returncode == 0
 
 
 def test_a_lab_for_one_lesson_and_the_last_one_say_that_none_follows(home: Path) -> None:

@@ -63,3 +63,26 @@ def written(case: Case) -> Files | None:
         return None
     start = module.text.start_of(line)
     return case.changed(module, Splice(start + places[0].start(), start + places[0].end(), new))
+
+
+def unwrapped(case: Case) -> Files | None:
+    """Write what the finding's `with` uses as a statement of its own, and its block below it."""
+    module, found = _statement(case) or (None, None)
+    if module is None or not isinstance(found, ast.With) or len(found.items) != 1:
+        return None
+    text, item, first = module.text, found.items[0], found.body[0]
+    long = [n for n in ast.walk(found) if isinstance(n, ast.Constant | ast.JoinedStr)]
+    if item.context_expr.end_lineno != found.lineno or first.lineno == found.lineno:
+        return None
+    if any(n.lineno != n.end_lineno for n in long):
+        return None  # (its later lines are a text, whose blanks stay)
+    head = text.code(item.context_expr)
+    if item.optional_vars is not None:
+        head = f"{text.code(item.optional_vars)} = {head}"
+    start = text.start_of(found.lineno) + found.col_offset
+    splices = [Splice(start, text.start_of(found.lineno) + len(text.line(found.lineno)), head)]
+    for row in range(found.lineno + 1, (found.end_lineno or 0) + 1):
+        begin, line = text.start_of(row), text.line(row)
+        extra = min(first.col_offset - found.col_offset, len(line) - len(line.lstrip()))
+        splices += [Splice(begin, begin + extra, "")]
+    return case.changed(module, *splices)

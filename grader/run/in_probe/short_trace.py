@@ -11,6 +11,8 @@ import contextlib
 import copy
 import functools
 import inspect
+import linecache
+import re
 import sys
 import threading
 from collections.abc import Sequence
@@ -28,6 +30,9 @@ ENDS = {"subscription": "create_subscription", "service": "create_service"}
 PLACE_OF_CALLBACK = {"subscription": 0, "service": 0}
 """Which of the arguments after type and name the callback is."""
 LONGEST_VALUE = 30
+NO_ATTRIBUTE = re.compile(
+    r"'(?P<type>\w{1,120})' object has no attribute '(?P<name>\w{1,120})'.{0,200}"
+)
 PLAIN = (bool, int, float, str, type(None))
 
 
@@ -121,6 +126,23 @@ class Watched:
             seen = repr(value)
             if len(seen) <= LONGEST_VALUE and seen not in kinds:
                 kinds.append(seen)
+
+
+def _fields_beside(error: BaseException) -> list[str]:
+    """Return the fields of the message that has no such attribute; none if it is no message."""
+    missed = NO_ATTRIBUTE.fullmatch(str(error)) if isinstance(error, AttributeError) else None
+    trace = error.__traceback__
+    while trace is not None and trace.tb_next is not None:
+        trace = trace.tb_next
+    if missed is None or trace is None:
+        return []
+    line = linecache.getline(trace.tb_frame.f_code.co_filename, trace.tb_lineno)
+    for owner in re.findall(rf"([A-Za-z_][\w.]*)\.{missed['name']}\b", line):
+        with contextlib.suppress(Exception):  # (a name without a value, or one of another kind)
+            kind = type(_Known(trace.tb_frame).value_of(ast.parse(owner, mode="eval").body))
+            if kind.__name__ == missed["type"]:
+                return [*kind.get_fields_and_field_types()]
+    return []
 
 
 class Traced:
@@ -276,6 +298,7 @@ class Traced:
             trace = trace.tb_next
         text = f"{type(error).__name__}: {error}"[:LONGEST]
         self._raised = {"text": text, "places": places[-MOST_PLACES:][::-1]}
+        self._raised["fields"] = _fields_beside(error)
 
     def _counted(self, callback: Any, number: int) -> Any:
         """Return the callback as one whose calls are counted; itself if it is of an unusual form."""

@@ -213,7 +213,7 @@ def _broken(evidence: Evidence) -> Failed:
     line = line if line and line <= code.count(b"\n") + 1 else None  # (else of another file)
     error = re.sub(r"^(?:\w+\.)+(?=Invalid)", "", error)
     where = Where(file="setup.py", line=line)
-    expected = say("colcon build ends with: Summary: 1 package finished")
+    expected = say("colcon build finishes every package")
     if ANSWER in build.log and error.startswith(("SyntaxError", "ValueError", "IndentationError")):
         return _answer(evidence, expected)
     if error.startswith(("SyntaxError", "IndentationError", "TabError")):
