@@ -37,7 +37,7 @@ ECHO = """async () => {
         });
         watch.observe(rows, { childList: true, characterData: true, subtree: true });
     });
-    const typed = new Promise(done => area.addEventListener("keydown", () => done(performance.now()), { once: true }));
+    const typed = new Promise(done => document.addEventListener("keydown", () => done(performance.now()), { once: true, capture: true }));
     window.echoed = Promise.all([typed, shown]).then(([from, to]) => to - from);
 }"""
 

@@ -382,6 +382,28 @@ def wrapped(site: Site) -> Iterator[Made]:
             yield swapped(site, call.args[0], f"{types[sender]}(data={site.code(call.args[0])})")
 
 
+@operator(
+    "inverse",
+    cost=1,
+    certain=True,
+    why=msg(
+        "create_timer() takes the time from one call to the next, in seconds, and not how often per second."
+    ),
+    fix=INSTEAD,
+)
+def inverse(site: Site) -> Iterator[Made]:
+    """Yield 1 / x in place of x as the period of a timer, and the other way round."""
+    for call in site.of(ast.Call):
+        if not isinstance(call, ast.Call) or called_name(call) != "create_timer" or not call.args:
+            continue
+        given = call.args[0]
+        if isinstance(given, ast.Name | ast.Attribute):
+            yield swapped(site, given, f"1.0 / {site.code(given)}")
+        elif isinstance(given, ast.BinOp) and isinstance(given.op, ast.Div):
+            one = getattr(given.left, "value", None) == 1
+            yield from (swapped(site, given, site.code(given.right)),) if one else ()
+
+
 OPERATORS: tuple[Operator, ...] = (
     *(
         own,
@@ -393,6 +415,7 @@ OPERATORS: tuple[Operator, ...] = (
         read_now,
         use_parameter,
         callback,
+        inverse,
         base_name,
         none_yet,
         wrapped,

@@ -125,7 +125,7 @@ def negative(site: Site) -> Iterator[Made]:
     "truth",
     cost=2,
     hides=True,
-    why=msg("{name} is the other way round: what depends on it happens when it should not."),
+    why=msg("With the opposite of {name} the failed check passes."),
     fix=INSTEAD,
 )
 def truth(site: Site) -> Iterator[Made]:
@@ -475,11 +475,7 @@ def bits(site: Site) -> Iterator[Made]:
 )
 def part(site: Site) -> Iterator[Made]:
     """Yield a part of an expression in place of the whole: an operand, an item, an argument, a place."""
-    for node in site.of(ast.JoinedStr):
-        only = node.values[0] if isinstance(node, ast.JoinedStr) and len(node.values) == 1 else None
-        if isinstance(node, ast.expr) and isinstance(only, ast.FormattedValue):
-            yield swapped(site, node, ast.unparse(only.value))
-    for node in site.of((ast.BinOp, ast.List, ast.Tuple, ast.Subscript, ast.Call)):
+    for node in site.of((ast.BinOp, ast.List, ast.Tuple, ast.Subscript, ast.Call, ast.JoinedStr)):
         parts: list[ast.expr] = []
         if isinstance(node, ast.BinOp):
             parts = [node.left, node.right]
@@ -487,6 +483,8 @@ def part(site: Site) -> Iterator[Made]:
             parts = node.elts
         elif isinstance(node, ast.Subscript):
             parts = [node.value, node.slice]
+        elif isinstance(node, ast.JoinedStr) and isinstance(node.values[-1], ast.FormattedValue):
+            yield swapped(site, node, ast.unparse(node.values[-1].value))
         elif isinstance(node, ast.Call) and len(node.args) == 1:
             statement = isinstance(site.module.parents.get(node), ast.Expr)
             parts = [] if statement else node.args

@@ -177,7 +177,7 @@ class Facts(Ran):
         module, node, count = found[0]
         values: dict[str, Value] = {
             "row": node.lineno,
-            "guard": self._with_values(module, node),
+            "guard": self.with_values(module, node),
             "count": count,
         }
         return (module.path, node.lineno), values
@@ -198,7 +198,7 @@ class Facts(Ran):
             ]
             if len(ran) == 1:
                 each, at = ran[0]
-                code = self._with_values(each, at)
+                code = self.with_values(each, at)
                 return answer[0], {**answer[1], "name": name, "line": at.lineno, "code": code}
         return None
 
@@ -309,7 +309,7 @@ class Facts(Ran):
             "field": self.field,
             "value": self._value(),
             "line": at.lineno,
-            "code": self._with_values(module, at),
+            "code": self.with_values(module, at),
             "wanted": self.wanted,
         }
         around = [n for n in module.around(at) if isinstance(n, ast.If | Function)][:1]
@@ -366,22 +366,6 @@ class Facts(Ran):
                 if isinstance(node, ast.If) and not self.distance(module.path, node.lineno, None):
                     yield module, node
 
-    def _with_values(self, module: Module, at: ast.If | ast.stmt) -> str:
-        """Return a condition, or a line, with the values that its names had: `x > 11.0; x = 3.2 ... 9.4`."""
-        place = (module.path, at.lineno)
-        seen = []
-        for code, (low, high) in self.trace.ranges.get(place, {}).items():
-            seen.append(f"{code} = {low:.4g}" + (f" ... {high:.4g}" if low != high else ""))
-        for code, values in self.trace.kinds.get(place, {}).items():
-            seen.append(f"{code} = {', '.join(values)}")
-        if not isinstance(at, ast.If):
-            return shown("; ".join([module.line(at.lineno), *seen]))
-        names = {dotted(n.func) for n in ast.walk(at.test) if isinstance(n, ast.Call)}
-        for name in dict.fromkeys(read_in(at.test)):
-            if name.partition(".")[2] in self.source.methods and name not in names:
-                seen.append(f"{name} = <bound method>")
-        return shown("; ".join([module.text.code(at.test), *seen]))
-
     def _kept_out(self, module: Module, function: Function, node: ast.AST) -> Answer | None:
         """Return the condition that kept a part of a function from running in all its calls."""
         count = max((self.trace.count(module.path, s.lineno) for s in function.body), default=0)
@@ -394,7 +378,7 @@ class Facts(Ran):
             "count": count,
             "line": row,
             "row": guard.lineno,
-            "guard": self._with_values(module, guard),
+            "guard": self.with_values(module, guard),
             "test": shown(module.text.code(guard.test)),
         }
         return (module.path, guard.lineno), values
@@ -432,7 +416,10 @@ class Facts(Ran):
             found = [f for _, f in self._functions if f.name in names]
             if len(found) != 1 or len(found[0].args.args) < 2:
                 return None
-            return found[0].args.args[-1].arg, found[0], found[0].lineno
+            path = self.source.module_of(found[0]).path
+            ends = [n.lineno for n in ast.walk(found[0]) if isinstance(n, ast.Return)]
+            ran = [row for row in ends if self.trace.count(path, row)]
+            return found[0].args.args[-1].arg, found[0], max(ran, default=found[0].lineno)
         if wrong is None or not wrong.places:
             return None
         function = self.function_at(wrong.places[0])

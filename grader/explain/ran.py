@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 
 from grader.base.i18n.message import Value
+from grader.base.shown import shown
 from grader.course.assignment import CheckUse
 from grader.explain.parts import read_in, rows_of
 from grader.package.source.module import Function, Module
@@ -96,7 +97,8 @@ class Ran:
             read |= set(read_in(part))
         for step in range(1, MOST_STEPS):
             more: set[str] = set()
-            for module, part in (*self._writers(read), *self._named(read)):
+            local = {name.removeprefix("self.") for name in read}  # (a line without its self.)
+            for module, part in (*self._writers(read | local), *self._named(read)):
                 rows = [row for row in rows_of(part) if (module.path, row) not in near]
                 near |= {(module.path, row): min(step, 2) for row in rows}
                 more |= set(read_in(part)) if rows else set()
@@ -154,6 +156,22 @@ class Ran:
                 parts = [p for t in targets for p in (t.elts if isinstance(t, ast.Tuple) else [t])]
                 if isinstance(node, ast.stmt) and any(dotted(p) in names for p in parts):
                     yield module, node
+
+    def with_values(self, module: Module, at: ast.If | ast.stmt) -> str:
+        """Return a condition, or a line, with the values that its names had: `x > 11.0; x = 3.2 ... 9.4`."""
+        place = (module.path, at.lineno)
+        seen = []
+        for code, (low, high) in self.trace.ranges.get(place, {}).items():
+            seen.append(f"{code} = {low:.4g}" + (f" ... {high:.4g}" if low != high else ""))
+        for code, values in self.trace.kinds.get(place, {}).items():
+            seen.append(f"{code} = {', '.join(values)}")
+        if not isinstance(at, ast.If):
+            return shown("; ".join([module.line(at.lineno), *seen]))
+        names = {dotted(n.func) for n in ast.walk(at.test) if isinstance(n, ast.Call)}
+        for name in dict.fromkeys(read_in(at.test)):
+            if name.partition(".")[2] in self.source.methods and name not in names:
+                seen.append(f"{name} = <bound method>")
+        return shown("; ".join([module.text.code(at.test), *seen]))
 
     def distance(self, path: str, first: int, last: int | None) -> int:
         """Return how far a place is from what failed: 0 is the function that did it."""

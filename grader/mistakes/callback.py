@@ -55,8 +55,11 @@ def _waits(*, sleeps: bool = False) -> FromSource:
                 continue
             at = at if at is not None else slept[0]
             name = f"{dotted(at.func)}()" if isinstance(at, ast.Call) else _word(at)
-            found = suspect.finding("waits_inside", at, name=name)
-            return replace(found, words={**found.words, "method": method.name})
+            asks = name.endswith(".call()")
+            written = name.replace(".call()", ".call_async()") if asks else ""
+            found = suspect.finding("waits_inside", at, name=name, written=written)
+            words = {**found.words, "method": method.name}
+            return replace(found, words=words, variant="asks" if asks else "")
         return None
 
     return found
@@ -90,6 +93,12 @@ KINDS = (
             "Remove {name} from {method}. Let a timer do the repeating and the waiting. If the program needs "
             "the answer to a call there, give add_done_callback() a function that gets it."
         ),
+        fixes={
+            "asks": msg(
+                "Write {written} instead of {name}: it sends the request and does not wait. If the program "
+                "needs the answer, give add_done_callback() a function that gets it."
+            )
+        },
         behind={
             "run.stuck": _waits(sleeps=True),
             **dict.fromkeys(

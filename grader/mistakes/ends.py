@@ -192,7 +192,7 @@ KINDS = (
     _node(
         "service_callback",
         "service",
-        msg("The callback of the service does not take request and response, or returns none"),
+        msg("A service's callback takes request and response, and returns the response"),
         msg(
             "A service calls its callback with two arguments after self: request and response. The "
             "answer of the service is the response that the callback returns."

@@ -185,6 +185,13 @@ KINDS = (
         msg("Give the field '{name}' another name, here and in the code that uses it."),
     ),
     _interface(
+        "not_imported",
+        "start",
+        msg("A package of interfaces cannot be imported"),
+        GENERATED,
+        msg("Correct {package}, and build again."),
+    ),
+    _interface(
         "declared_twice",
         "file",
         msg("A name is declared twice in an interface"),

@@ -196,7 +196,7 @@ KINDS = (
     _manifest(
         "depend_missing",
         msg("package.xml does not name a package that your code imports"),
-        msg("Add <depend>{needed}</depend> to package.xml, below the other dependencies."),
+        msg("Add {lines} to package.xml, below the other dependencies."),
         msg(
             "package.xml tells colcon which packages must be built before yours, and tells rosdep "
             "what to install on another machine. Without that line your package runs only where "

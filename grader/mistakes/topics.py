@@ -68,8 +68,8 @@ KINDS = (
         "topic",
         msg("A whole number is in a field for floating-point numbers"),
         msg(
-            "ROS copies the value to a field of the type float without a conversion: a whole number "
-            "arrives as a number near 0."
+            "ROS does not convert a whole number for a field of the type float: it arrives as a number near 0, "
+            "or ROS ends the program, as ROS from Ubuntu's packages does."
         ),
         msg("Write a number with a point, such as 2.0, or float(…)."),
     ),

@@ -28,6 +28,7 @@ FOLLOWS = {
 
 INTERFACE = "interface."
 """What is wrong with an interface is found again by each check that needs it."""
+NOT_IMPORTED = "interface.not_imported"
 IN_ONE_FILE = {"source.empty_node_file"}
 """The causes that have consequences only in the file that they are about."""
 
@@ -104,6 +105,7 @@ def followed(mistake: str, where: Where | None, evidence: Evidence) -> str:
         same = refused and known == "package.setup_cfg_wrong" and result.where == where
         file = result.where.file if result.where is not None else ""
         other = known in IN_ONE_FILE and where is not None and where.file != file
+        same |= mistake == NOT_IMPORTED and known.startswith(INTERFACE)
         same |= mistake == known and mistake.startswith(INTERFACE) and result.where == where
         if visible and not other and (same or mistake in FOLLOWS.get(known, ())):
             return check

@@ -13,7 +13,7 @@ from grader.report.commands import REMARK, is_command, parts_of
 from lab.guide.action import Action
 from lab.guide.changes import code
 from lab.guide.lesson import Step
-from lab.guide.markdown import plain_words
+from lab.guide.plain import plain_words
 
 COUNT = 3
 STUCK = re.compile(r"^\*[^*\n]{1,40}\?\* +(.+?)(?:\n\n|\Z)", re.MULTILINE | re.DOTALL)

@@ -10,6 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from grader.report.wrap import breaks
+from lab.guide.plain import CODE, quoted
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
 
 FIRST_COLUMN = 0.45  # of a line: a table's first column, if no word in it is longer
 WIDEST_NAME = 0.7  # of a line: the longest word for which it gets more
-CODE, BREAK = "code_inline", "softbreak"  # markdown-it's names for `code` and a new line
 
 
 class _Table(TableElement):
@@ -89,17 +89,3 @@ def plain_lines(markup: str, console: Console) -> Iterator[str]:
         if text or before:  # (a table has empty lines of its own)
             yield text
         before = text
-
-
-def plain_words(markup: str) -> str:
-    """Return a paragraph of Markdown as one line of plain text."""
-    words = ""
-    for token in _PlainMarkdown(markup).parsed:
-        for child in token.children or ():
-            words += " " if child.type == BREAK else child.content
-    return " ".join(words.split())
-
-
-def quoted(code: str) -> str:
-    """Return code in quotes; what has quotes of its own stays as it is."""
-    return code if "'" in code else f"'{code}'"

@@ -15,15 +15,14 @@ from rich.text import Text
 
 from grader.base.errors import UsageError
 from grader.base.gated_console import GatedConsole
-from grader.base.i18n.message import Message, say
+from grader.base.i18n.message import say
 from grader.base.i18n.translator import Translator
-from grader.course.after import hand_in
 from grader.report.commands import REMARK, broken, command_behind, is_command
 from grader.report.wrap import breaks, rows
 from lab.guide.changes import MARGIN
 from lab.guide.lesson import Lesson, Step
 from lab.guide.markdown import StyledMarkdown, plain_lines
-from lab.guide.task import Task
+from lab.guide.task import Task, all_done
 
 CODE = re.compile(r"^```\w*\n(.*?)^```$\n?", re.MULTILINE | re.DOTALL)
 FENCE = re.compile(r"^```", re.MULTILINE)
@@ -211,11 +210,6 @@ def show_line(console: GatedConsole, line: str, *, lead: tuple[str, str] = ("", 
             part.rstrip()
         text = Text("\n").join(parts)
     console.print(text, soft_wrap=True)
-
-
-def all_done(task: Task) -> tuple[Message, Message]:
-    """Return what is said when nothing is left to do in a lesson: that, and what follows."""
-    return say("All steps of this lesson are done."), hand_in(task.following, task.archive)
 
 
 def show_next(

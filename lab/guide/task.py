@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from grader.base.i18n.message import say
+from grader.base.i18n.message import Message, say
+from grader.course.after import hand_in
 from lab.guide.action import Action
 from lab.guide.builds import elsewhere, for_other_ros
 from lab.guide.found import NOT_STARTED, first_mistake
@@ -166,3 +167,8 @@ def _step_of(kind: str, file: str, state: StudentState, steps: Sequence[Step]) -
         if name in places:
             return places[name]
     return len(steps)
+
+
+def all_done(task: Task) -> tuple[Message, Message]:
+    """Return what is said when nothing is left to do in a lesson: that, and what follows."""
+    return say("All steps of this lesson are done."), hand_in(task.following, task.archive)

@@ -13,8 +13,7 @@ from lab.commands.watch import environment_of
 from lab.guide.hints import hints_of
 from lab.guide.opened import WORKSPACE, OpenedLab
 from lab.guide.runs import CHECK
-from lab.guide.show import all_done
-from lab.guide.task import Task
+from lab.guide.task import Task, all_done
 from lab.window.markup import markup
 
 Message = dict[str, Any]

@@ -245,3 +245,8 @@ def test_a_condition_that_is_never_true_names_the_line_that_makes_its_value() ->
     assert answer[1]["guard"] == "self.gap <= 0.9; self.gap = 9"
     asked.trace.lines[FILE].update({8: 0})  # type: ignore[attr-defined]
     assert asked.constant_from(true=False) is None  # (only __init__ has set it)
+
+
+def test_a_line_without_self_is_near_to_what_reads_the_attribute() -> None:
+    asked = meter(NEVER.replace("        self.gap = min", "        gap = min"))
+    assert asked.distance(FILE, 8, 8) < asked.distance(FILE, 3, 3)

@@ -20,10 +20,9 @@ from lab.guide.action import Action
 from lab.guide.lesson import lesson_file, read_lesson
 from lab.guide.opened import OpenedLab
 from lab.guide.progress import FailedCheck, LessonProgress, archive_of
-from lab.guide.show import all_done
 from lab.guide.state import StudentState
 from lab.guide.sure import sure_mistake
-from lab.guide.task import Task, find_task
+from lab.guide.task import Task, all_done, find_task
 from tests.lab.beginner import DRAW
 from tests.lab.ten_steps import NODE
 from tests.lab.workspaces import MARKER, PACKAGE, after_step, put

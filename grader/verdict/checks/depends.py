@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import say
@@ -43,7 +44,7 @@ def depends(evidence: Evidence) -> Passed:
     elsewhere = {element.text for element in manifest.depends}
     imported = _imported(evidence)
     for name, place in imported.items():
-        if not named.keys() & {name, *(TURTLESIM if name in TURTLESIM else ())}:
+        if not _names(named, name):
             free = [text for text in named if text not in imported]
             close = "" if name in elsewhere else nearest(name, free, cutoff=0.8) or ""
             tag = "exec_depend" if name in elsewhere else "depend"
@@ -53,6 +54,8 @@ def depends(evidence: Evidence) -> Passed:
                 line=place.line or 1,
                 package=name,
             )
+            all_missing = [one for one in imported if not _names(named, one)]
+            lines = [f"<depend>{one}</depend>" for one in all_missing if one not in elsewhere]
             raise Failed(
                 "package.depend_missing",
                 expected=f"<{tag}>{name}</{tag}>",
@@ -60,8 +63,14 @@ def depends(evidence: Evidence) -> Passed:
                 where=Where(file=FILE, line=named[close].line if close else None),
                 variant="misspelt" if close else "other_tag" if name in elsewhere else "",
                 params={"needed": name, "found": close},
+                words={"lines": " ".join(lines)},
             )
     return Passed(actual=", ".join(imported))
+
+
+def _names(named: Collection[str], package: str) -> bool:
+    """Whether a package is among those that are named; turtlesim's interfaces have two."""
+    return any(one in named for one in (package, *(TURTLESIM if package in TURTLESIM else ())))
 
 
 def _is_elsewhere(evidence: Evidence) -> bool:

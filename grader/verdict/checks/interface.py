@@ -22,6 +22,7 @@ from grader.verdict.checks.parameters import Parameters
 from grader.verdict.outcome import Blocked, Failed, Passed
 
 if TYPE_CHECKING:
+    from grader.course.assignment import Assignment
     from grader.package.source.interface import Declared
     from grader.package.source.manifest import Manifest
     from grader.package.submission import Package
@@ -48,7 +49,8 @@ class Interfaces(Parameters):
 class Fields(Parameters):
     """The fields of a message, a service or an action and their types; there may be others.
 
-    `response.success` is a field of that part; without a part, the field may be in any.
+    `response.success` is a field of that part. Without a part, the field may be in any, or, of a service
+    that the assignment calls, in the part in which a call sets it or a check reads it.
     """
 
     type: str
@@ -183,14 +185,17 @@ def fields(use: Use[Fields]) -> Passed:
     declared = message_text("\n".join("" if n in ends else one for n, one in enumerate(lines, 1)))
     file = f"{name}/{path}"
     parts = part_names(folder)
-    for field, kind_ in use.given.fields.items():
-        part, _, last = field.rpartition(".")
+    asked = _asked_parts(use.evidence.assignment, use.given.type)
+    for name_, kind_ in use.given.fields.items():
+        part, _, last = name_.rpartition(".")
+        part = part or asked.get(last, "")
+        field = f"{part}.{last}" if part else last
         same = [one for one in declared.declared if (one.name, one.constant) == (last, "")]
         in_part = {id(one): parts[bisect(ends, one.line)] for one in same} if part else {}
         own = next((one for one in same if in_part.get(id(one), "") == part), None)
         if own is None:
             there = f"{in_part[id(same[0])]}.{last}" if same else ""
-            raise _field_missing(use, declared.declared, field, there, same, file)
+            raise _field_missing(use, declared.declared, field, kind_, there, same, file)
         if own.type != kind_:
             raise Failed(
                 "interface.field_type",
@@ -203,16 +208,30 @@ def fields(use: Use[Fields]) -> Passed:
     return Passed()
 
 
+def _asked_parts(assignment: Assignment, type_: str) -> dict[str, str]:
+    """Return the part of a service's fields that calls of it set, and that checks of its answers read."""
+    calls = [one.call for plan in assignment.runs for one in plan.do if one.call is not None]
+    calls = [call for call in calls if call.type == type_]
+    services = {call.service for call in calls}
+    found = {name: {"request"} for call in calls for name in call.values}
+    for use in assignment.checks:
+        if use.kind == "service.answers" and use.with_.get("service") in services:
+            for path in use.with_.get("each", {}):
+                found.setdefault(str(path).partition(".")[0], set()).add("response")
+    return {name: min(parts) for name, parts in found.items() if len(parts) == 1}
+
+
 def _field_missing(
     use: Use[Fields],
     declared: Sequence[Declared],
     field: str,
+    kind_: str,
     there: str,
     same: Sequence[Declared],
     file: str,
 ) -> Failed:
     """Return that a field is missing: `there` is what has its name in another part, if anything has."""
-    last, kind_ = field.rpartition(".")[2], use.given.fields[field]
+    last = field.rpartition(".")[2]
     names = [one.name for one in declared]
     close = "" if same else nearest(last, names) or ""
     alike = [one for one in declared if one.name == close]

@@ -62,7 +62,10 @@ def check_manifest(evidence: Evidence) -> Passed:
     _check_setup_name(evidence)
     _check_build_type(evidence, manifest)
     asked = any(use.kind == "package.depends" for use in evidence.assignment.checks)
-    return Passed(actual=f"{manifest.name}, ament_python", advice=_advice(manifest, asked=asked))
+    own = {one.name for one in evidence.submission.packages}
+    own |= {*evidence.assignment.interface_packages}
+    advice = _advice(manifest, own, asked=asked)
+    return Passed(actual=f"{manifest.name}, ament_python", advice=advice)
 
 
 def _failed(
@@ -382,8 +385,11 @@ def _cpp_library(names: Mapping[str, int]) -> Message | None:
     )
 
 
-def _advice(manifest: Manifest, *, asked: bool) -> list[str]:
-    """Return advice that costs no points; `asked`: a check asks for the dependencies."""
+def _advice(manifest: Manifest, own: set[str], *, asked: bool) -> list[str]:
+    """Return advice that costs no points; `asked`: a check asks for the dependencies.
+
+    `own` are the packages that are handed in together.
+    """
     names = {element.text: element.line for element in manifest.depends}
     advice = _of_ros_1(names)
     parts = {part for name in names for part in re.split(r"[\s,;]+", name)}
@@ -398,7 +404,7 @@ def _advice(manifest: Manifest, *, asked: bool) -> list[str]:
             )
         )
     for name, line in sorted(names.items()):
-        close = meant_package(name)
+        close = "" if name in own else meant_package(name)
         if re.search(r"\s", name) and not all(
             re.match("[A-Za-z]", part) for part in re.split(r"[\s,;]+", name)
         ):

@@ -60,7 +60,9 @@ def stays(evidence: Evidence) -> Passed:
         raise Failed(
             "run.stuck",
             expected=expected,
-            actual=say("from {at} s on, the node no longer answers", at=f"{run.seen.stuck:g}"),
+            actual=say(
+                "after {at} s of ROS time, the node no longer answers", at=f"{run.seen.stuck:g}"
+            ),
             where=node_file(evidence),
             words=words(evidence),
             variant="service" if _asks_a_service(evidence) else "",

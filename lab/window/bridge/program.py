@@ -24,6 +24,7 @@ from typing import Any
 import rclpy
 from rcl_interfaces.msg import ParameterEvent
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile
 
 from lab.window.bridge.fields import message_type, numeric_fields
@@ -50,7 +51,14 @@ class Bridge:
 
     def __init__(self) -> None:
         rclpy.init(args=[])
-        quiet = {"enable_rosout": False, "start_parameter_services": False}
+        alone = Parameter(
+            "start_type_description_service", value=False
+        )  # (it would load numpy: 12 MB)
+        quiet = {
+            "enable_rosout": False,
+            "start_parameter_services": False,
+            "parameter_overrides": [alone],
+        }
         self.node = rclpy.create_node(NAMES[0], **quiet)
         self.silent = rclpy.create_node(NAMES[1], **quiet)
         self.own = frozenset(f"/{name}" for name in NAMES)

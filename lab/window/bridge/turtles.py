@@ -6,13 +6,13 @@ import math
 import time
 from typing import Any
 
-from geometry_msgs.msg import Twist
 from rclpy.node import Node
 
 from lab.window.bridge.fields import message_type
 from lab.window.bridge.parameters import Parameters
 from lab.window.bridge.streams import Stream, newest_only
 
+VELOCITY = "geometry_msgs/msg/Twist"  # (loaded for the first command: with it comes numpy, 12 MB)
 TYPES = ("turtlesim/msg/Pose", "turtlesim_msgs/msg/Pose")
 BACKGROUND = ("background_r", "background_g", "background_b")
 MOST_TURTLES = 50
@@ -49,7 +49,7 @@ class Turtles:
         self._parameters = parameters
         self._turtles: dict[str, Turtle] = {}
         self._publishers: dict[str, Any] = {}
-        self._waiting: dict[str, tuple[float, Twist]] = {}
+        self._waiting: dict[str, tuple[float, Any]] = {}
         self._simulator = ""
         self._background: list[int] | None = None
         self._changed = True
@@ -114,9 +114,12 @@ class Turtles:
         """Command a turtle's velocity (m/s and rad/s)."""
         if name not in self._turtles or not (math.isfinite(linear) and math.isfinite(angular)):
             return
+        kind = message_type(VELOCITY)
+        if kind is None:
+            return
         if name not in self._publishers:
-            self._publishers[name] = self._silent.create_publisher(Twist, f"{name}/cmd_vel", 1)
-        twist = Twist()
+            self._publishers[name] = self._silent.create_publisher(kind, f"{name}/cmd_vel", 1)
+        twist = kind()
         twist.linear.x, twist.angular.z = float(linear), float(angular)
         self._waiting[name] = (time.monotonic() + MATCH_SECONDS, twist)
         self.publish()
