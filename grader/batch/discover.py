@@ -11,7 +11,7 @@ from pathlib import Path
 from grader.base.errors import UsageError
 from grader.base.i18n.message import say
 from grader.base.shown import shown
-from grader.batch.join import Pinned, join, with_own_keys
+from grader.batch.join import Pinned, join, with_lists, with_own_keys
 from grader.batch.join_file import LEFT_OUT, GivenJoin
 from grader.batch.loose_files import loose_file, with_loose_files
 from grader.batch.model import ClassFolder, HandedIn
@@ -58,11 +58,13 @@ def discover(
     unpack: Path,
     zone: tzinfo | None = None,
     given: GivenJoin | None = None,
+    lists: Sequence[Roster] = (),
 ) -> ClassFolder:
     """Return all submissions of a class; `path` is a folder, or an archive of one.
 
     `unpack` is the grader's folder for unpacked and gathered files, `zone` that of the times in the
-    roster that have none. `given` names the students of some files. Raises UsageError if the path
+    roster that have none. `given` names the students of some files, `lists` are the system's own, which
+    lead from its numbers to the addresses of a roster. Raises UsageError if the path
     is not a class, the system is unknown, or the roster or `given` cannot be used.
     """
     check_system(system)
@@ -77,6 +79,7 @@ def discover(
     layout, system_found, handed_in, files = _read(request, unpacked, notes)
     handed_in = _with_remarks(handed_in, unpacked, notes)
     handed_in = _with_modes(system_found, handed_in, unpacked, notes)
+    handed_in = with_lists(system_found, handed_in, lists)
     pinned: list[Pinned] = []
     left_out: list[str] = []
     if given is not None and not (students is None and given.is_remembered):

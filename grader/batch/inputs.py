@@ -75,6 +75,7 @@ def read_inputs(
         unpack=out / UNPACKED,
         zone=assignment.policy.zone,
         given=GivenJoin(join.path, is_remembered=join.is_remembered) if join else None,
+        lists=opened.rosters if roster else (),
     )
     found = in_zone(found, assignment.policy)
     found = with_times(found, opened.rosters, assignment.policy)

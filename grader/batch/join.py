@@ -50,6 +50,27 @@ class Pinned:
     rows: tuple[int, ...]
 
 
+def with_lists(
+    system: System, handed_in: Sequence[HandedIn], lists: Sequence[Roster]
+) -> list[HandedIn]:
+    """Return the submissions with what the system's own lists tell of their students: the address, an id.
+
+    Such a list has the system's numbers, and another roster does not.
+    """
+    students = {one.student.key: one.student for one in handed_in}
+    for known in lists:
+        match, own = Match(), [*students.values()]
+        match_more(match, sure_rules(system, own, known), own, known)
+        for key, row in match.rows.items():
+            student, line = students[key], known.students[row]
+            students[key] = replace(
+                student,
+                email=student.email or line.email,
+                id_number=student.id_number or line.id_number,
+            )
+    return [replace(one, student=students[one.student.key]) for one in handed_in]
+
+
 def join(
     system: System,
     handed_in: Iterable[HandedIn],

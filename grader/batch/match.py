@@ -95,7 +95,10 @@ def sure_rules(system: System, students: Sequence[Student], roster: Roster) -> I
     if system.usernames:
         yield MatchRule(_username, _username)
         yield MatchRule(_tails, _username)
-    if not system.numbered:
+    if system.numbered:  # (the system's own list may have told more than the number)
+        for identifiers in (_id_number, _email):
+            yield MatchRule(identifiers, identifiers)
+    else:
         for identifiers in (_id_number, _username, _email):
             yield MatchRule(_all_identifiers, identifiers)
         yield MatchRule(_all_identifiers, _key)

@@ -163,13 +163,7 @@ def _messages(site: Site, function: Function) -> list[tuple[str, ast.Assign]]:
 )
 def sent(site: Site) -> Iterator[Made]:
     """Yield a call that publishes or asks below the last line of a new message."""
-    senders = []
-    for name, places in site.attributes.items():
-        made = getattr(site.module.parents.get(places[0]), "value", None)
-        if isinstance(made, ast.Call) and called_name(made) == "create_publisher":
-            senders.append(f"self.{name}.publish")
-        elif isinstance(made, ast.Call) and called_name(made) == "create_client":
-            senders.append(f"self.{name}.call_async")
+    senders = _senders(site)
     for function in site.functions:
         names = [name for name, _ in _messages(site, function)]
         for name in (*names, *_filled_attributes(function)):
@@ -181,6 +175,18 @@ def sent(site: Site) -> Iterator[Made]:
             for sender in senders:
                 if uses and f"{sender}({name})" not in site.code(uses[-1]):
                     yield inserted(site, uses[-1], f"{sender}({name})")
+
+
+def _senders(site: Site) -> list[str]:
+    """Return what sends a message or a request: the methods of publishers and clients."""
+    senders = []
+    for name, places in site.attributes.items():
+        made = getattr(site.module.parents.get(places[0]), "value", None)
+        if isinstance(made, ast.Call) and called_name(made) == "create_publisher":
+            senders.append(f"self.{name}.publish")
+        elif isinstance(made, ast.Call) and called_name(made) == "create_client":
+            senders.append(f"self.{name}.call_async")
+    return senders
 
 
 def _filled_attributes(function: Function) -> list[str]:

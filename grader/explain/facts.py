@@ -416,10 +416,7 @@ class Facts(Ran):
             found = [f for _, f in self._functions if f.name in names]
             if len(found) != 1 or len(found[0].args.args) < 2:
                 return None
-            path = self.source.module_of(found[0]).path
-            ends = [n.lineno for n in ast.walk(found[0]) if isinstance(n, ast.Return)]
-            ran = [row for row in ends if self.trace.count(path, row)]
-            return found[0].args.args[-1].arg, found[0], max(ran, default=found[0].lineno)
+            return found[0].args.args[-1].arg, found[0], self._end_of(found[0])
         if wrong is None or not wrong.places:
             return None
         function = self.function_at(wrong.places[0])
@@ -429,6 +426,12 @@ class Facts(Ran):
                 if name and function is not None:
                     return name, function, call.lineno
         return None
+
+    def _end_of(self, function: Function) -> int:
+        """Return the line from which a function returned; that of its def if none did."""
+        path = self.source.module_of(function).path
+        rows = [n.lineno for n in ast.walk(function) if isinstance(n, ast.Return)]
+        return max((row for row in rows if self.trace.count(path, row)), default=function.lineno)
 
     def _setters(self, name: str, function: Function, row: int) -> list[ast.stmt]:
         del row

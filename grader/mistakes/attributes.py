@@ -16,12 +16,12 @@ from grader.mistakes.kind import INSTEAD, Family
 from grader.mistakes.recognised import OWN_ATTRIBUTE, Raised, RecognisedMistake, of_self
 from grader.package.edit.tree import Replace
 from grader.package.source.counter import targets_of
-from grader.package.source.module import Function, Module
+from grader.package.source.module import Module
 from grader.package.source.names import dotted, own_name
 from grader.package.source.node import LOG_METHODS, NODE_METHODS
 from grader.package.source.node_here import node_here
 from grader.package.source.place import function_at, statement_at
-from grader.package.source.scopes import class_of, scope_of
+from grader.package.source.scopes import class_of, local_of_init, scope_of
 
 ATTRIBUTE = (
     r"AttributeError: (?:module |type object )?'(?P<type>[\w.]{1,200})'(?: object)? has no "
@@ -162,7 +162,8 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
         return raised.finding("callback_outside", at=at, name=name)
     if name in NODE_METHODS or _close(raised, match):
         return None
-    local = _local_of_init(raised, name)
+    owner = class_of(raised.module, function_at(raised.module, raised.line))
+    local = local_of_init(owner[0] if owner is not None else None, name)
     if local is not None:
         params = {"name": name, "written": f"self.{name}"}
         return replace(
@@ -176,18 +177,6 @@ def _not_set(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
     found = raised.finding("attribute_not_set", name=name, close=close)
     counts = close or node_names.counts(raised.source, name)
     return found if counts else replace(found, variant="value")
-
-
-def _local_of_init(raised: Raised, name: str) -> ast.expr | None:
-    """Return where __init__ sets a variable of its own with the name of an attribute that is missing."""
-    owner = class_of(raised.module, function_at(raised.module, raised.line))
-    body = owner[0].body if owner is not None else []
-    inits = [s for s in body if isinstance(s, Function) and s.name == "__init__"]
-    for init in inits:
-        names = [n for n in ast.walk(init) if isinstance(n, ast.Name) and n.id == name]
-        if len(names) == 1 and isinstance(names[0].ctx, ast.Store):
-            return names[0]
-    return None
 
 
 def _set_in(raised: Raised, name: str) -> list[int]:

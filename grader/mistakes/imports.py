@@ -13,6 +13,7 @@ from grader.mistakes import links
 from grader.mistakes.alike import meant_by
 from grader.mistakes.example import INNER, NODE, example
 from grader.mistakes.fixes import lines, node_imports, node_life, rename
+from grader.mistakes.interfaces import of_types
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import Raised, RecognisedMistake, Suspect
 from grader.package.edit.tree import Replace, Write
@@ -200,8 +201,8 @@ def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
         new = f"from {HOMES.get(last, module)} import {last}"
         found = raised.finding("import_misspelt", name=f"import {name}", written=new)
         return replace(found, variant="class")
-    if (of_types := _of_types(raised, name)) is not None:
-        return of_types
+    if (wrong_part := of_types(raised, name)) is not None:
+        return wrong_part
     close = _module_of_names(raised, name)
     close = close or nearest(name, (*MODULES, *sys.stdlib_module_names), cutoff=0.75)
     if head in OTHER_CLIENTS:
@@ -209,22 +210,6 @@ def _no_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     if head in OTHER_PACKAGES or head == "rospy":  # (beside rclpy)
         return replace(raised.finding("import_misspelt", name=name), variant="not_installed")
     return raised.finding("import_misspelt", name=name, close=close)
-
-
-def _of_types(raised: Raised, name: str) -> RecognisedMistake | None:
-    """Tell an interface that is in another module of its package, or a package that was not generated."""
-    statement = statement_at(raised.module, raised.line)
-    names = {one.name for one in getattr(statement, "names", ())}
-    package = name.partition(".")[0]
-    for kind in raised.assignment.types():
-        home, part, interface = (*kind.split("/"), "", "")[:3]
-        if home == package and interface in names and f"{home}.{part}" != name != home:
-            params = {"name": name, "written": f"{home}.{part}"}
-            return replace(raised.finding("import_misspelt", params=params), variant="class")
-    if package not in raised.assignment.interface_packages:
-        return None
-    found = raised.finding("import_misspelt", package=package)
-    return replace(found, kind="interface.not_imported")
 
 
 def _no_name_in_module(raised: Raised, match: re.Match[str]) -> RecognisedMistake:

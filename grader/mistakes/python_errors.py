@@ -14,7 +14,6 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import DEAD, NODE, example
-from grader.mistakes.fixes import lines
 from grader.mistakes.kind import Family
 from grader.mistakes.recognised import FromError, Raised, RecognisedMistake, always, on_line
 from grader.package.edit.tree import Replace
@@ -38,12 +37,6 @@ def _told(slug: str, variant: str = "") -> FromError:
         return replace(raised.finding(slug, params=match.groupdict("")), variant=variant)
 
     return on_line(found)
-
-
-def _not_for_with(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
-    found = raised.finding("not_for_with", params=match.groupdict(""))
-    is_init = "rclpy.init(" in raised.module.line(raised.line)
-    return replace(found, variant="init") if is_init else found
 
 
 def _none(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
@@ -470,76 +463,6 @@ KINDS = (
                     NODE, "except KeyboardInterrupt:", "except (KeyboardInterrupt | ValueError):"
                 ),
                 fails="run.interrupt",
-            ),
-        ),
-    ),
-    _node(
-        "not_for_with",
-        "spin",
-        msg("with gets an object that cannot be used with it"),
-        msg(
-            "with needs an object that has the methods __enter__ and __exit__. The type {first} does not have them."
-        ),
-        msg(
-            "Assign the object to a name in a line of its own, without with. Then indent the lines of "
-            "the block as far as that line."
-        ),
-        whys={
-            "init": msg(
-                "From ROS 2 kilted on, rclpy.init() returns an object that works behind with. Here it returns "
-                "None, which does not."
-            )
-        },
-        fixes={
-            "init": msg(
-                "Write the call of rclpy.init() in a line of its own, without with. Then indent the lines of "
-                "the block as far as that line."
-            )
-        },
-        fixed_by=(lines.unwrapped,),
-        seen=r"'(?P<first>\w{1,60})' object does not support the context manager protocol",
-        raised={
-            rf"'{TYPE}' object does not support the context manager protocol": (
-                on_line(_not_for_with)
-            )
-        },
-        examples=(
-            example(
-                "node_in_with",
-                Replace(
-                    NODE,
-                    "    node = MyFirstNode()\n    try:\n        rclpy.spin(node)",
-                    "    try:\n        with MyFirstNode() as node:\n            rclpy.spin(node)",
-                ),
-                fails="run.starts",
-                right_from="kilted",
-                note="a Node can be used with `with` from kilted on",
-            ),
-            example(
-                "init_in_with_as_in_newer_documentation",
-                Replace(
-                    NODE,
-                    """    rclpy.init(args=args)
-    node = MyFirstNode()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-""",
-                    """    try:
-        with rclpy.init(args=args):
-            node = MyFirstNode()
-            rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-""",
-                ),
-                fails="run.starts",
-                right_from="kilted",
-                note="rclpy.init() can be used with `with` from kilted on",
             ),
         ),
     ),

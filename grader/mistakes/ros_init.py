@@ -9,9 +9,9 @@ from dataclasses import replace
 from grader.base.i18n.message import msg
 from grader.mistakes import links
 from grader.mistakes.example import NODE, example
-from grader.mistakes.fixes import node_life
+from grader.mistakes.fixes import lines, node_life
 from grader.mistakes.kind import Family
-from grader.mistakes.recognised import Raised, RecognisedMistake
+from grader.mistakes.recognised import Raised, RecognisedMistake, on_line
 from grader.package.edit.tree import Replace, Write
 from grader.package.source.names import dotted, last_part
 
@@ -20,6 +20,7 @@ NOT_INITIALIZED = (
     r"|'NoneType' object does not support the context manager protocol|AttributeError: __enter__"
 )
 """What rclpy raises before rclpy.init(), also for an executor."""
+NO_CONTEXT = r"'(?P<first>\w{1,60})' object does not support the context manager protocol"
 
 
 def _missing(raised: Raised, match: re.Match[str]) -> RecognisedMistake | None:
@@ -47,6 +48,12 @@ def _twice(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
     inits = [call for call, name in raised.source.calls if name == "rclpy.init"]
     found = raised.finding("init_twice", at=inits[-1] if inits else None)
     return found if len(inits) > 1 else replace(raised.finding("init_twice"), variant="imported")
+
+
+def _not_for_with(raised: Raised, match: re.Match[str]) -> RecognisedMistake:
+    found = raised.finding("not_for_with", params=match.groupdict(""))
+    is_init = "rclpy.init(" in raised.module.line(raised.line)
+    return replace(found, variant="init") if is_init else found
 
 
 _node = Family("node", links.RCLPY)
@@ -114,6 +121,72 @@ KINDS = (
                     "    rclpy.init(args=args)\n    rclpy.init(args=args)\n",
                 ),
                 fails="run.starts",
+            ),
+        ),
+    ),
+    _node(
+        "not_for_with",
+        "spin",
+        msg("with gets an object that cannot be used with it"),
+        msg(
+            "with needs an object that has the methods __enter__ and __exit__. The type {first} does not have them."
+        ),
+        msg(
+            "Assign the object to a name in a line of its own, without with. Then indent the lines of "
+            "the block as far as that line."
+        ),
+        whys={
+            "init": msg(
+                "From ROS 2 kilted on, rclpy.init() returns an object that works behind with. Here it returns "
+                "None, which does not."
+            )
+        },
+        fixes={
+            "init": msg(
+                "Write the call of rclpy.init() in a line of its own, without with. Then indent the lines of "
+                "the block as far as that line."
+            )
+        },
+        fixed_by=(lines.unwrapped,),
+        seen=NO_CONTEXT,
+        raised={NO_CONTEXT: on_line(_not_for_with)},
+        examples=(
+            example(
+                "node_in_with",
+                Replace(
+                    NODE,
+                    "    node = MyFirstNode()\n    try:\n        rclpy.spin(node)",
+                    "    try:\n        with MyFirstNode() as node:\n            rclpy.spin(node)",
+                ),
+                fails="run.starts",
+                right_from="kilted",
+                note="a Node can be used with `with` from kilted on",
+            ),
+            example(
+                "init_in_with_as_in_newer_documentation",
+                Replace(
+                    NODE,
+                    """    rclpy.init(args=args)
+    node = MyFirstNode()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+""",
+                    """    try:
+        with rclpy.init(args=args):
+            node = MyFirstNode()
+            rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+""",
+                ),
+                fails="run.starts",
+                right_from="kilted",
+                note="rclpy.init() can be used with `with` from kilted on",
             ),
         ),
     ),

@@ -139,8 +139,8 @@ def _named(evidence: Evidence, files: Sequence[SourceFile]) -> Iterator[SourceFi
         others = [one.data for one in files if one is not file and one.path.endswith(".py")]
         named = sum(data.count(path.stem.encode()) for data in others)
         entries = [found[1].decode() for data in others for found in entry.finditer(data)]
-        other = bool(entries) and own.isdisjoint(entries) and len(entries) == named
-        if path.suffix != ".py" or path.name in known or not other:
+        other = path.suffix == ".py" and path.name not in known and own.isdisjoint(entries)
+        if not (other and 0 < len(entries) == named):
             yield file
 
 

@@ -105,8 +105,13 @@ def followed(mistake: str, where: Where | None, evidence: Evidence) -> str:
         same = refused and known == "package.setup_cfg_wrong" and result.where == where
         file = result.where.file if result.where is not None else ""
         other = known in IN_ONE_FILE and where is not None and where.file != file
-        same |= mistake == NOT_IMPORTED and known.startswith(INTERFACE)
-        same |= mistake == known and mistake.startswith(INTERFACE) and result.where == where
+        same |= _of_one_interface(mistake, known, same_place=result.where == where)
         if visible and not other and (same or mistake in FOLLOWS.get(known, ())):
             return check
     return ""
+
+
+def _of_one_interface(mistake: str, known: str, *, same_place: bool) -> bool:
+    """Whether an earlier mistake of a package of interfaces is the cause of this one."""
+    again = mistake == known and same_place
+    return known.startswith(INTERFACE) and (again or mistake == NOT_IMPORTED)

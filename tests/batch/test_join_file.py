@@ -17,8 +17,9 @@ from grader.base.errors import UsageError
 from grader.batch.discover import discover
 from grader.batch.join_file import GivenJoin, file_names, join_csv, join_rows
 from grader.batch.model import ClassFolder
+from grader.batch.roster import Roster, read_roster
 from tests.batch.archives import write
-from tests.batch.downloads import moodle_zip, people, scored, worksheet
+from tests.batch.downloads import moodle_zip, of_people, people, scored, worksheet
 from tests.batch.stub_run import Run, grade_all
 from tests.processes import ROOT
 
@@ -186,6 +187,28 @@ def test_a_moodle_download_with_groups_is_joined_again_as_it_was(tmp_path: Path)
         (one.student, one.path) for one in before.handed_in
     ]
     assert again.missing == before.missing == ()
+
+
+def test_moodles_worksheet_leads_from_its_numbers_to_the_addresses_of_a_roster(
+    tmp_path: Path,
+) -> None:
+    class_ = [replace(one, name="Kim Minjun") for one in people(2)]
+    rows = [f"Kim Minjun,{one.email},{section}" for one, section in zip(class_, "BA", strict=True)]
+    (tmp_path / "roster.csv").write_text("\n".join(["name,email,section", *rows, ""]))
+    (tmp_path / "worksheet.csv").write_bytes(worksheet(class_))
+    path = moodle_zip(tmp_path / "class.zip", of_people(class_))
+    known = read_roster(tmp_path / "worksheet.csv")
+
+    def joined(*lists: Roster) -> ClassFolder:
+        roster = tmp_path / "roster.csv"
+        return discover(path, roster=roster, unpack=tmp_path / "work", lists=lists)
+
+    assert not any(one.student.section for one in joined().handed_in)
+    both = joined(known)
+    assert (both.missing, [one.unclear for one in both.handed_in]) == ((), ["", ""])
+    for person, section in zip(class_, "BA", strict=True):
+        (one,) = [one for one in both.handed_in if f"_{person.number}_" in str(one.path)]
+        assert (one.student.email, one.student.section) == (person.email, section)
 
 
 def test_files_of_one_name_have_their_folders_name_too() -> None:

@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tests.mistakes.test_from_source import line_of, raised
+import pytest
+
+from grader.mistakes.recognised import RecognisedMistake
+from grader.report.model import Where
+from tests.mistakes.test_from_source import FILE, line_of, raised
 from tests.mistakes.test_named_exactly import changed, patched
 
 TEXT = "'Hello time: ' + str(self.counter_)"
@@ -75,6 +79,24 @@ def test_a_variable_of_init_that_others_read_gets_self(tmp_path: Path) -> None:
     error = "AttributeError: 'MyFirstNode' object has no attribute 'counter_'"
     found = raised(error, text, line_of(text, "str(self.counter_)"))
     assert found is not None
+    assert found.where is not None
     assert (found.kind, found.variant) == ("node.attribute_not_set", "local")
     assert found.where.line == line_of(text, "        counter_ = 0")
     assert patched(found, text, tmp_path) == changed()
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right"),
+    [
+        ("'Hello Time: {}'.format(self.counter_)", "'Hello time: {}'.format(self.counter_)"),
+        ("'Hello time:%d' % self.counter_", "'Hello time: %d' % self.counter_"),
+        ("'hello time: ' + str(self.counter_)", "'Hello time: ' + str(self.counter_)"),
+    ],
+)
+def test_a_text_is_corrected_up_to_the_place_of_the_number(
+    wrong: str, right: str, tmp_path: Path
+) -> None:
+    text = changed((TEXT, wrong))
+    where = Where.model_validate({"file": FILE, "line": line_of(text, "get_logger")})
+    found = RecognisedMistake(kind="run.wrong_text", where=where)
+    assert patched(found, text, tmp_path) == changed((TEXT, right))

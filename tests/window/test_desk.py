@@ -266,6 +266,7 @@ def test_two_lessons_are_played_to_full_marks_in_the_page_alone(
             player.play()
             show(page, "check")
             expect(page.locator("#verdict .score")).to_contain_text("100")
+            show(page, "guide")
             player.follow("lab submit")
             expect(page.locator("#todo")).to_contain_text(f"submit/{lesson}.zip", timeout=SLOW)
             assert (workspace / "submit" / f"{lesson}.zip").is_file()

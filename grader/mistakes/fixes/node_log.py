@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from difflib import SequenceMatcher
 
 from grader.mistakes.fixes.case import Case
@@ -19,12 +20,20 @@ def text(case: Case) -> Files | None:
     if node is None or "'" in wanted or '"' in wanted or not wanted.strip():
         return None
     strings = [n for n in node.own_nodes if isinstance(n, ast.Constant)]
-    found = [n for n in strings if _near(node.module_of(n).text.plain_string(n) or "", wanted)]
+    heads = [(n, _head(node.module_of(n).text.plain_string(n) or "")) for n in strings]
+    found = [(n, head) for n, head in heads if _near(head, wanted)]
     if len(found) != 1:
         return None
-    code = node.module_of(found[0]).text
-    quote = code.code(found[0])[0]
-    return case.changed(node.module_of(found[0]), code.swap(found[0], f"{quote}{wanted}{quote}"))
+    (string, head), code = found[0], node.module_of(found[0][0]).text
+    old = code.code(string)
+    if old.count(head) != 1:
+        return None  # (it is written with an escape)
+    return case.changed(node.module_of(string), code.swap(string, old.replace(head, wanted)))
+
+
+def _head(found: str) -> str:
+    """Return a text up to its first place for a value."""
+    return re.split(r"[{%]", found)[0]
 
 
 def _near(found: str, wanted: str) -> bool:

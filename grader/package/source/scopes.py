@@ -137,3 +137,13 @@ def class_of(module: Module, scope: Scope | None) -> tuple[ast.ClassDef, Functio
 def has_self(method: Function) -> bool:
     """Whether the first parameter of a method is self."""
     return [argument.arg for argument in method.args.args[:1]] == ["self"]
+
+
+def local_of_init(owner: ast.ClassDef | None, name: str) -> ast.Name | None:
+    """Return where __init__ of a class sets a variable of its own of that name, and uses it nowhere."""
+    body = owner.body if owner is not None else []
+    for init in (s for s in body if isinstance(s, Function) and s.name == "__init__"):
+        names = [n for n in ast.walk(init) if isinstance(n, ast.Name) and n.id == name]
+        if len(names) == 1 and isinstance(names[0].ctx, ast.Store):
+            return names[0]
+    return None

@@ -54,8 +54,6 @@ def depends(evidence: Evidence) -> Passed:
                 line=place.line or 1,
                 package=name,
             )
-            all_missing = [one for one in imported if not _names(named, one)]
-            lines = [f"<depend>{one}</depend>" for one in all_missing if one not in elsewhere]
             raise Failed(
                 "package.depend_missing",
                 expected=f"<{tag}>{name}</{tag}>",
@@ -63,9 +61,15 @@ def depends(evidence: Evidence) -> Passed:
                 where=Where(file=FILE, line=named[close].line if close else None),
                 variant="misspelt" if close else "other_tag" if name in elsewhere else "",
                 params={"needed": name, "found": close},
-                words={"lines": " ".join(lines)},
+                words={"lines": _lines(imported, named, elsewhere)},
             )
     return Passed(actual=", ".join(imported))
+
+
+def _lines(imported: Collection[str], named: Collection[str], elsewhere: Collection[str]) -> str:
+    """Return the lines that are missing in package.xml."""
+    missing = [one for one in imported if not _names(named, one) and one not in elsewhere]
+    return " ".join(f"<depend>{one}</depend>" for one in missing)
 
 
 def _names(named: Collection[str], package: str) -> bool:

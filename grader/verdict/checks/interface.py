@@ -185,11 +185,8 @@ def fields(use: Use[Fields]) -> Passed:
     declared = message_text("\n".join("" if n in ends else one for n, one in enumerate(lines, 1)))
     file = f"{name}/{path}"
     parts = part_names(folder)
-    asked = _asked_parts(use.evidence.assignment, use.given.type)
-    for name_, kind_ in use.given.fields.items():
-        part, _, last = name_.rpartition(".")
-        part = part or asked.get(last, "")
-        field = f"{part}.{last}" if part else last
+    for field, kind_ in _asked(use).items():
+        part, _, last = field.rpartition(".")
         same = [one for one in declared.declared if (one.name, one.constant) == (last, "")]
         in_part = {id(one): parts[bisect(ends, one.line)] for one in same} if part else {}
         own = next((one for one in same if in_part.get(id(one), "") == part), None)
@@ -206,6 +203,13 @@ def fields(use: Use[Fields]) -> Passed:
                 words={"type": kind_},
             )
     return Passed()
+
+
+def _asked(use: Use[Fields]) -> dict[str, str]:
+    """Return the fields that are asked for, with their parts as far as they are known, and their types."""
+    parts = _asked_parts(use.evidence.assignment, use.given.type)
+    given = use.given.fields.items()
+    return {f"{parts[name]}.{name}" if name in parts else name: kind_ for name, kind_ in given}
 
 
 def _asked_parts(assignment: Assignment, type_: str) -> dict[str, str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import shlex
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from grader.base.i18n.message import Message, Value, joined, say
@@ -390,7 +390,7 @@ def _advice(manifest: Manifest, own: set[str], *, asked: bool) -> list[str]:
 
     `own` are the packages that are handed in together.
     """
-    names = {element.text: element.line for element in manifest.depends}
+    names = _without(manifest.depends, own)
     advice = _of_ros_1(names)
     parts = {part for name in names for part in re.split(r"[\s,;]+", name)}
     is_named = "rclpy" in parts or any(meant_package(name) == "rclpy" for name in names)
@@ -404,7 +404,7 @@ def _advice(manifest: Manifest, own: set[str], *, asked: bool) -> list[str]:
             )
         )
     for name, line in sorted(names.items()):
-        close = "" if name in own else meant_package(name)
+        close = meant_package(name)
         if re.search(r"\s", name) and not all(
             re.match("[A-Za-z]", part) for part in re.split(r"[\s,;]+", name)
         ):
@@ -442,3 +442,8 @@ def _advice(manifest: Manifest, own: set[str], *, asked: bool) -> list[str]:
                 )
             )
     return advice[:5]
+
+
+def _without(depends: Iterable[Element], own: set[str]) -> dict[str, int]:
+    """Return the dependencies that are not handed in together, with their lines."""
+    return {element.text: element.line for element in depends if element.text not in own}
