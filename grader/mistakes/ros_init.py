@@ -162,32 +162,6 @@ KINDS = (
                 right_from="kilted",
                 note="a Node can be used with `with` from kilted on",
             ),
-            example(
-                "init_in_with_as_in_newer_documentation",
-                Replace(
-                    NODE,
-                    """    rclpy.init(args=args)
-    node = MyFirstNode()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
-""",
-                    """    try:
-        with rclpy.init(args=args):
-            node = MyFirstNode()
-            rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-""",
-                ),
-                fails="run.starts",
-                right_from="kilted",
-                note="rclpy.init() can be used with `with` from kilted on",
-            ),
         ),
     ),
     _node(
