@@ -28,7 +28,14 @@ CLEAR = ("topic.wrong_period", "topic.int_in_float", "log.wrong_level")
 """What was seen that has one cause, which its text names."""
 OF_OTHERS = ("foreign_sender", "foreign_server", "foreign_client", "only_when_marked")
 """What no change of a line corrects: another node does it, or the node does it only for the grader."""
-OF_VALUES = ("none_used", "types_do_not_fit", "no_such_item", "not_callable", "other_message")
+OF_VALUES = (
+    "none_used",
+    "types_do_not_fit",
+    "no_such_item",
+    "not_callable",
+    "other_message",
+    "field_type",
+)
 """Errors of a value that another line made: what they mean is told, and the cause may be elsewhere."""
 OTHER = say("Another change may fit what you want to do better.")
 
