@@ -399,9 +399,12 @@ def inverse(site: Site) -> Iterator[Made]:
         given = call.args[0]
         if isinstance(given, ast.Name | ast.Attribute):
             yield swapped(site, given, f"1.0 / {site.code(given)}")
-        elif isinstance(given, ast.BinOp) and isinstance(given.op, ast.Div):
-            one = getattr(given.left, "value", None) == 1
-            yield from (swapped(site, given, site.code(given.right)),) if one else ()
+        elif (
+            isinstance(given, ast.BinOp)
+            and isinstance(given.op, ast.Div)
+            and getattr(given.left, "value", None) == 1
+        ):
+            yield swapped(site, given, site.code(given.right))
 
 
 OPERATORS: tuple[Operator, ...] = (

@@ -187,8 +187,7 @@ class Facts(Ran):
         answer = self.constant(true=true)
         if answer is None:
             return None
-        module = self.source.module_at(answer[0][0])
-        guard = next(n for _, n in self._conditions() if (module.path, n.lineno) == answer[0])
+        guard = next(n for m, n in self._conditions() if (m.path, n.lineno) == answer[0])
         for name in dict.fromkeys(n for n in read_in(guard.test) if n.startswith("self.")):
             ran = [
                 (each, s)

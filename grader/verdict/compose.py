@@ -133,15 +133,22 @@ def _named(evidence: Evidence, files: Sequence[SourceFile]) -> Iterator[SourceFi
     own = {asked.executable, *(node.executable for node in asked.nodes.values())}
     paths = {asked.node_file, *(node.file for node in asked.nodes.values())}
     known = {PurePath(path).name for path in paths}
+    python = [one for one in files if one.path.endswith(".py")]
     for file in files:
-        path = PurePath(file.path)
-        entry = re.compile(rf"(\w+)\s*=\s*[\w.]*\b{re.escape(path.stem)}:\w+".encode())
-        others = [one.data for one in files if one is not file and one.path.endswith(".py")]
-        named = sum(data.count(path.stem.encode()) for data in others)
-        entries = [found[1].decode() for data in others for found in entry.finditer(data)]
-        other = path.suffix == ".py" and path.name not in known and own.isdisjoint(entries)
-        if not (other and 0 < len(entries) == named):
+        is_other = file in python and PurePath(file.path).name not in known
+        if not is_other or not _is_of_entries(file, python, own):
             yield file
+
+
+def _is_of_entries(file: SourceFile, python: Sequence[SourceFile], own: set[str]) -> bool:
+    """Whether a module is named only in entry points of setup.py, and in none of the executables `own`."""
+    stem = PurePath(file.path).stem.encode()
+    entry = re.compile(rb"(\w+)\s*=\s*[\w.]*\b" + re.escape(stem) + rb":\w+")
+    setups = [one.data for one in python if PurePath(one.path).name == "setup.py"]
+    entries = [found[1].decode() for data in setups for found in entry.finditer(data)]
+    if not entries or not own.isdisjoint(entries):
+        return False
+    return sum(one.data.count(stem) for one in python if one is not file) == len(entries)
 
 
 def _is_told_plainly(evidence: Evidence, run: Run) -> bool:

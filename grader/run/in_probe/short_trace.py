@@ -297,8 +297,8 @@ class Traced:
                 places.append((file, trace.tb_lineno))
             trace = trace.tb_next
         text = f"{type(error).__name__}: {error}"[:LONGEST]
-        self._raised = {"text": text, "places": places[-MOST_PLACES:][::-1]}
-        self._raised["fields"] = _fields_beside(error)
+        places = places[-MOST_PLACES:][::-1]
+        self._raised = {"text": text, "places": places, "fields": _fields_beside(error)}
 
     def _counted(self, callback: Any, number: int) -> Any:
         """Return the callback as one whose calls are counted; itself if it is of an unusual form."""
